@@ -1,0 +1,71 @@
+use crate::{Conditions, Quantity, TimeBase};
+use serde::{Deserialize, Serialize};
+
+/// The measured motion: whichever of angle, angular velocity and angular acceleration the rig records.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct Motion {
+    /// θ \[rad\].
+    pub displacement_rad: Option<Vec<f64>>,
+    /// ω \[rad/s\].
+    pub velocity_rad_per_s: Option<Vec<f64>>,
+    /// α \[rad/s²\].
+    pub acceleration_rad_per_s2: Option<Vec<f64>>,
+}
+
+impl Motion {
+    /// The samples of one quantity, if it is there.
+    pub fn get(&self, quantity: Quantity) -> Option<&[f64]> {
+        match quantity {
+            Quantity::Displacement => self.displacement_rad.as_deref(),
+            Quantity::Velocity => self.velocity_rad_per_s.as_deref(),
+            Quantity::Acceleration => self.acceleration_rad_per_s2.as_deref(),
+        }
+    }
+
+    /// Puts the samples of one quantity.
+    pub fn set(&mut self, quantity: Quantity, samples: Vec<f64>) {
+        match quantity {
+            Quantity::Displacement => self.displacement_rad = Some(samples),
+            Quantity::Velocity => self.velocity_rad_per_s = Some(samples),
+            Quantity::Acceleration => self.acceleration_rad_per_s2 = Some(samples),
+        }
+    }
+}
+
+/// A stretch of a recording that holds one tightening.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Segment {
+    /// 1-based number within the file.
+    pub number: u32,
+    /// First sample.
+    pub start: usize,
+    /// One past the last sample the events call for; may lie beyond the recording's end (then the segment is truncated).
+    pub end: usize,
+    /// The events' own clock: start, torque, stop \[s\]; `None` where the file has no events.
+    pub event_times_s: Option<[f64; 3]>,
+}
+
+/// One measurement file, in SI units, as it was recorded: nothing repaired, NaN where the file holds NaN.
+///
+/// All channels have the same length unless a finding says otherwise.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Recording {
+    /// File name without its folder, extension included.
+    pub file: String,
+    /// What the file calls itself (`File_name`), or the file's stem.
+    pub label: String,
+    /// Conditions read from the label.
+    pub conditions: Conditions,
+    /// Common sampling grid.
+    pub time_base: TimeBase,
+    /// Input: joint torque T \[Nm\].
+    pub torque_nm: Vec<f64>,
+    /// Measured motion of the tool.
+    pub motion: Motion,
+    /// Measured grip force F_op_J \[N\].
+    pub grip_force_n: Option<Vec<f64>>,
+    /// Whether a grip-force channel stands in the file under any known name (it selects the tool's inertia).
+    pub has_force_channel: bool,
+    /// The tightenings' places, in file order; one segment over everything where the file has no events.
+    pub segments: Vec<Segment>,
+}
