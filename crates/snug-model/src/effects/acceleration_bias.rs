@@ -1,0 +1,51 @@
+//! The accelerometer's zero is off: a + b; in the integrated velocity a slope, in the displacement a parabola.
+//!
+//! Always there; counted from the instant the integration began, which is why a long quiet part before the pulse makes
+//! it grow. Source: sensor zero offset, temperature drift.
+
+use crate::Number;
+use crate::effect::{Description, Kind, Kinematics, Law, ParameterSpec, Scope};
+
+pub struct AccelerationBias;
+
+impl Law for AccelerationBias {
+    fn description(&self) -> &'static Description {
+        &Description {
+            name: "acceleration_bias",
+            kind: Kind::Measurement,
+            summary: "The accelerometer does not read zero at rest.",
+            equation: "a + b",
+            parameters: &[ParameterSpec {
+                name: "bias_rad_per_s2",
+                unit: "rad/s^2",
+                starts: &[0.0],
+                minimum: -2.0,
+                maximum: 2.0,
+                scope: Scope::PerTightening,
+            }],
+            states: &[],
+            twins: &["initial_motion"],
+            excited_by: "nothing: it is there at rest",
+            shows_as: "a constant in the acceleration, a parabola in the displacement",
+            source: "sensor zero offset",
+        }
+    }
+
+    #[inline(always)]
+    fn measure<N: Number>(
+        &self,
+        p: &[N],
+        since_rest_s: f64,
+        motion: Kinematics<N>,
+    ) -> Kinematics<N> {
+        Kinematics {
+            displacement_rad: motion.displacement_rad + p[0] * (0.5 * since_rest_s * since_rest_s),
+            velocity_rad_per_s: motion.velocity_rad_per_s + p[0] * since_rest_s,
+            acceleration_rad_per_s2: motion.acceleration_rad_per_s2 + p[0],
+        }
+    }
+
+    fn measurement_only(&self) -> bool {
+        true
+    }
+}

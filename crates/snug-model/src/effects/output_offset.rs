@@ -1,0 +1,50 @@
+//! The fitted output has a constant offset: y + y0, in the output's own unit.
+//!
+//! In acceleration this is the same as `acceleration_bias`. Source: sensor zero of the output channel.
+
+use crate::Number;
+use crate::effect::{Description, Kind, Kinematics, Law, ParameterSpec, Scope};
+
+pub struct OutputOffset;
+
+impl Law for OutputOffset {
+    fn description(&self) -> &'static Description {
+        &Description {
+            name: "output_offset",
+            kind: Kind::Measurement,
+            summary: "The fitted output channel does not read zero at rest.",
+            equation: "y + y0",
+            parameters: &[ParameterSpec {
+                name: "y0",
+                unit: "output unit",
+                starts: &[0.0],
+                minimum: -10.0,
+                maximum: 10.0,
+                scope: Scope::Shared,
+            }],
+            states: &[],
+            twins: &["torque_offset", "acceleration_bias"],
+            excited_by: "nothing: it is there at rest",
+            shows_as: "a constant in the fitted output",
+            source: "sensor zero offset",
+        }
+    }
+
+    #[inline(always)]
+    fn measure<N: Number>(
+        &self,
+        p: &[N],
+        _since_rest_s: f64,
+        motion: Kinematics<N>,
+    ) -> Kinematics<N> {
+        Kinematics {
+            displacement_rad: motion.displacement_rad + p[0],
+            velocity_rad_per_s: motion.velocity_rad_per_s + p[0],
+            acceleration_rad_per_s2: motion.acceleration_rad_per_s2 + p[0],
+        }
+    }
+
+    fn measurement_only(&self) -> bool {
+        true
+    }
+}

@@ -1,0 +1,99 @@
+use crate::band_limited;
+use snug_campaign::Intersample;
+
+/// How much finer than the samples a band-limited input is represented.
+const BAND_LIMITED_SUBSTEPS: usize = 8;
+
+/// The input (torque) of one simulation, prepared once and used for every trial of the parameters.
+///
+/// Between its grid points it is constant (zero-order) or straight (linear). A band-limited input is carried by straight
+/// pieces on a grid eight times as fine, whose in-band spectrum equals the samples' own.
+#[derive(Debug, Clone)]
+pub struct Input {
+    grid: Vec<f64>,
+    grid_interval_s: f64,
+    substeps: usize,
+    samples: usize,
+    held: bool,
+    rest_before_s: f64,
+}
+
+impl Input {
+    /// From samples \[Nm\] taken every `interval_s`.
+    pub fn new(samples: &[f64], interval_s: f64, intersample: Intersample) -> Self {
+        let (grid, substeps) = match intersample {
+            Intersample::BandLimited => (
+                band_limited::straight_pieces(samples, BAND_LIMITED_SUBSTEPS),
+                BAND_LIMITED_SUBSTEPS,
+            ),
+            Intersample::ZeroOrder | Intersample::Linear => (samples.to_vec(), 1),
+        };
+        Self {
+            grid,
+            grid_interval_s: interval_s / substeps as f64,
+            substeps,
+            samples: samples.len(),
+            held: intersample == Intersample::ZeroOrder,
+            rest_before_s: 0.0,
+        }
+    }
+
+    /// States for how long \[s\] before the first sample the sensor's signal was already being integrated.
+    pub fn with_rest_before(mut self, rest_before_s: f64) -> Self {
+        self.rest_before_s = rest_before_s;
+        self
+    }
+
+    /// Number of samples.
+    pub fn samples(&self) -> usize {
+        self.samples
+    }
+
+    /// Torque \[Nm\] and its slope \[Nm/s\] at `time_s` after the first sample; the ends are held.
+    pub fn at(&self, time_s: f64) -> (f64, f64) {
+        let Some(last) = self.grid.len().checked_sub(1) else {
+            return (0.0, 0.0);
+        };
+        let position = time_s / self.grid_interval_s;
+        if position <= 0.0 {
+            return (self.grid[0], 0.0);
+        }
+        let index = position as usize;
+        if index >= last {
+            return (self.grid[last], 0.0);
+        }
+        let (here, step) = (self.grid[index], self.grid[index + 1] - self.grid[index]);
+        if self.held {
+            return (here, 0.0);
+        }
+        (
+            here + step * (position - index as f64),
+            step / self.grid_interval_s,
+        )
+    }
+
+    /// Torque at the grid points \[Nm\].
+    pub(crate) fn grid(&self) -> &[f64] {
+        &self.grid
+    }
+
+    /// Time between grid points \[s\].
+    pub(crate) fn grid_interval_s(&self) -> f64 {
+        self.grid_interval_s
+    }
+
+    /// Grid points per sample.
+    pub(crate) fn substeps(&self) -> usize {
+        self.substeps
+    }
+
+    /// Whether the input keeps each grid value until the next.
+    pub(crate) fn held(&self) -> bool {
+        self.held
+    }
+
+    /// Time since the integration of the sensor's signal began, at sample `index` \[s\].
+    pub(crate) fn since_rest_s(&self, index: usize) -> f64 {
+        self.rest_before_s + index as f64 * self.grid_interval_s * self.substeps as f64
+    }
+}

@@ -1,0 +1,29 @@
+#![doc = include_str!("../README.md")]
+
+mod band_limited;
+mod dual;
+mod effect;
+mod effects;
+mod error;
+mod euler;
+mod exponential;
+mod forces;
+mod input;
+mod linear;
+mod model;
+mod number;
+mod oscillation;
+mod runge_kutta;
+
+pub use dual::Dual;
+pub use effect::{Description, Instant, Kind, Kinematics, Law, ParameterSpec, Scope};
+pub use effects::Effect;
+pub use error::ModelError;
+pub use euler::euler_displacement;
+pub use forces::{inverse_dynamics_force, spring_damper_force};
+pub use input::Input;
+pub use model::{Assembly, BASE_PARAMETERS, MAXIMUM_FREE, Model, THESIS_START};
+pub use number::Number;
+pub use oscillation::{
+    damped_frequency_hz, damping_ratio, natural_frequency_hz, thesis_damping_ratio,
+};

@@ -1,0 +1,421 @@
+use crate::dual::Dual;
+use crate::effect::{Kinematics, Law, ParameterSpec};
+use crate::linear::{self, Oscillator, Response};
+use crate::{Effect, Input, ModelError, Number, runge_kutta};
+use snug_campaign::{Motion, Parameter, ParameterSource, Quantity, Rig};
+use std::ops::Range;
+
+/// θ, ω and up to ten states of effects.
+pub(crate) const MAXIMUM_STATES: usize = 12;
+/// Free parameters a simulation with sensitivities can carry.
+pub const MAXIMUM_FREE: usize = 16;
+
+/// Names of the base model's parameters, in the order every assembly begins with.
+pub const BASE_PARAMETERS: [&str; 3] = ["mass_kg", "damping_kg_per_s", "stiffness_n_per_m"];
+
+/// m, c, k as the thesis starts them \[kg, kg/s, N/m\].
+pub const THESIS_START: [f64; 3] = [1.76, 38.26, 1837.27];
+
+/// One effect's place in an assembly.
+#[derive(Debug, Clone)]
+pub(crate) struct Part {
+    pub effect: Effect,
+    pub parameters: Range<usize>,
+    pub states: Range<usize>,
+}
+
+/// The base model with its effects, laid out.
+#[derive(Debug, Clone)]
+pub struct Assembly {
+    rig: Rig,
+    parts: Vec<Part>,
+    parameter_count: usize,
+    state_count: usize,
+}
+
+/// (I_n + m l²) dω/dt = T − l F with F = k x + c v + effects, x = l θ, v = l ω: simulated, with sensitivities.
+///
+/// Parameters are m, c, k and then each effect's own, in the order the effects were given.
+#[derive(Debug, Clone)]
+pub struct Model {
+    assembly: Assembly,
+    parameters: Vec<Parameter>,
+}
+
+impl Model {
+    /// The base model of `rig` with `effects` added.
+    ///
+    /// # Errors
+    /// [`ModelError::DuplicateEffect`] when an effect is named twice, [`ModelError::Rig`] when the rig's constants are
+    /// not finite, the lever arm is not positive or the known inertia is negative, [`ModelError::TooLarge`] when the
+    /// effects need more states or parameters than a simulation carries.
+    pub fn new(rig: Rig, effects: &[Effect]) -> Result<Self, ModelError> {
+        check_rig(&rig)?;
+        let mut parameters = base_parameters();
+        let mut parts: Vec<Part> = Vec::new();
+        let mut states = 2;
+        for &effect in effects {
+            if parts.iter().any(|part| part.effect == effect) {
+                return Err(ModelError::DuplicateEffect {
+                    effect: effect.name(),
+                });
+            }
+            let description = effect.description();
+            let first = parameters.len();
+            parameters.extend(description.parameters.iter().map(effect_parameter));
+            let next = states + description.states.len();
+            parts.push(Part {
+                effect,
+                parameters: first..parameters.len(),
+                states: states..next,
+            });
+            states = next;
+        }
+        if states > MAXIMUM_STATES || parameters.len() > MAXIMUM_FREE {
+            return Err(ModelError::TooLarge {
+                states,
+                parameters: parameters.len(),
+                maximum_states: MAXIMUM_STATES,
+                maximum_parameters: MAXIMUM_FREE,
+            });
+        }
+        Ok(Self {
+            assembly: Assembly {
+                rig,
+                parts,
+                parameter_count: parameters.len(),
+                state_count: states,
+            },
+            parameters,
+        })
+    }
+
+    /// The rig's constants.
+    pub fn rig(&self) -> &Rig {
+        &self.assembly.rig
+    }
+
+    /// The same model for a rig with other constants.
+    ///
+    /// # Errors
+    /// [`ModelError::Rig`] as for [`Model::new`].
+    pub fn on(&self, rig: Rig) -> Result<Self, ModelError> {
+        check_rig(&rig)?;
+        let mut model = self.clone();
+        model.assembly.rig = rig;
+        Ok(model)
+    }
+
+    /// All parameters: m, c, k, then the effects'.
+    pub fn parameters(&self) -> &[Parameter] {
+        &self.parameters
+    }
+
+    /// All parameters, to change values, bounds or what is fixed.
+    pub fn parameters_mut(&mut self) -> &mut [Parameter] {
+        &mut self.parameters
+    }
+
+    /// The effects, in order.
+    pub fn effects(&self) -> impl Iterator<Item = Effect> + '_ {
+        self.assembly.parts.iter().map(|part| part.effect)
+    }
+
+    /// Indices of the parameters that are not fixed.
+    pub fn free(&self) -> Vec<usize> {
+        (0..self.parameters.len())
+            .filter(|&index| !self.parameters[index].fixed)
+            .collect()
+    }
+
+    /// Other starting values worth trying: for each effect parameter with several, one set per further value.
+    pub fn further_starts(&self) -> Vec<Vec<f64>> {
+        let usual: Vec<f64> = self.parameters.iter().map(|p| p.value).collect();
+        let mut further = Vec::new();
+        for part in &self.assembly.parts {
+            let specs = part.effect.description().parameters;
+            for (index, spec) in part.parameters.clone().zip(specs) {
+                if self.parameters[index].fixed {
+                    continue;
+                }
+                for &start in spec.starts.iter().skip(1) {
+                    let mut values = usual.clone();
+                    values[index] = start;
+                    further.push(values);
+                }
+            }
+        }
+        further
+    }
+
+    /// The measured motion that `values` (all parameters) give under `input`.
+    pub fn simulate(&self, values: &[f64], input: &Input) -> Motion {
+        let mut signals: [Vec<f64>; 3] =
+            std::array::from_fn(|_| Vec::with_capacity(input.samples()));
+        self.assembly.respond(values, input, |_, motion| {
+            signals[0].push(motion.displacement_rad);
+            signals[1].push(motion.velocity_rad_per_s);
+            signals[2].push(motion.acceleration_rad_per_s2);
+        });
+        let [displacement, velocity, acceleration] = signals;
+        Motion {
+            displacement_rad: Some(displacement),
+            velocity_rad_per_s: Some(velocity),
+            acceleration_rad_per_s2: Some(acceleration),
+        }
+    }
+
+    /// One measured quantity into `output` (one value per sample).
+    pub fn output(&self, values: &[f64], input: &Input, quantity: Quantity, output: &mut [f64]) {
+        self.assembly.respond(values, input, |index, motion| {
+            output[index] = select(motion, quantity);
+        });
+    }
+
+    /// One measured quantity and its sensitivities.
+    ///
+    /// `output` gets one value per sample; `sensitivity` gets ∂output/∂values\[free\[j\]\], column-major, samples × free.
+    ///
+    /// # Panics
+    /// When more than [`MAXIMUM_FREE`] parameters are free, or a slice is too short.
+    pub fn sensitivities(
+        &self,
+        values: &[f64],
+        free: &[usize],
+        input: &Input,
+        quantity: Quantity,
+        output: &mut [f64],
+        sensitivity: &mut [f64],
+    ) {
+        let assembly = &self.assembly;
+        if assembly.is_base() {
+            return assembly.base_sensitivities(values, free, input, quantity, output, sensitivity);
+        }
+        match free.len() {
+            0..=4 => {
+                assembly.carry::<4>(values, free, input, quantity, output, sensitivity);
+            }
+            5..=8 => {
+                assembly.carry::<8>(values, free, input, quantity, output, sensitivity);
+            }
+            _ => {
+                assembly.carry::<MAXIMUM_FREE>(values, free, input, quantity, output, sensitivity);
+            }
+        }
+    }
+}
+
+impl Assembly {
+    pub(crate) fn rig(&self) -> &Rig {
+        &self.rig
+    }
+
+    pub(crate) fn parts(&self) -> &[Part] {
+        &self.parts
+    }
+
+    pub(crate) fn state_count(&self) -> usize {
+        self.state_count
+    }
+
+    /// No effect at all: the fast exact path without dual numbers applies.
+    fn is_base(&self) -> bool {
+        self.parts.is_empty()
+    }
+
+    /// The motion itself is the base model's, whatever the sensors add.
+    fn moves_as_base(&self) -> bool {
+        self.parts.iter().all(|part| part.effect.measurement_only())
+    }
+
+    fn oscillator(&self, values: &[f64]) -> Oscillator {
+        let square = self.rig.lever_arm_m * self.rig.lever_arm_m;
+        Oscillator {
+            inertia_kg_m2: self.rig.known_inertia_kg_m2 + values[0] * square,
+            damping_nm_s_per_rad: values[1] * square,
+            stiffness_nm_per_rad: values[2] * square,
+        }
+    }
+
+    /// What the sensors make of the true motion.
+    pub(crate) fn measured<N: Number>(
+        &self,
+        p: &[N],
+        since_rest_s: f64,
+        motion: Kinematics<N>,
+    ) -> Kinematics<N> {
+        self.parts.iter().fold(motion, |motion, part| {
+            part.effect
+                .measure(&p[part.parameters.clone()], since_rest_s, motion)
+        })
+    }
+
+    /// Simulates by the exact recursion where the motion is the base model's, else by Runge–Kutta.
+    fn respond<N: Number + FromResponse>(
+        &self,
+        p: &[N],
+        input: &Input,
+        mut sample: impl FnMut(usize, &Kinematics<N>),
+    ) {
+        if !self.moves_as_base() {
+            return runge_kutta::respond(self, p, input, sample);
+        }
+        let values: Vec<f64> = p.iter().map(|number| number.value()).collect();
+        let square = self.rig.lever_arm_m * self.rig.lever_arm_m;
+        // m, c, k enter through I, C, K, each times l².
+        let base = [p[0] * square, p[1] * square, p[2] * square];
+        linear::respond(&self.oscillator(&values), input, |index, response| {
+            let motion = N::from_response(response, &base);
+            sample(index, &self.measured(p, input.since_rest_s(index), motion));
+        });
+    }
+
+    /// The exact recursion's own sensitivities, without dual numbers.
+    fn base_sensitivities(
+        &self,
+        values: &[f64],
+        free: &[usize],
+        input: &Input,
+        quantity: Quantity,
+        output: &mut [f64],
+        sensitivity: &mut [f64],
+    ) {
+        let (row, samples) = (quantity as usize, input.samples());
+        let square = self.rig.lever_arm_m * self.rig.lever_arm_m;
+        linear::respond(&self.oscillator(values), input, |index, response| {
+            output[index] = response.motion[row];
+            for (column, &parameter) in free.iter().enumerate() {
+                sensitivity[column * samples + index] =
+                    square * response.sensitivity[row][parameter];
+            }
+        });
+    }
+
+    /// Forward differentiation with `P` partial derivatives carried along.
+    fn carry<const P: usize>(
+        &self,
+        values: &[f64],
+        free: &[usize],
+        input: &Input,
+        quantity: Quantity,
+        output: &mut [f64],
+        sensitivity: &mut [f64],
+    ) {
+        let mut p: Vec<Dual<P>> = values.iter().map(|&value| Dual::from(value)).collect();
+        for (column, &parameter) in free.iter().enumerate() {
+            p[parameter] = Dual::parameter(values[parameter], column);
+        }
+        let samples = input.samples();
+        debug_assert_eq!(p.len(), self.parameter_count);
+        self.respond(&p, input, |index, motion| {
+            let number = select(motion, quantity);
+            output[index] = number.value;
+            for column in 0..free.len() {
+                sensitivity[column * samples + index] = number.partials[column];
+            }
+        });
+    }
+}
+
+/// A number that can be made from the exact recursion's response and its dependence on I, C, K.
+trait FromResponse: Sized {
+    fn from_response(response: &Response, base: &[Self; 3]) -> Kinematics<Self>;
+}
+
+impl FromResponse for f64 {
+    #[inline(always)]
+    fn from_response(response: &Response, _base: &[Self; 3]) -> Kinematics<Self> {
+        let [
+            displacement_rad,
+            velocity_rad_per_s,
+            acceleration_rad_per_s2,
+        ] = response.motion;
+        Kinematics {
+            displacement_rad,
+            velocity_rad_per_s,
+            acceleration_rad_per_s2,
+        }
+    }
+}
+
+impl<const P: usize> FromResponse for Dual<P> {
+    #[inline(always)]
+    fn from_response(response: &Response, base: &[Self; 3]) -> Kinematics<Self> {
+        let quantity = |row: usize| {
+            let slopes = &response.sensitivity[row];
+            Self {
+                value: response.motion[row],
+                partials: std::array::from_fn(|j| {
+                    (0..3).map(|i| slopes[i] * base[i].partials[j]).sum()
+                }),
+            }
+        };
+        Kinematics {
+            displacement_rad: quantity(0),
+            velocity_rad_per_s: quantity(1),
+            acceleration_rad_per_s2: quantity(2),
+        }
+    }
+}
+
+fn select<N: Number>(motion: &Kinematics<N>, quantity: Quantity) -> N {
+    match quantity {
+        Quantity::Displacement => motion.displacement_rad,
+        Quantity::Velocity => motion.velocity_rad_per_s,
+        Quantity::Acceleration => motion.acceleration_rad_per_s2,
+    }
+}
+
+fn check_rig(rig: &Rig) -> Result<(), ModelError> {
+    let reject = |field, value, allowed| {
+        Err(ModelError::Rig {
+            field,
+            value,
+            allowed,
+        })
+    };
+    if !(rig.lever_arm_m > 0.0 && rig.lever_arm_m.is_finite()) {
+        return reject(
+            "lever_arm_m",
+            rig.lever_arm_m,
+            "a positive number of metres",
+        );
+    }
+    if !(rig.known_inertia_kg_m2 >= 0.0 && rig.known_inertia_kg_m2.is_finite()) {
+        return reject(
+            "known_inertia_kg_m2",
+            rig.known_inertia_kg_m2,
+            "zero or a positive number of kg m²",
+        );
+    }
+    Ok(())
+}
+
+fn base_parameters() -> Vec<Parameter> {
+    BASE_PARAMETERS
+        .iter()
+        .zip(["kg", "kg/s", "N/m"])
+        .zip(THESIS_START)
+        .map(|((name, unit), value)| Parameter {
+            name: (*name).to_owned(),
+            unit: unit.to_owned(),
+            value,
+            minimum: 0.0,
+            maximum: f64::INFINITY,
+            fixed: false,
+            source: ParameterSource::Default,
+        })
+        .collect()
+}
+
+fn effect_parameter(spec: &ParameterSpec) -> Parameter {
+    Parameter {
+        name: spec.name.to_owned(),
+        unit: spec.unit.to_owned(),
+        value: spec.starts[0],
+        minimum: spec.minimum,
+        maximum: spec.maximum,
+        fixed: false,
+        source: ParameterSource::Default,
+    }
+}

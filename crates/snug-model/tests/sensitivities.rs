@@ -1,0 +1,165 @@
+//! Every sensitivity against central differences of the simulation, for every effect, quantity and input behaviour.
+
+use snug_campaign::{Intersample, Quantity, Rig};
+use snug_model::{Effect, Input, Law, Model};
+
+const RIG: Rig = Rig {
+    lever_arm_m: 0.33,
+    known_inertia_kg_m2: 0.15,
+};
+const SAMPLES: usize = 400;
+
+fn pulse() -> Vec<f64> {
+    (0..SAMPLES)
+        .map(|index| {
+            let phase = index as f64 / 200.0 * std::f64::consts::PI;
+            if index < 200 {
+                20.0 * phase.sin().powi(2)
+            } else {
+                0.0
+            }
+        })
+        .collect()
+}
+
+/// A value inside every parameter's range at which its sensitivity is not zero.
+fn inner_value(effect: Effect, index: usize) -> f64 {
+    let spec = &effect.description().parameters[index];
+    match spec.name {
+        "k3_n_per_m3" => 2e5,
+        "delay_s" => 0.00033,
+        _ if spec.starts[0] != 0.0 => spec.starts[0],
+        _ => 0.05 * spec.maximum,
+    }
+}
+
+fn check(effects: &[Effect], intersample: Intersample, quantity: Quantity) {
+    let model = Model::new(RIG, effects).expect("a valid rig");
+    let input = Input::new(&pulse(), 5e-4, intersample).with_rest_before(0.4);
+    let mut values = vec![2.0, 60.0, 1800.0];
+    for &effect in effects {
+        let count = effect.description().parameters.len();
+        values.extend((0..count).map(|index| inner_value(effect, index)));
+    }
+    let free: Vec<usize> = (0..values.len()).collect();
+    let mut output = vec![0.0; SAMPLES];
+    let mut sensitivity = vec![0.0; SAMPLES * free.len()];
+    model.sensitivities(
+        &values,
+        &free,
+        &input,
+        quantity,
+        &mut output,
+        &mut sensitivity,
+    );
+
+    let mut plain = vec![0.0; SAMPLES];
+    model.output(&values, &input, quantity, &mut plain);
+    assert!(
+        plain
+            .iter()
+            .zip(&output)
+            .all(|(a, b)| (a - b).abs() < 1e-12 * (1.0 + a.abs())),
+        "the value does not depend on whether sensitivities ride along"
+    );
+
+    for &parameter in &free {
+        let step = 1e-5 * values[parameter].abs();
+        let shifted = |sign: f64| {
+            let mut moved = values.clone();
+            moved[parameter] += sign * step;
+            let mut output = vec![0.0; SAMPLES];
+            model.output(&moved, &input, quantity, &mut output);
+            output
+        };
+        let (up, down) = (shifted(1.0), shifted(-1.0));
+        let column = &sensitivity[parameter * SAMPLES..(parameter + 1) * SAMPLES];
+        let largest = column
+            .iter()
+            .fold(0.0_f64, |largest, value| largest.max(value.abs()));
+        assert!(
+            largest > 0.0,
+            "{effects:?}: parameter {parameter} has no effect"
+        );
+        for (index, analytic) in column.iter().enumerate() {
+            let difference = (up[index] - down[index]) / (2.0 * step);
+            assert!(
+                (analytic - difference).abs() < 2e-6 * largest,
+                "{effects:?} {quantity:?} {intersample:?} parameter {parameter} sample {index}: {analytic} against {difference}"
+            );
+        }
+    }
+}
+
+const QUANTITIES: [Quantity; 3] = [
+    Quantity::Displacement,
+    Quantity::Velocity,
+    Quantity::Acceleration,
+];
+
+#[test]
+fn base_model() {
+    for intersample in [
+        Intersample::ZeroOrder,
+        Intersample::Linear,
+        Intersample::BandLimited,
+    ] {
+        for quantity in QUANTITIES {
+            check(&[], intersample, quantity);
+        }
+    }
+}
+
+#[test]
+fn every_effect_alone() {
+    for &effect in Effect::ALL {
+        for quantity in QUANTITIES {
+            check(&[effect], Intersample::Linear, quantity);
+        }
+    }
+}
+
+#[test]
+fn many_effects_together() {
+    check(
+        &[
+            Effect::MaxwellBranch,
+            Effect::CubicStiffness,
+            Effect::CoulombFriction,
+            Effect::AccelerationBias,
+            Effect::InitialMotion,
+        ],
+        Intersample::Linear,
+        Quantity::Acceleration,
+    );
+}
+
+#[test]
+fn an_effect_of_size_zero_is_the_base_model() {
+    let input = Input::new(&pulse(), 5e-4, Intersample::Linear);
+    let base = Model::new(RIG, &[]).expect("a valid rig");
+    let mut expected = vec![0.0; SAMPLES];
+    base.output(
+        &[2.0, 60.0, 1800.0],
+        &input,
+        Quantity::Acceleration,
+        &mut expected,
+    );
+    for &effect in Effect::ALL {
+        let model = Model::new(RIG, &[effect]).expect("a valid rig");
+        let mut values = vec![2.0, 60.0, 1800.0];
+        // Sizes are zero; only times, which must not vanish, keep their start.
+        values.extend(effect.description().parameters.iter().map(|spec| {
+            if spec.name == "tau_s" {
+                spec.starts[0]
+            } else {
+                0.0
+            }
+        }));
+        let mut output = vec![0.0; SAMPLES];
+        model.output(&values, &input, Quantity::Acceleration, &mut output);
+        for (a, b) in output.iter().zip(&expected) {
+            assert!((a - b).abs() < 1e-8, "{}: {a} against {b}", effect.name());
+        }
+    }
+}
