@@ -19,6 +19,34 @@ pub enum ModelError {
         /// Its name.
         effect: &'static str,
     },
+    /// The catalogue has no effect of that name.
+    #[error("there is no effect `{name}`; the catalogue has: {}", known.join(", "))]
+    UnknownEffect {
+        /// The name.
+        name: String,
+        /// Every name of the catalogue.
+        known: Vec<&'static str>,
+    },
+    /// The model has no parameter of that name.
+    #[error("the model has no parameter `{name}`; it has: {}", known.join(", "))]
+    UnknownParameter {
+        /// The name.
+        name: String,
+        /// Every parameter of the model.
+        known: Vec<String>,
+    },
+    /// A parameter's value is not finite, or outside its limits, or the limits are the wrong way round.
+    #[error("parameter `{name}`: value {value} must be finite and within {minimum} to {maximum}")]
+    ParameterRange {
+        /// The parameter.
+        name: String,
+        /// Its value.
+        value: f64,
+        /// Its smallest allowed value.
+        minimum: f64,
+        /// Its largest allowed value.
+        maximum: f64,
+    },
     /// More effects than a simulation carries.
     #[error(
         "the effects need {states} states (at most {maximum_states}) and {parameters} parameters (at most {maximum_parameters})"

@@ -14,6 +14,7 @@ mod model;
 mod number;
 mod oscillation;
 mod runge_kutta;
+mod settings;
 
 pub use dual::Dual;
 pub use effect::{Description, Instant, Kind, Kinematics, Law, ParameterSpec, Scope};
@@ -27,3 +28,4 @@ pub use number::Number;
 pub use oscillation::{
     damped_frequency_hz, damping_ratio, natural_frequency_hz, thesis_damping_ratio,
 };
+pub use settings::{ModelSettings, ParameterSettings};

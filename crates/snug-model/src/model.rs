@@ -400,7 +400,7 @@ fn base_parameters() -> Vec<Parameter> {
             name: (*name).to_owned(),
             unit: unit.to_owned(),
             value,
-            minimum: 0.0,
+            minimum: f64::NEG_INFINITY,
             maximum: f64::INFINITY,
             fixed: false,
             source: ParameterSource::Default,

@@ -74,97 +74,113 @@ fn base_model_agrees_with_lsim_under_both_holds() {
     );
 }
 
+/// Reference angles [rad] and accelerations [rad/s²] at the compared samples.
+struct Case {
+    effect: Effect,
+    own: &'static [f64],
+    angle: [f64; 4],
+    acceleration: [f64; 4],
+    tolerance: f64,
+}
+
 /// One Runge–Kutta step of 1 ms errs by (h ω)⁵/120 ≈ 1e−10 of the amplitude; friction turns over within few samples.
 #[test]
 fn each_effect_agrees_with_an_adaptive_integrator() {
-    let cases: [(Effect, &[f64], [f64; 4], [f64; 4], f64); 5] = [
-        (
-            Effect::CubicStiffness,
-            &[9e5],
-            [
+    let cases = [
+        Case {
+            effect: Effect::CubicStiffness,
+            own: &[9e5],
+            angle: [
                 0.0027008858870995324,
                 0.036521834345374427,
                 0.04850620489342817,
                 -0.009492348845688456,
             ],
-            [
+            acceleration: [
                 14.70402170259769,
                 15.079547306231703,
                 -16.503178029764403,
                 3.6551087787099314,
             ],
-            1e-8,
-        ),
-        (
-            Effect::CoulombFriction,
-            &[5.0],
-            [
+            tolerance: 1e-8,
+        },
+        Case {
+            effect: Effect::CoulombFriction,
+            own: &[5.0],
+            angle: [
                 0.0020578235388338324,
                 0.032311171049880905,
                 0.04455488362713189,
                 -0.0006687464380751063,
             ],
-            [
+            acceleration: [
                 12.984582026797034,
                 16.377152205070097,
                 -11.878527087030815,
                 1.0099413913099802,
             ],
-            1e-5,
-        ),
-        (
-            Effect::MaxwellBranch,
-            &[800.0, 0.03],
-            [
+            tolerance: 1e-5,
+        },
+        Case {
+            effect: Effect::MaxwellBranch,
+            own: &[800.0, 0.03],
+            angle: [
                 0.002684714462578315,
                 0.03551675749062015,
                 0.046297433277073544,
                 -0.004596062659637479,
             ],
-            [
+            acceleration: [
                 14.415369241102738,
                 14.317028146965146,
                 -14.307966380615925,
                 2.3795801773867225,
             ],
-            1e-8,
-        ),
-        (
-            Effect::InitialMotion,
-            &[0.01, -0.3],
-            [
+            tolerance: 1e-8,
+        },
+        Case {
+            effect: Effect::InitialMotion,
+            own: &[0.01, -0.3],
+            angle: [
                 0.0012397928798096548,
                 0.032160073589704734,
                 0.04815167750377608,
                 -0.00876247521393463,
             ],
-            [
+            acceleration: [
                 18.423838546236286,
                 17.835367748444487,
                 -16.580630283359966,
                 4.1392007031882265,
             ],
-            1e-8,
-        ),
-        (
-            Effect::TorqueDelay,
-            &[0.004],
-            [
+            tolerance: 1e-8,
+        },
+        Case {
+            effect: Effect::TorqueDelay,
+            own: &[0.004],
+            angle: [
                 0.0018017936780405422,
                 0.03228135313978838,
                 0.05194109034867598,
                 -0.009335534981171175,
             ],
-            [
+            acceleration: [
                 13.486189951793646,
                 16.465166049384376,
                 -18.761884495906113,
                 4.605839243801918,
             ],
-            1e-8,
-        ),
+            tolerance: 1e-8,
+        },
     ];
-    for (effect, own, angle, acceleration, tolerance) in cases {
+    for Case {
+        effect,
+        own,
+        angle,
+        acceleration,
+        tolerance,
+    } in cases
+    {
         let of = |quantity| output(&[effect], own, quantity, Intersample::Linear);
         assert_agrees(&of(Quantity::Displacement), angle, tolerance);
         assert_agrees(&of(Quantity::Acceleration), acceleration, 1e3 * tolerance);
