@@ -1,0 +1,43 @@
+use snug_campaign::Quantity;
+
+/// One measured signal of a segment.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Channel {
+    Torque,
+    Motion(Quantity),
+    GripForce,
+}
+
+impl Channel {
+    /// Name as findings give it.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Torque => "torque",
+            Self::Motion(Quantity::Displacement) => "displacement",
+            Self::Motion(Quantity::Velocity) => "velocity",
+            Self::Motion(Quantity::Acceleration) => "acceleration",
+            Self::GripForce => "grip_force",
+        }
+    }
+
+    /// Unit as people write it.
+    pub(crate) fn unit(self) -> &'static str {
+        match self {
+            Self::Torque => "Nm",
+            Self::Motion(Quantity::Displacement) => "rad",
+            Self::Motion(Quantity::Velocity) => "rad/s",
+            Self::Motion(Quantity::Acceleration) => "rad/s^2",
+            Self::GripForce => "N",
+        }
+    }
+
+    /// Catalogue name of a constant error of this channel; the grip force does not enter the model.
+    pub(crate) fn offset_effect(self) -> Option<&'static str> {
+        match self {
+            Self::Torque => Some("torque_offset"),
+            Self::Motion(Quantity::Acceleration) => Some("acceleration_bias"),
+            Self::Motion(Quantity::Displacement | Quantity::Velocity) => Some("output_offset"),
+            Self::GripForce => None,
+        }
+    }
+}

@@ -1,0 +1,19 @@
+use thiserror::Error;
+
+/// Why preprocessing could not start. Faults of the data are findings instead.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum PreprocessError {
+    /// A setting lies outside what is allowed.
+    #[error("setting `{setting}` is {value}; allowed: {allowed}")]
+    SettingOutOfRange {
+        /// Path of the setting, for example `window.length_s`.
+        setting: &'static str,
+        /// Its value.
+        value: f64,
+        /// What is allowed, in words.
+        allowed: &'static str,
+    },
+    /// The `thesis` preset was asked for on segments without a pulse window.
+    #[error("preset `Thesis` needs `window: Pulse(…)`; `Whole` has no window to cut")]
+    ThesisWithoutWindow,
+}

@@ -1,0 +1,268 @@
+use crate::PreprocessError;
+use crate::settings::in_range;
+use crate::spread::{difference_scale, location_and_scale};
+use serde::{Deserialize, Serialize};
+use std::ops::Range;
+
+/// How the torque pulse and its onset are found.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct OnsetSettings {
+    /// Threshold in standard deviations of the quiet torque; default 5.
+    pub threshold_sd: f64,
+    /// Smallest threshold as a share of the peak; default 0.002.
+    pub threshold_peak_ratio: f64,
+    /// How long the torque must stay below the threshold to count as before the onset \[s\]; default 0.001.
+    pub hold_s: f64,
+    /// How far before the onset a window is put that has to be moved \[s\]; default 0.005.
+    pub lead_s: f64,
+    /// How far the torque must fall and rise again between two pulses, as a share of the peak; default 0.3.
+    pub second_pulse_ratio: f64,
+}
+
+impl Default for OnsetSettings {
+    fn default() -> Self {
+        Self {
+            threshold_sd: 5.0,
+            threshold_peak_ratio: 0.002,
+            hold_s: 0.001,
+            lead_s: 0.005,
+            second_pulse_ratio: 0.3,
+        }
+    }
+}
+
+impl OnsetSettings {
+    pub(crate) fn check(&self) -> Result<(), PreprocessError> {
+        in_range(
+            "onset.threshold_sd",
+            self.threshold_sd,
+            1.0,
+            1e3,
+            "1 or more",
+        )?;
+        let ratio = self.threshold_peak_ratio;
+        in_range("onset.threshold_peak_ratio", ratio, 0.0, 0.5, "0 to 0.5")?;
+        in_range("onset.hold_s", self.hold_s, 0.0, 10.0, "0 to 10 (seconds)")?;
+        in_range("onset.lead_s", self.lead_s, 0.0, 10.0, "0 to 10 (seconds)")?;
+        let ratio = self.second_pulse_ratio;
+        in_range(
+            "onset.second_pulse_ratio",
+            ratio,
+            END_RATIO,
+            1.0,
+            "0.1 to 1",
+        )
+    }
+}
+
+/// Share of the peak below which a pulse has ended.
+const END_RATIO: f64 = 0.1;
+
+/// The torque before the pulse.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Baseline {
+    /// Level at rest \[Nm\].
+    pub(crate) level_nm: f64,
+    /// Standard deviation of the noise \[Nm\].
+    pub(crate) sd_nm: f64,
+}
+
+/// Fewest samples that a baseline is taken from.
+const BASELINE_MINIMUM: usize = 20;
+
+impl Baseline {
+    /// Median and robust deviation of what comes before `end`; without enough of it, level 0 and the noise of the
+    /// sample-to-sample differences.
+    pub(crate) fn of(torque_nm: &[f64], end: usize) -> Self {
+        let end = end.min(torque_nm.len());
+        let (level_nm, sd_nm) = if end >= BASELINE_MINIMUM {
+            location_and_scale(&torque_nm[..end])
+        } else {
+            (0.0, difference_scale(torque_nm))
+        };
+        Self { level_nm, sd_nm }
+    }
+}
+
+/// One torque pulse of a segment.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Pulse {
+    /// From where it has risen by `second_pulse_ratio` of the peak to where it has fallen to a tenth of it, or to where
+    /// the next pulse rises.
+    pub(crate) range: Range<usize>,
+    /// Its highest sample.
+    pub(crate) peak: usize,
+}
+
+/// Every pulse, in order: a maximum that the torque rises to and falls from by `second_pulse_ratio` of the greatest
+/// height above the baseline. A shallower dip, as between the steps of one tightening, divides nothing.
+pub(crate) fn pulses(
+    torque_nm: &[f64],
+    baseline: Baseline,
+    settings: &OnsetSettings,
+) -> Vec<Pulse> {
+    let highest = torque_nm.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let height = highest - baseline.level_nm;
+    if height <= 0.0 {
+        return Vec::new();
+    }
+    let stroke = settings.second_pulse_ratio * height;
+    let mut found: Vec<Pulse> = Vec::new();
+    let mut valley_nm = baseline.level_nm;
+    let mut rising: Option<(usize, usize)> = None;
+    for (index, &torque) in torque_nm.iter().enumerate() {
+        rising = match rising {
+            // Back from an undershoot to the level at rest is no pulse.
+            None if torque >= valley_nm.max(baseline.level_nm) + stroke => Some((index, index)),
+            None => {
+                valley_nm = valley_nm.min(torque);
+                None
+            }
+            Some((start, peak)) if torque_nm[peak] - torque >= stroke => {
+                found.push(pulse(torque_nm, baseline, height, (start, peak)));
+                valley_nm = torque;
+                None
+            }
+            Some((start, peak)) if torque > torque_nm[peak] => Some((start, index)),
+            unchanged => unchanged,
+        };
+    }
+    found.extend(rising.map(|rise| pulse(torque_nm, baseline, height, rise)));
+    for index in 1..found.len() {
+        let next = found[index].range.start;
+        found[index - 1].range.end = found[index - 1].range.end.min(next);
+    }
+    found
+}
+
+/// The pulse that passed its stroke at `start` and is highest at `peak`.
+fn pulse(
+    torque_nm: &[f64],
+    baseline: Baseline,
+    height_nm: f64,
+    (start, peak): (usize, usize),
+) -> Pulse {
+    let ends = baseline.level_nm + END_RATIO * height_nm;
+    let fall = torque_nm[peak..]
+        .iter()
+        .take_while(|&&torque| torque > ends);
+    Pulse {
+        range: start..peak + fall.count(),
+        peak,
+    }
+}
+
+/// First sample of the pulse: just after the torque last stayed for `hold` samples at or below the threshold.
+///
+/// Searched backwards from the pulse, so that a disturbance earlier in the segment is not taken for it. The threshold is
+/// `threshold_sd` standard deviations or `threshold_peak_ratio` of the height above the baseline, whichever is larger.
+/// 0 when the torque never was at rest.
+pub(crate) fn onset(
+    torque_nm: &[f64],
+    baseline: Baseline,
+    pulse: &Pulse,
+    settings: &OnsetSettings,
+    hold: usize,
+) -> usize {
+    let height = torque_nm[pulse.peak] - baseline.level_nm;
+    let threshold = baseline.level_nm
+        + (settings.threshold_sd * baseline.sd_nm).max(settings.threshold_peak_ratio * height);
+    let hold = hold.max(1);
+    let mut below = 0;
+    for index in (0..pulse.range.start).rev() {
+        below = if torque_nm[index] > threshold {
+            0
+        } else {
+            below + 1
+        };
+        if below == hold {
+            return index + hold;
+        }
+    }
+    below
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::synthetic::{ONSET, PEAK, pulse, white_noise};
+
+    fn noisy(seed: u64) -> Vec<f64> {
+        let noise = white_noise(20_000, 0.02, seed);
+        pulse(30.0).iter().zip(noise).map(|(a, b)| a + b).collect()
+    }
+
+    fn find(torque: &[f64]) -> (Vec<Pulse>, usize) {
+        let settings = OnsetSettings::default();
+        let baseline = Baseline::of(torque, 14_750);
+        let pulses = pulses(torque, baseline, &settings);
+        let onset = onset(torque, baseline, &pulses[0], &settings, 10);
+        (pulses, onset)
+    }
+
+    #[test]
+    fn finds_the_onset_within_the_threshold_s_rise() {
+        // 30 Nm in 800 samples: 0.0375 Nm per sample, so 0.1 Nm (5 standard deviations) is passed 3 samples after the onset.
+        for seed in 0..50 {
+            let (pulses, onset) = find(&noisy(seed));
+            assert_eq!(pulses.len(), 1);
+            assert!(pulses[0].peak.abs_diff(PEAK) <= 3);
+            assert!((ONSET + 1..=ONSET + 7).contains(&onset), "{onset}");
+        }
+    }
+
+    #[test]
+    fn a_disturbance_long_before_is_not_the_onset() {
+        let mut torque = noisy(1);
+        for value in &mut torque[5000..5200] {
+            *value += 2.0;
+        }
+        let (pulses, onset) = find(&torque);
+        assert_eq!(pulses.len(), 1, "2 Nm are below 30 % of the peak");
+        assert!(onset.abs_diff(ONSET) < 10);
+    }
+
+    #[test]
+    fn two_hits_are_two_pulses_and_a_dip_is_not() {
+        let mut torque = noisy(2);
+        torque[16_300..16_700]
+            .iter_mut()
+            .for_each(|value| *value += 15.0);
+        assert_eq!(find(&torque).0.len(), 2);
+        let mut overlapping = noisy(3);
+        for (index, value) in overlapping[15_600..16_200].iter_mut().enumerate() {
+            *value += 18.0 * index as f64 / 600.0;
+        }
+        let pulses = find(&overlapping).0;
+        assert_eq!(
+            pulses.len(),
+            2,
+            "the second begins before the first has ended"
+        );
+        assert!(pulses[0].peak.abs_diff(PEAK) < 10 && pulses[1].peak.abs_diff(16_199) < 10);
+        let mut dipping = noisy(4);
+        dipping[15_400..15_430]
+            .iter_mut()
+            .for_each(|value| *value -= 5.0);
+        assert_eq!(
+            find(&dipping).0.len(),
+            1,
+            "a sixth of the peak divides nothing"
+        );
+        let mut undershooting = noisy(5);
+        undershooting[16_000..16_400]
+            .iter_mut()
+            .for_each(|value| *value -= 12.0);
+        assert_eq!(find(&undershooting).0.len(), 1);
+    }
+
+    #[test]
+    fn a_torque_that_never_rests_begins_at_once() {
+        let torque = vec![20.0; 2000];
+        let baseline = Baseline::of(&torque, 0);
+        let settings = OnsetSettings::default();
+        let pulses = pulses(&torque, baseline, &settings);
+        assert_eq!(onset(&torque, baseline, &pulses[0], &settings, 10), 0);
+    }
+}

@@ -1,0 +1,62 @@
+//! Preset `thesis`: the original program, step by step.
+//!
+//! 1. ω and θ by cumulative trapezoids from the *segment's* start; whatever bias and noise the quiet part holds becomes
+//!    drift, and ω is not zeroed.
+//! 2. Window: 2999 samples at 10 kHz, one fewer than 0.3 s.
+//! 3. Offset: the displacement at its first local minimum, else at 27.4 ms, is taken off the displacement alone.
+//! 4. Codes 1 and 2 on the displacement (see [`crate::ThesisChecks`]).
+//! 5. Target torque from the whole segment.
+//!
+//! Deviations, both reported: short runs of not-finite samples are bridged, and a segment too short for the window is
+//! left out (the original fails later, in a plot). No data-quality verdict: the original has none.
+
+use super::Context;
+use crate::channel::Channel;
+use crate::integration::cumulative_trapezoid;
+use crate::offset::zero_index;
+use crate::remarks::Remarks;
+use crate::signals::Signals;
+use crate::torque_target::peak_torque_nm;
+use crate::{Prepared, ThesisChecks, window};
+use snug_campaign::{Finding, Quantity, Segment};
+
+/// Prepares one segment as the original did; `start_s` and `length_s` are the window's.
+pub(crate) fn prepare(
+    context: &Context<'_>,
+    (start_s, length_s): (f64, f64),
+    segment: &Segment,
+    remarks: &mut Remarks,
+) -> Result<Prepared, Finding> {
+    let mut signals = Signals::cut(context.recording, segment, remarks)?;
+    signals.source_of(Quantity::Acceleration, remarks)?;
+    let window = window::thesis(start_s, length_s, context.interval_s);
+    let missing = context.bridge_missing(&mut signals, remarks);
+    context.refuse_truncation(&window, &signals, remarks)?;
+    context.refuse_gaps(&missing, &(0..window.end), &mut signals, remarks)?;
+    let Some(acceleration) = signals.motion.acceleration_rad_per_s2.as_deref() else {
+        let message = "the original needs the acceleration; the tightening is left out".into();
+        let channel = Some(Channel::Motion(Quantity::Acceleration));
+        return Err(remarks.left_out("missing_channel", channel, message));
+    };
+    let velocity = cumulative_trapezoid(acceleration, context.interval_s);
+    let displacement = cumulative_trapezoid(&velocity, context.interval_s);
+    signals.motion.velocity_rad_per_s = Some(velocity);
+    signals.motion.displacement_rad = Some(displacement);
+    let peak = peak_torque_nm(&signals.torque_nm);
+    signals.crop(&window);
+    let displacement = signals
+        .motion
+        .displacement_rad
+        .as_deref_mut()
+        .unwrap_or_default();
+    if let Some(index) = zero_index(displacement, context.interval_s) {
+        let offset = displacement[index];
+        displacement.iter_mut().for_each(|value| *value -= offset);
+    }
+    let checks = ThesisChecks::of(displacement);
+    Ok(Prepared {
+        tightening: context.tightening(remarks, signals, window.start, peak),
+        thesis_checks: Some(checks),
+        data_quality_rejects: false,
+    })
+}

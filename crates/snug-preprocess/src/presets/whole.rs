@@ -1,0 +1,38 @@
+//! Window `Whole`: a segment as it was measured, for rigs without a quiet part.
+
+use super::Context;
+use crate::Prepared;
+use crate::channel::Channel;
+use crate::integration::complete;
+use crate::remarks::Remarks;
+use crate::signals::Signals;
+use crate::torque_target::peak_torque_nm;
+use snug_campaign::{Finding, Segment};
+
+/// Takes every sample; nothing is zeroed, and the noise floor is left to the fit's residual.
+pub(crate) fn prepare(
+    context: &Context<'_>,
+    segment: &Segment,
+    remarks: &mut Remarks,
+) -> Result<Prepared, Finding> {
+    let mut signals = Signals::cut(context.recording, segment, remarks)?;
+    let source = signals.source_of(context.fitted_output, remarks)?;
+    let all = 0..signals.len();
+    let missing = context.bridge_missing(&mut signals, remarks);
+    context.refuse_gaps(&missing, &all, &mut signals, remarks)?;
+    context.refuse_truncation(&all, &signals, remarks)?;
+    context.refuse_constant(source, &signals, remarks)?;
+    let first = signals.torque_nm[0];
+    if signals.torque_nm.iter().all(|&torque| torque == first) {
+        let message =
+            format!("the input is {first} Nm throughout; only initial motion can excite the rig");
+        remarks.note("constant_channel", Some(Channel::Torque), message);
+    }
+    complete(&mut signals.motion, context.interval_s);
+    let peak = peak_torque_nm(&signals.torque_nm);
+    Ok(Prepared {
+        tightening: context.tightening(remarks, signals, 0, peak),
+        thesis_checks: None,
+        data_quality_rejects: false,
+    })
+}

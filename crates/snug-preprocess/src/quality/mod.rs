@@ -1,0 +1,10 @@
+//! Faults of the data, one file each. Every check says what it found; presets decide what follows.
+
+pub(crate) mod non_finite;
+pub(crate) mod polarity;
+pub(crate) mod saturation;
+mod settings;
+pub(crate) mod spikes;
+pub(crate) mod stuck;
+
+pub use settings::QualitySettings;

@@ -1,0 +1,80 @@
+use std::ops::Range;
+
+/// A channel that freezes for at least this share of its samples is quantised or free of noise: nothing can be said.
+const FROZEN_RATIO: f64 = 0.5;
+
+/// A run must be this many times as long as the longest that chance would give.
+const CHANCE_FACTOR: f64 = 3.0;
+
+/// Runs of identical successive samples in a channel that otherwise changes: dropouts, lost packets.
+///
+/// Chance repeats neighbours of a quantised channel with some probability p, and its longest run over n samples is about
+/// ln n / ln(1/p); a run counts from three times that on, and never below `shortest` samples. Samples at `limit` (a known
+/// saturation) are passed over.
+pub(crate) fn find(samples: &[f64], shortest: usize, limit: Option<f64>) -> Vec<Range<usize>> {
+    let runs = runs_of_identical(samples, shortest.max(2));
+    let frozen: usize = runs.iter().map(Range::len).sum();
+    if frozen as f64 > FROZEN_RATIO * samples.len() as f64 {
+        return Vec::new();
+    }
+    let repeats = samples.windows(2).filter(|pair| pair[0] == pair[1]).count();
+    let by_runs: usize = runs.iter().map(|run| run.len() - 1).sum();
+    let others = (samples.len().saturating_sub(frozen)).max(1) as f64;
+    let chance = (repeats - by_runs) as f64 / others;
+    let longest_by_chance = if chance > 0.0 {
+        CHANCE_FACTOR * (samples.len() as f64).ln() / -chance.min(0.999).ln()
+    } else {
+        0.0
+    };
+    runs.into_iter()
+        .filter(|run| run.len() as f64 > longest_by_chance)
+        .filter(|run| Some(samples[run.start]) != limit)
+        .collect()
+}
+
+fn runs_of_identical(samples: &[f64], shortest: usize) -> Vec<Range<usize>> {
+    let mut runs = Vec::new();
+    let mut start = 0;
+    for index in 1..=samples.len() {
+        if index == samples.len() || samples[index] != samples[start] {
+            if index - start >= shortest {
+                runs.push(start..index);
+            }
+            start = index;
+        }
+    }
+    runs
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::synthetic::{coloured_noise, white_noise};
+
+    #[test]
+    fn a_frozen_stretch_is_found() {
+        let mut samples = coloured_noise(18_000, 0.5, 1);
+        let held = samples[15_000];
+        samples[15_000..15_040].fill(held);
+        samples[16_000..16_030].fill(0.0);
+        assert_eq!(
+            find(&samples, 20, None),
+            vec![15_000..15_040, 16_000..16_030]
+        );
+        assert_eq!(find(&samples, 20, Some(0.0)), vec![15_000..15_040]);
+    }
+
+    #[test]
+    fn quantised_noise_and_silence_are_not_frozen() {
+        for seed in 0..20 {
+            let noise = white_noise(18_000, 0.02, seed);
+            assert!(find(&noise, 20, None).is_empty());
+            for step in [0.02, 0.05, 0.08] {
+                let quantised: Vec<f64> = noise.iter().map(|x| (x / step).round() * step).collect();
+                assert!(find(&quantised, 20, None).is_empty(), "step {step}");
+            }
+        }
+        assert!(find(&[0.0; 500], 20, None).is_empty());
+        assert!(find(&[], 20, None).is_empty());
+    }
+}
