@@ -1,0 +1,60 @@
+use std::path::PathBuf;
+use thiserror::Error;
+
+/// Why a recording could not be written or read.
+#[derive(Debug, Error)]
+pub enum RecordError {
+    /// The file could not be made.
+    #[error("cannot create the recording {path}: {source}")]
+    Create {
+        /// Where it was to be.
+        path: PathBuf,
+        /// What the operating system said.
+        source: std::io::Error,
+    },
+    /// Writing failed (disk full, device gone); what was flushed before stays readable.
+    #[error("cannot write the recording: {source}")]
+    Write {
+        /// What the MCAP writer said.
+        #[from]
+        source: mcap::McapError,
+    },
+    /// A message could not be written as JSON.
+    #[error("a message for {topic} cannot be written as JSON: {source}")]
+    Json {
+        /// The topic it was meant for.
+        topic: String,
+        /// What the serializer said.
+        source: serde_json::Error,
+    },
+    /// A signal does not have as many samples as the torque of the same tightening.
+    #[error("{tightening}: signal {signal} has {found} samples, the torque has {expected}")]
+    UnequalLengths {
+        /// Which tightening, as `file #number`.
+        tightening: String,
+        /// Name of the signal.
+        signal: &'static str,
+        /// Samples of the torque.
+        expected: usize,
+        /// Samples of the signal.
+        found: usize,
+    },
+    /// A setting is outside its range.
+    #[error("record setting {field} is {value}; allowed: {allowed}")]
+    Setting {
+        /// Name of the field.
+        field: &'static str,
+        /// What it was set to.
+        value: f64,
+        /// What it may be.
+        allowed: &'static str,
+    },
+    /// The bytes are not an MCAP file: the first eight are not its magic number.
+    #[error("not an MCAP file: {length} bytes that begin with {start:02x?}")]
+    NotMcap {
+        /// Length of the data.
+        length: usize,
+        /// Its first bytes, at most eight.
+        start: Vec<u8>,
+    },
+}

@@ -1,0 +1,26 @@
+#![doc = include_str!("../README.md")]
+
+mod error;
+mod estimate;
+mod finding;
+mod layout;
+mod measurement;
+pub mod read;
+mod recorder;
+mod schema;
+mod settings;
+mod shape;
+mod signals;
+mod statistics;
+pub mod topic;
+mod window;
+mod wire;
+
+pub use error::RecordError;
+pub use layout::layout;
+pub use recorder::Recorder;
+pub use settings::{Compression, RecordSettings, Samples};
+pub use window::Window;
+
+#[cfg(test)]
+mod tests;

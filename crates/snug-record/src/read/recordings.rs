@@ -1,0 +1,257 @@
+use super::stream::{Completeness, Item, scan};
+use crate::measurement::Assembly;
+use crate::signals::{self, MeasuredSample};
+use crate::{RecordError, Window, topic};
+use snug_campaign::{Motion, Quantity, Recording, Segment, TimeBase};
+use std::collections::HashMap;
+use std::ops::ControlFlow;
+
+/// How much of a measurement file a recording holds.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Extent {
+    /// The whole file as it was measured, quiet parts included.
+    Whole,
+    /// The tightenings' windows one after another, each a segment: zeroed and corrected, without the quiet parts.
+    Windows {
+        /// Every how many-th sample of the original is there, the largest over its tightenings; 1 means that the windows
+        /// are complete, bit for bit.
+        stored_every: usize,
+    },
+}
+
+/// One measurement file out of a recording.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RecordedFile {
+    /// The measurement. For [`Extent::Windows`] sample 0 of a segment is the window's first sample, whose time in the
+    /// original segment [`Window::time_base`] says; `time_base.start_s` is 0, and the label is the file's stem.
+    pub recording: Recording,
+    /// Whether it is the whole file.
+    pub extent: Extent,
+}
+
+/// What one of Snug's recordings holds.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RecordedCampaign {
+    /// The measurement files, in the order in which they were recorded.
+    pub files: Vec<RecordedFile>,
+    /// Every tightening's origin, onset, noise floor and corrections, in the order in which they were recorded.
+    pub windows: Vec<Window>,
+    /// The study as run (RON).
+    pub study_ron: Option<String>,
+    /// Messages on Snug's topics that could not be understood.
+    pub malformed_messages: u64,
+    /// Whether the file was read to its end.
+    pub completeness: Completeness,
+}
+
+/// Reads the measurements out of a recording that Snug wrote.
+///
+/// A file that was kept whole comes back whole; of others come the windows of their tightenings. Tightenings of one file
+/// with different sampling intervals or channels come as separate recordings of the same file. What is not Snug's is passed over, so a
+/// foreign MCAP gives no files.
+///
+/// # Errors
+/// [`RecordError::NotMcap`] when the data do not begin as an MCAP file.
+pub fn recordings(bytes: &[u8]) -> Result<RecordedCampaign, RecordError> {
+    let mut reader = Reader::default();
+    let completeness = scan(bytes, |item| {
+        reader.item(&item);
+        ControlFlow::Continue(())
+    })?;
+    Ok(reader.finish(completeness))
+}
+
+/// Snug's topics that hold measurements.
+#[derive(Clone, Copy)]
+enum Topic {
+    Window,
+    Signals,
+    File,
+    Samples,
+}
+
+#[derive(Default)]
+struct Reader {
+    topics: HashMap<u16, Topic>,
+    whole: Vec<Assembly>,
+    windows: Vec<(Window, Vec<MeasuredSample>)>,
+    study_ron: Option<String>,
+    malformed: u64,
+}
+
+impl Reader {
+    fn item(&mut self, item: &Item<'_>) {
+        match item {
+            Item::Channel { id, channel } => {
+                let found = match (channel.topic.as_str(), channel.schema_name.as_str()) {
+                    (topic::WINDOW, "snug.Window") => Topic::Window,
+                    (topic::SIGNALS, "snug.Signals") => Topic::Signals,
+                    (topic::MEASUREMENT_FILE, "snug.MeasurementFile") => Topic::File,
+                    (topic::MEASUREMENT_SAMPLES, "snug.MeasurementSamples") => Topic::Samples,
+                    _ => return,
+                };
+                self.topics.insert(*id, found);
+            }
+            Item::Metadata { name, entries } => {
+                if *name == topic::STUDY {
+                    self.study_ron = entries.get("study_ron").cloned();
+                }
+            }
+            Item::Message { id, data, .. } => {
+                if let Some(&topic) = self.topics.get(id) {
+                    let understood = self.message(topic, data).is_some();
+                    self.malformed += u64::from(!understood);
+                }
+            }
+        }
+    }
+
+    fn message(&mut self, topic: Topic, data: &[u8]) -> Option<()> {
+        match topic {
+            Topic::Window => {
+                let window: Window = serde_json::from_slice(data).ok()?;
+                if window.stored_every == 0 {
+                    return None;
+                }
+                self.windows.push((window, Vec::new()));
+            }
+            Topic::Signals => {
+                let sample = signals::decode(data)?;
+                let (window, samples) = self.windows.last_mut()?;
+                let fits = sample.tightening == window.tightening
+                    && samples.len() < window.stored_samples();
+                fits.then(|| samples.push(sample))?;
+            }
+            Topic::File => self
+                .whole
+                .push(Assembly::new(serde_json::from_slice(data).ok()?)),
+            Topic::Samples => self.whole.last_mut()?.add(data)?,
+        }
+        Some(())
+    }
+
+    fn finish(self, completeness: Completeness) -> RecordedCampaign {
+        let mut files: Vec<RecordedFile> = Vec::new();
+        for assembly in self.whole {
+            let (recording, complete) = assembly.finish();
+            // A file cut short by a killed run stays as far as it goes: its last segments end beyond it.
+            if !complete {
+                tracing::debug!(file = recording.file, "the recording ends within this file");
+            }
+            files.push(RecordedFile {
+                recording,
+                extent: Extent::Whole,
+            });
+        }
+        let whole = files.len();
+        let mut windows = Vec::with_capacity(self.windows.len());
+        for (window, samples) in self.windows {
+            let kept_whole = files[..whole]
+                .iter()
+                .any(|file| file.recording.file == window.file);
+            if !kept_whole {
+                append(&mut files, whole, &window, &samples);
+            }
+            windows.push(window);
+        }
+        RecordedCampaign {
+            files,
+            windows,
+            study_ron: self.study_ron,
+            malformed_messages: self.malformed,
+            completeness,
+        }
+    }
+}
+
+/// Puts a window behind the windows of the same file with the same interval and channels.
+fn append(
+    files: &mut Vec<RecordedFile>,
+    whole: usize,
+    window: &Window,
+    samples: &[MeasuredSample],
+) {
+    let base = TimeBase {
+        start_s: 0.0,
+        ..window.stored_time_base()
+    };
+    let has = |name: &str| window.channels.iter().any(|channel| channel == name);
+    let place = files[whole..].iter().position(|file| {
+        let recording = &file.recording;
+        recording.file == window.file
+            && recording.time_base == base
+            && recording.conditions == window.conditions
+            && recording.motion.displacement_rad.is_some() == has("displacement_rad")
+            && recording.motion.velocity_rad_per_s.is_some() == has("velocity_rad_per_s")
+            && recording.motion.acceleration_rad_per_s2.is_some() == has("acceleration_rad_per_s2")
+            && recording.grip_force_n.is_some() == has("grip_force_n")
+    });
+    let file = match place {
+        Some(place) => &mut files[whole + place],
+        None => {
+            files.push(empty(window, base, has));
+            files.last_mut().expect("pushed just above")
+        }
+    };
+    let Extent::Windows { stored_every } = &mut file.extent else {
+        return;
+    };
+    *stored_every = window.stored_every.max(*stored_every);
+    let recording = &mut file.recording;
+    let start = recording.torque_nm.len();
+    recording
+        .torque_nm
+        .extend(samples.iter().map(|sample| sample.torque_nm));
+    let motion = &mut recording.motion;
+    let columns = [
+        &mut motion.displacement_rad,
+        &mut motion.velocity_rad_per_s,
+        &mut motion.acceleration_rad_per_s2,
+    ];
+    for (index, column) in columns.into_iter().enumerate() {
+        if let Some(column) = column {
+            column.extend(samples.iter().map(|sample| sample.motion[index]));
+        }
+    }
+    if let Some(column) = &mut recording.grip_force_n {
+        column.extend(samples.iter().map(|sample| sample.grip_force_n));
+    }
+    recording.segments.push(Segment {
+        number: window.number,
+        start,
+        // Beyond the samples when the recording ends within this window.
+        end: start + window.stored_samples(),
+        event_times_s: None,
+    });
+}
+
+fn empty(window: &Window, time_base: TimeBase, has: impl Fn(&str) -> bool) -> RecordedFile {
+    let mut motion = Motion::default();
+    for (quantity, name) in [
+        (Quantity::Displacement, "displacement_rad"),
+        (Quantity::Velocity, "velocity_rad_per_s"),
+        (Quantity::Acceleration, "acceleration_rad_per_s2"),
+    ] {
+        if has(name) {
+            motion.set(quantity, Vec::new());
+        }
+    }
+    let stem = window
+        .file
+        .rsplit_once('.')
+        .map_or(window.file.as_str(), |(stem, _)| stem);
+    RecordedFile {
+        recording: Recording {
+            file: window.file.clone(),
+            label: stem.to_owned(),
+            conditions: window.conditions.clone(),
+            time_base,
+            torque_nm: Vec::new(),
+            motion,
+            grip_force_n: has("grip_force_n").then(Vec::new),
+            has_force_channel: has("grip_force_n"),
+            segments: Vec::new(),
+        },
+        extent: Extent::Windows { stored_every: 1 },
+    }
+}

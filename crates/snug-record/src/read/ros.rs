@@ -1,0 +1,337 @@
+use super::numeric::{ARRAY_TOO_LONG, Decoded, LONGEST_ARRAY};
+use crate::wire::take;
+use std::collections::HashMap;
+use std::fmt::Write as _;
+
+/// Nested messages deeper than this are malformed: ROS messages cannot contain themselves.
+const DEEPEST: usize = 32;
+const MALFORMED: &str = "a message does not fit its ROS definition and was left out";
+
+/// How values are laid out in memory.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Wire {
+    /// ROS 2: common data representation, values aligned to their size after a header of four bytes.
+    Cdr,
+    /// ROS 1: packed, little-endian.
+    Ros1,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Kind {
+    Flag,
+    U8,
+    I8,
+    U16,
+    I16,
+    U32,
+    I32,
+    U64,
+    I64,
+    Single,
+    Double,
+    Text,
+    /// ROS 1 `time` (unsigned) and `duration`: seconds and nanoseconds.
+    Time {
+        signed: bool,
+    },
+    Message(usize),
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Count {
+    One,
+    Fixed(usize),
+    Sequence,
+}
+
+#[derive(Debug)]
+struct Field {
+    name: String,
+    kind: Kind,
+    count: Count,
+}
+
+/// Decodes the messages of one channel by its concatenated `.msg` definitions.
+#[derive(Debug)]
+pub(super) struct Decoder {
+    messages: Vec<Vec<Field>>,
+    wire: Wire,
+}
+
+impl Decoder {
+    /// `None` when the definition uses a type that is neither built in nor defined in it.
+    pub(super) fn new(definition: &[u8], root: &str, wire: Wire) -> Option<Self> {
+        let text = std::str::from_utf8(definition).ok()?;
+        let mut sections: Vec<(String, Vec<&str>)> = vec![(short(root), Vec::new())];
+        for line in text.lines() {
+            let line = line.trim();
+            if line.len() >= 3 && line.bytes().all(|byte| byte == b'=') {
+                sections.push((String::new(), Vec::new()));
+            } else if let Some(name) = line.strip_prefix("MSG:") {
+                sections.last_mut()?.0 = short(name.trim());
+            } else {
+                sections.last_mut()?.1.push(line);
+            }
+        }
+        let names: HashMap<String, usize> = sections
+            .iter()
+            .enumerate()
+            .map(|(index, (name, _))| (name.clone(), index))
+            .collect();
+        let mut messages = Vec::new();
+        for (name, lines) in &sections {
+            let package = name.rsplit_once('/').map_or("", |(package, _)| package);
+            let mut fields = Vec::new();
+            for line in lines {
+                fields.extend(field(line, package, &names, wire)?);
+            }
+            messages.push(fields);
+        }
+        Some(Self { messages, wire })
+    }
+
+    pub(super) fn decode(&self, data: &[u8], put: &mut dyn FnMut(&str, f64)) -> Decoded {
+        // Once without giving anything, so that a malformed message leaves no half of its values behind.
+        let dry = self.read(data, &mut |_, _| {});
+        if dry == Err(MALFORMED) {
+            return dry;
+        }
+        self.read(data, put)
+    }
+
+    fn read(&self, data: &[u8], put: &mut dyn FnMut(&str, f64)) -> Decoded {
+        let mut cursor = match self.wire {
+            Wire::Ros1 => Cursor {
+                data,
+                position: 0,
+                aligned: false,
+                big_endian: false,
+                long: false,
+                steps: 0,
+            },
+            Wire::Cdr => {
+                let (header, data) = data.split_first_chunk::<4>().ok_or(MALFORMED)?;
+                if header[0] != 0 || header[1] > 1 {
+                    return Err("the CDR encapsulation is not plain CDR; the message was left out");
+                }
+                Cursor {
+                    data,
+                    position: 0,
+                    aligned: true,
+                    big_endian: header[1] == 0,
+                    long: false,
+                    steps: 0,
+                }
+            }
+        };
+        self.message(0, &mut cursor, &mut String::new(), put, 0)?;
+        if cursor.long {
+            return Err(ARRAY_TOO_LONG);
+        }
+        Ok(())
+    }
+
+    fn message(
+        &self,
+        message: usize,
+        cursor: &mut Cursor<'_>,
+        path: &mut String,
+        put: &mut dyn FnMut(&str, f64),
+        depth: usize,
+    ) -> Decoded {
+        let fields = &self.messages[message];
+        cursor.steps += 1;
+        if depth > DEEPEST || cursor.steps > DEEPEST * (cursor.data.len() + DEEPEST) {
+            return Err(MALFORMED);
+        }
+        if fields.is_empty() && self.wire == Wire::Cdr {
+            // ROS 2 gives an empty structure one filling byte.
+            cursor.word::<1>()?;
+        }
+        let length = path.len();
+        for field in fields {
+            if length > 0 {
+                path.push('.');
+            }
+            path.push_str(&field.name);
+            let count = match field.count {
+                Count::One => {
+                    self.value(field.kind, cursor, path, put, depth)?;
+                    path.truncate(length);
+                    continue;
+                }
+                Count::Fixed(count) => count,
+                Count::Sequence => u32::from_ne_bytes(cursor.word()?) as usize,
+            };
+            // An element takes at least one byte, except messages without any field in ROS 1.
+            if count > cursor.data.len().saturating_sub(cursor.position) {
+                return Err(MALFORMED);
+            }
+            let stem = path.len();
+            cursor.long |= count > LONGEST_ARRAY && field.kind != Kind::Text;
+            for index in 0..count {
+                if count > LONGEST_ARRAY {
+                    self.value(field.kind, cursor, path, &mut |_: &str, _| {}, depth)?;
+                } else {
+                    write!(path, "[{index}]").expect("a String takes all text");
+                    self.value(field.kind, cursor, path, put, depth)?;
+                    path.truncate(stem);
+                }
+            }
+            path.truncate(length);
+        }
+        Ok(())
+    }
+
+    fn value(
+        &self,
+        kind: Kind,
+        cursor: &mut Cursor<'_>,
+        path: &mut String,
+        put: &mut dyn FnMut(&str, f64),
+        depth: usize,
+    ) -> Decoded {
+        let value = match kind {
+            Kind::Flag => f64::from(u8::from(cursor.word::<1>()? != [0])),
+            Kind::U8 => f64::from(u8::from_ne_bytes(cursor.word()?)),
+            Kind::I8 => f64::from(i8::from_ne_bytes(cursor.word()?)),
+            Kind::U16 => f64::from(u16::from_ne_bytes(cursor.word()?)),
+            Kind::I16 => f64::from(i16::from_ne_bytes(cursor.word()?)),
+            Kind::U32 => f64::from(u32::from_ne_bytes(cursor.word()?)),
+            Kind::I32 => f64::from(i32::from_ne_bytes(cursor.word()?)),
+            Kind::U64 => u64::from_ne_bytes(cursor.word()?) as f64,
+            Kind::I64 => i64::from_ne_bytes(cursor.word()?) as f64,
+            Kind::Single => f64::from(f32::from_ne_bytes(cursor.word()?)),
+            Kind::Double => f64::from_ne_bytes(cursor.word()?),
+            Kind::Text => {
+                let length = u32::from_ne_bytes(cursor.word()?) as usize;
+                return cursor.skip(length);
+            }
+            Kind::Time { signed } => {
+                let (seconds, nanoseconds) = if signed {
+                    (
+                        f64::from(i32::from_ne_bytes(cursor.word()?)),
+                        f64::from(i32::from_ne_bytes(cursor.word()?)),
+                    )
+                } else {
+                    (
+                        f64::from(u32::from_ne_bytes(cursor.word()?)),
+                        f64::from(u32::from_ne_bytes(cursor.word()?)),
+                    )
+                };
+                seconds + nanoseconds * 1e-9
+            }
+            Kind::Message(message) => {
+                return self.message(message, cursor, path, put, depth + 1);
+            }
+        };
+        put(path, value);
+        Ok(())
+    }
+}
+
+struct Cursor<'a> {
+    data: &'a [u8],
+    position: usize,
+    aligned: bool,
+    big_endian: bool,
+    /// An array was too long to spread out.
+    long: bool,
+    /// Messages entered, against definitions that contain themselves.
+    steps: usize,
+}
+
+impl Cursor<'_> {
+    /// The next value of `N` bytes in this machine's byte order.
+    fn word<const N: usize>(&mut self) -> Result<[u8; N], &'static str> {
+        if self.aligned {
+            self.position = self.position.next_multiple_of(N);
+        }
+        let mut rest = self.data.get(self.position..).ok_or(MALFORMED)?;
+        let bytes = take(&mut rest, N).ok_or(MALFORMED)?;
+        let mut word: [u8; N] = bytes.try_into().expect("take gave N bytes");
+        self.position += N;
+        if self.big_endian != cfg!(target_endian = "big") {
+            word.reverse();
+        }
+        Ok(word)
+    }
+
+    fn skip(&mut self, length: usize) -> Decoded {
+        self.position = self
+            .position
+            .checked_add(length)
+            .filter(|&end| end <= self.data.len())
+            .ok_or(MALFORMED)?;
+        Ok(())
+    }
+}
+
+/// `package/Type` of `package/msg/Type`.
+fn short(name: &str) -> String {
+    name.replace("/msg/", "/")
+}
+
+/// One line of a definition: `Some(None)` for blank lines, comments and constants, `None` for an unknown
+/// type.
+fn field(
+    line: &str,
+    package: &str,
+    names: &HashMap<String, usize>,
+    wire: Wire,
+) -> Option<Option<Field>> {
+    let line = line.split('#').next().unwrap_or_default().trim();
+    let Some((kind, rest)) = line.split_once(char::is_whitespace) else {
+        return Some(None);
+    };
+    let rest = rest.trim_start();
+    let end = rest
+        .find(|c: char| !c.is_ascii_alphanumeric() && c != '_')
+        .unwrap_or(rest.len());
+    let (name, tail) = rest.split_at(end);
+    if tail.trim_start().starts_with('=') {
+        return Some(None);
+    }
+    let (element, count) = match kind.split_once('[') {
+        None => (kind, Count::One),
+        Some((element, bound)) => {
+            let bound = bound.trim_end_matches(']');
+            let count = bound.parse().map_or(Count::Sequence, Count::Fixed);
+            (element, count)
+        }
+    };
+    let element = element.split("<=").next().unwrap_or_default();
+    let kind = match element {
+        "bool" => Kind::Flag,
+        "uint8" | "byte" => Kind::U8,
+        // ROS 1's deprecated `char` is unsigned, and ROS 2 kept that.
+        "char" => Kind::U8,
+        "int8" => Kind::I8,
+        "uint16" => Kind::U16,
+        "int16" => Kind::I16,
+        "uint32" => Kind::U32,
+        "int32" => Kind::I32,
+        "uint64" => Kind::U64,
+        "int64" => Kind::I64,
+        "float32" => Kind::Single,
+        "float64" => Kind::Double,
+        "string" => Kind::Text,
+        "time" if wire == Wire::Ros1 => Kind::Time { signed: false },
+        "duration" if wire == Wire::Ros1 => Kind::Time { signed: true },
+        other => Kind::Message(resolve(other, package, names)?),
+    };
+    Some(Some(Field {
+        name: name.to_owned(),
+        kind,
+        count,
+    }))
+}
+
+fn resolve(name: &str, package: &str, names: &HashMap<String, usize>) -> Option<usize> {
+    let name = short(name);
+    names
+        .get(&name)
+        .or_else(|| names.get(&format!("{package}/{name}")))
+        .or_else(|| names.get(&format!("std_msgs/{name}")))
+        .copied()
+}

@@ -1,0 +1,22 @@
+//! Names of the topics, and of the metadata record with the study.
+
+/// Where each tightening's samples come from.
+pub const WINDOW: &str = "/tightening/window";
+/// One message per sample: measured, simulated, residual, forces.
+pub const SIGNALS: &str = "/tightening/signals";
+/// One message per tightening: parameters, intervals, status, agreement.
+pub const ESTIMATE: &str = "/estimate";
+/// What was left out, repaired or is worth knowing.
+pub const FINDING: &str = "/finding";
+/// The findings as log lines.
+pub const LOG: &str = "/log";
+/// Means and spreads per condition.
+pub const CONDITIONS: &str = "/statistics/conditions";
+/// Tests per quantity and factor.
+pub const TESTS: &str = "/statistics/tests";
+/// Whole measurement files: what they are.
+pub const MEASUREMENT_FILE: &str = "/measurement/file";
+/// Whole measurement files: their samples in blocks.
+pub const MEASUREMENT_SAMPLES: &str = "/measurement/samples";
+/// The metadata record that holds the study as run.
+pub const STUDY: &str = "snug.study";
