@@ -1,0 +1,133 @@
+use super::{Frame, pixel};
+use maud::{Markup, html};
+
+/// A point with the text shown under the pointer.
+pub struct Dot {
+    /// Horizontal coordinate.
+    pub x: f64,
+    /// Vertical coordinate.
+    pub y: f64,
+    /// Text under the pointer; none when empty.
+    pub title: String,
+}
+
+/// A filled rectangle between two corners.
+pub struct Bar {
+    /// Left and right end.
+    pub x: (f64, f64),
+    /// Lower and upper end.
+    pub y: (f64, f64),
+    /// Text under the pointer; none when empty.
+    pub title: String,
+}
+
+/// A straight line between two points.
+pub struct Segment {
+    /// Horizontal coordinates of its ends.
+    pub x: (f64, f64),
+    /// Vertical coordinates of its ends.
+    pub y: (f64, f64),
+}
+
+/// One layer of a figure. `class` names the colour in the page's style.
+pub enum Mark {
+    /// A line through points; it breaks where a value is missing.
+    Line {
+        /// Style class.
+        class: &'static str,
+        /// Points in order; `None` breaks the line.
+        points: Vec<Option<(f64, f64)>>,
+    },
+    /// Points.
+    Dots {
+        /// Style class.
+        class: &'static str,
+        /// The points.
+        dots: Vec<Dot>,
+    },
+    /// Rectangles.
+    Bars {
+        /// Style class.
+        class: &'static str,
+        /// The rectangles.
+        bars: Vec<Bar>,
+    },
+    /// Straight lines, for whiskers and rules.
+    Segments {
+        /// Style class.
+        class: &'static str,
+        /// The lines.
+        segments: Vec<Segment>,
+    },
+}
+
+impl Mark {
+    pub(super) fn svg(&self, frame: &Frame) -> Markup {
+        match self {
+            Self::Line { class, points } => html! {
+                path.line.(class) d=(line_path(points, frame)) {}
+            },
+            Self::Dots { class, dots } => html! {
+                g.dots.(class) {
+                    @for dot in dots.iter().filter(|dot| finite(&[dot.x, dot.y])) {
+                        circle cx=(pixel(frame.x(dot.x))) cy=(pixel(frame.y(dot.y))) r="3.2" {
+                            @if !dot.title.is_empty() { title { (dot.title) } }
+                        }
+                    }
+                }
+            },
+            Self::Bars { class, bars } => html! {
+                g.bars.(class) { @for bar in bars.iter().filter(|bar| finite(&[bar.x.0, bar.x.1, bar.y.0, bar.y.1])) { (bar_svg(bar, frame)) } }
+            },
+            Self::Segments { class, segments } => html! {
+                path.segments.(class) d=(segment_path(segments, frame)) {}
+            },
+        }
+    }
+}
+
+/// What has no place on the drawing is not drawn.
+fn finite(coordinates: &[f64]) -> bool {
+    coordinates.iter().all(|coordinate| coordinate.is_finite())
+}
+
+fn line_path(points: &[Option<(f64, f64)>], frame: &Frame) -> String {
+    let mut path = String::new();
+    let mut broken = true;
+    for point in points {
+        let Some((x, y)) = point.filter(|(x, y)| x.is_finite() && y.is_finite()) else {
+            broken = true;
+            continue;
+        };
+        path.push(if broken { 'M' } else { 'L' });
+        path += &format!("{} {}", pixel(frame.x(x)), pixel(frame.y(y)));
+        broken = false;
+    }
+    path
+}
+
+fn segment_path(segments: &[Segment], frame: &Frame) -> String {
+    segments
+        .iter()
+        .filter(|segment| finite(&[segment.x.0, segment.x.1, segment.y.0, segment.y.1]))
+        .map(|segment| {
+            format!(
+                "M{} {}L{} {}",
+                pixel(frame.x(segment.x.0)),
+                pixel(frame.y(segment.y.0)),
+                pixel(frame.x(segment.x.1)),
+                pixel(frame.y(segment.y.1))
+            )
+        })
+        .collect()
+}
+
+fn bar_svg(bar: &Bar, frame: &Frame) -> Markup {
+    let (left, right) = (frame.x(bar.x.0), frame.x(bar.x.1));
+    let (top, bottom) = (frame.y(bar.y.1), frame.y(bar.y.0));
+    html! {
+        rect x=(pixel(left)) y=(pixel(top)) width=(pixel((right - left).max(0.0))) height=(pixel((bottom - top).max(0.0))) {
+            @if !bar.title.is_empty() { title { (bar.title) } }
+        }
+    }
+}

@@ -1,0 +1,64 @@
+//! `report.html`: the page around the sections.
+
+use crate::section::SECTIONS;
+use maud::{DOCTYPE, Markup, PreEscaped, html as markup};
+use snug_campaign::CampaignResult;
+
+const STYLE: &str = concat!(
+    include_str!("assets/page.css"),
+    include_str!("assets/figures.css")
+);
+const SCRIPT: &str = concat!(
+    "'use strict';\n",
+    include_str!("assets/scale.js"),
+    include_str!("assets/panel.js"),
+    include_str!("assets/viewer.js"),
+    include_str!("assets/table.js")
+);
+
+/// The whole report as one page that asks for nothing from outside.
+///
+/// Text from the campaign is escaped; the page works without JavaScript, which only adds stepping, zoom, values under
+/// the cursor, sorting and filtering.
+pub fn html(result: &CampaignResult) -> String {
+    let page = markup! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                meta name="color-scheme" content="light dark";
+                // An empty icon, so that a browser does not ask a server for one.
+                link rel="icon" href="data:,";
+                title { (result.title) " – Snug report" }
+                style { (PreEscaped(STYLE)) }
+            }
+            body {
+                a.skip href="#overview" { "Skip to the results" }
+                (contents())
+                main {
+                    header.top {
+                        p.kind { "Snug report" }
+                        h1 { (result.title) }
+                    }
+                    @for section in SECTIONS {
+                        section id=(section.anchor) aria-labelledby=(format!("{}-title", section.anchor)) {
+                            h2 id=(format!("{}-title", section.anchor)) { (section.title) }
+                            ((section.render)(result))
+                        }
+                    }
+                }
+                script { (PreEscaped(SCRIPT)) }
+            }
+        }
+    };
+    page.into_string()
+}
+
+fn contents() -> Markup {
+    markup! {
+        nav.contents aria-label="Sections" {
+            ol { @for section in SECTIONS { li { a href=(format!("#{}", section.anchor)) { (section.short_title) } } } }
+        }
+    }
+}

@@ -1,0 +1,197 @@
+use super::{Section, factors, nothing};
+use crate::figure::{Axis, Dot, Figure, Mark, Segment, captioned, legend, linear_range};
+use crate::number::{missing, percent, percent_interval, rounded, share, significant};
+use crate::quantity;
+use maud::{Markup, html};
+use snug_campaign::{CampaignResult, ConditionSummary, Moments, QuantitySummary};
+
+/// Means and standard deviations per condition.
+pub const SECTION: Section = Section {
+    anchor: "conditions",
+    short_title: "Conditions",
+    title: "Means and spreads per condition",
+    render,
+};
+
+type Side = fn(&QuantitySummary) -> Option<&Moments>;
+
+fn render(result: &CampaignResult) -> Markup {
+    let quantities = quantities(result);
+    if quantities.is_empty() {
+        return nothing("There are no groups to compare.");
+    }
+    html! {
+        p {
+            "Each dot is the mean of the selected tightenings of a group with its 95 % interval (thick); the thin line reaches \
+            one standard deviation to both sides, which is how much single tightenings differ."
+        }
+        (legend(&[("c-selected", "mean and 95 % interval"), ("c-quiet", "± standard deviation")]))
+        div.figures.small { @for column in &quantities { (drawing(column, result)) } }
+        (table("Selected tightenings: mean [95 % interval], standard deviation (SD), count (n)", &quantities, result, |row| {
+            row.selected.as_ref()
+        }))
+        details {
+            summary { "The same over the rejected tightenings that have an estimate" }
+            (table("Rejected tightenings", &quantities, result, |row| row.rejected.as_ref()))
+        }
+    }
+}
+
+/// The quantities that stand in the table, in order of first appearance.
+fn quantities(result: &CampaignResult) -> Vec<&str> {
+    let mut columns: Vec<&str> = Vec::new();
+    for row in result
+        .conditions
+        .iter()
+        .flat_map(|summary| &summary.quantities)
+    {
+        if !columns.contains(&row.quantity.as_str()) {
+            columns.push(&row.quantity);
+        }
+    }
+    columns
+}
+
+fn moments<'a>(summary: &'a ConditionSummary, column: &str, side: Side) -> Option<&'a Moments> {
+    summary
+        .quantities
+        .iter()
+        .find(|row| row.quantity == column)
+        .and_then(side)
+}
+
+fn table(caption: &str, columns: &[&str], result: &CampaignResult, side: Side) -> Markup {
+    html! {
+        div.scroll { table.conditions {
+            caption { (caption) }
+            thead { tr {
+                th scope="col" { "condition" }
+                th scope="col" { "selected share" }
+                @for column in columns { th scope="col" { (quantity::name(column, result).with_unit()) } }
+            } }
+            @for (factor, levels) in factors(result) {
+                tbody {
+                    @if factor != "all" {
+                        tr.group { th colspan=(columns.len() + 2) scope="rowgroup" { (quantity::words(factor)) } }
+                    }
+                    @for summary in levels {
+                        tr {
+                            th scope="row" { (summary.level) }
+                            td { (selected_share(summary)) }
+                            @for column in columns { td { (cell(moments(summary, column, side))) } }
+                        }
+                    }
+                }
+            }
+        } }
+    }
+}
+
+fn selected_share(summary: &ConditionSummary) -> Markup {
+    html! {
+        (percent(share(summary.selected, summary.tightenings).unwrap_or(f64::NAN)))
+        @if let Some(interval) = summary.selected_share_interval {
+            " " span.interval { (percent_interval(interval)) }
+        }
+        span.spread { (summary.selected) " of " (summary.tightenings) }
+    }
+}
+
+fn cell(moments: Option<&Moments>) -> Markup {
+    let Some(moments) = moments else {
+        return missing("no tightening in this group");
+    };
+    let mean = rounded(moments.mean, moments.mean_interval);
+    html! {
+        (mean.value)
+        @if let Some(interval) = mean.interval { " " span.interval { (interval) } }
+        span.spread {
+            "SD "
+            @match moments.standard_deviation {
+                Some(deviation) => { (significant(deviation, 3)) }
+                None => { (missing("needs two tightenings")) }
+            }
+            ", n " (moments.count)
+        }
+    }
+}
+
+/// Mean, interval and spread of one quantity, one row per level.
+fn drawing(column: &str, result: &CampaignResult) -> Markup {
+    let mut rows: Vec<(String, bool)> = Vec::new();
+    let mut placed: Vec<(f64, &ConditionSummary, &Moments)> = Vec::new();
+    for (factor, levels) in factors(result) {
+        if factor != "all" {
+            rows.push((quantity::words(factor), true));
+        }
+        for summary in levels {
+            if let Some(moments) = moments(summary, column, |row| row.selected.as_ref()) {
+                placed.push((-(rows.len() as f64), summary, moments));
+            }
+            rows.push((summary.level.clone(), false));
+        }
+    }
+    let name = quantity::name(column, result);
+    let ends = placed.iter().flat_map(|(_, _, moments)| {
+        let deviation = moments.standard_deviation.unwrap_or(0.0);
+        let interval = moments.mean_interval.map(|i| [i.low, i.high]);
+        [moments.mean - deviation, moments.mean + deviation]
+            .into_iter()
+            .chain(interval.into_iter().flatten())
+    });
+    let (low, high) = linear_range(ends, 0.05);
+    let figure = Figure {
+        description: format!("Mean {} per condition with 95 % intervals", name.words),
+        width: 380.0,
+        height: 56.0 + 17.0 * rows.len() as f64,
+        x: Axis::linear(name.with_unit(), low, high, 5),
+        y: Axis::rows(&rows),
+        marks: marks(&placed),
+    };
+    captioned(&quantity::capitalised(&name.words), figure.svg(), None)
+}
+
+fn marks(placed: &[(f64, &ConditionSummary, &Moments)]) -> Vec<Mark> {
+    let spreads = placed.iter().filter_map(|(y, _, moments)| {
+        let deviation = moments.standard_deviation?;
+        Some(Segment {
+            x: (moments.mean - deviation, moments.mean + deviation),
+            y: (*y, *y),
+        })
+    });
+    let intervals = placed.iter().filter_map(|(y, _, moments)| {
+        let interval = moments.mean_interval?;
+        Some(Segment {
+            x: (interval.low, interval.high),
+            y: (*y, *y),
+        })
+    });
+    let dots = placed.iter().map(|(y, summary, moments)| {
+        let mean = rounded(moments.mean, moments.mean_interval);
+        Dot {
+            x: moments.mean,
+            y: *y,
+            title: format!(
+                "{} {}: {} {}",
+                summary.factor,
+                summary.level,
+                mean.value,
+                mean.interval.unwrap_or_default()
+            ),
+        }
+    });
+    vec![
+        Mark::Segments {
+            class: "c-quiet",
+            segments: spreads.collect(),
+        },
+        Mark::Segments {
+            class: "thick c-selected",
+            segments: intervals.collect(),
+        },
+        Mark::Dots {
+            class: "c-selected",
+            dots: dots.collect(),
+        },
+    ]
+}

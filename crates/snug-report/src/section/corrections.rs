@@ -1,0 +1,178 @@
+use super::{Section, nothing};
+use crate::figure::{Axis, Dot, Figure, Mark, Segment, captioned, legend, linear_range};
+use crate::number::{missing, percent, share, significant};
+use crate::quartiles::Quartiles;
+use maud::{Markup, html};
+use snug_campaign::{CampaignResult, Correction};
+
+/// What was measured in the quiet part and taken out before the fit.
+pub const SECTION: Section = Section {
+    anchor: "corrections",
+    short_title: "Corrections",
+    title: "What was corrected before the fit",
+    render,
+};
+
+/// Beyond this many tightenings a figure shows every n-th.
+const DRAWN: usize = 400;
+
+/// One sensor error over the campaign: the tightenings' index and correction.
+struct Corrected<'a> {
+    effect: &'a str,
+    sizes: Vec<(usize, &'a Correction)>,
+}
+
+fn render(result: &CampaignResult) -> Markup {
+    let corrected = corrected(result);
+    if corrected.is_empty() {
+        return nothing(
+            "Nothing was corrected: the model was fitted to the data as they were measured.",
+        );
+    }
+    html! {
+        p {
+            "The quiet part before each pulse shows what the sensors say when nothing moves. What was measured there was taken \
+            out before the fit, significant or not. Significant means larger than chance would make it under the measured noise."
+        }
+        div.scroll { table {
+            caption { "Corrections over all tightenings" }
+            thead { tr {
+                th scope="col" { "sensor error" }
+                th scope="col" { "significant in" }
+                th scope="col" { "typical size (median of |size|)" }
+                th scope="col" { "from" }
+                th scope="col" { "to" }
+                th scope="col" { "standard error (median)" }
+                th scope="col" { "unit" }
+            } }
+            tbody { @for row in &corrected { (table_row(row)) } }
+        } }
+        div.figures { @for row in &corrected { (drawing(row, result)) } }
+    }
+}
+
+fn corrected(result: &CampaignResult) -> Vec<Corrected<'_>> {
+    let mut rows: Vec<Corrected> = Vec::new();
+    for (index, tightening) in result.tightenings.iter().enumerate() {
+        for correction in &tightening.corrections {
+            match rows.iter_mut().find(|row| row.effect == correction.effect) {
+                Some(row) => row.sizes.push((index, correction)),
+                None => rows.push(Corrected {
+                    effect: &correction.effect,
+                    sizes: vec![(index, correction)],
+                }),
+            }
+        }
+    }
+    rows
+}
+
+fn table_row(row: &Corrected) -> Markup {
+    let significant_count = row.sizes.iter().filter(|(_, c)| c.significant).count();
+    let sizes = Quartiles::of(row.sizes.iter().map(|(_, c)| c.value));
+    let magnitude = Quartiles::of(row.sizes.iter().map(|(_, c)| c.value.abs()));
+    let errors = Quartiles::of(row.sizes.iter().map(|(_, c)| c.standard_error));
+    let shown = |value: Option<f64>| match value {
+        Some(value) => html! { (significant(value, 3)) },
+        None => missing("no finite size"),
+    };
+    html! { tr {
+        th scope="row" { (row.effect.replace('_', " ")) }
+        td { (significant_count) " of " (row.sizes.len())
+            " (" (percent(share(significant_count, row.sizes.len()).unwrap_or(f64::NAN))) ")" }
+        td { (shown(magnitude.map(|q| q.median))) }
+        td { (shown(sizes.map(|q| q.minimum))) }
+        td { (shown(sizes.map(|q| q.maximum))) }
+        td { (shown(errors.map(|q| q.median))) }
+        td { (unit(row)) }
+    } }
+}
+
+fn unit<'a>(row: &Corrected<'a>) -> &'a str {
+    row.sizes.first().map_or("", |(_, c)| c.unit.as_str())
+}
+
+/// Size with 95 % interval, tightening by tightening.
+fn drawing(row: &Corrected, result: &CampaignResult) -> Markup {
+    let every = row.sizes.len().div_ceil(DRAWN).max(1);
+    let drawn: Vec<(usize, &Correction)> = row.sizes.iter().step_by(every).copied().collect();
+    let ends = drawn
+        .iter()
+        .flat_map(|(_, correction)| [interval(correction).0, interval(correction).1, 0.0]);
+    let (low, high) = linear_range(ends, 0.04);
+    let last = result.tightenings.len() as f64 + 1.0;
+    let zero = Mark::Segments {
+        class: "c-zero",
+        segments: vec![Segment {
+            x: (0.0, last),
+            y: (0.0, 0.0),
+        }],
+    };
+    let mut marks = vec![zero];
+    marks.extend(sizes("c-quiet", &drawn, false, result));
+    marks.extend(sizes("c-selected", &drawn, true, result));
+    let name = row.effect.replace('_', " ");
+    let figure = Figure {
+        description: format!("{name} of every tightening with its 95 % interval"),
+        width: 440.0,
+        height: 230.0,
+        x: Axis::linear("tightening, in campaign order", 0.0, last, 6),
+        y: Axis::linear(format!("{name} [{}]", unit(row)), low, high, 5),
+        marks,
+    };
+    captioned(
+        &crate::quantity::capitalised(&name),
+        html! {
+            (figure.svg())
+            (legend(&[("c-selected", "significant"), ("c-quiet", "not significant")]))
+        },
+        (every > 1)
+            .then(|| format!("One in {every} tightenings is drawn."))
+            .as_deref(),
+    )
+}
+
+fn interval(correction: &Correction) -> (f64, f64) {
+    let half = 1.96 * correction.standard_error;
+    (correction.value - half, correction.value + half)
+}
+
+/// Whiskers and dots of the corrections that are significant, or of those that are not.
+fn sizes(
+    class: &'static str,
+    drawn: &[(usize, &Correction)],
+    significance: bool,
+    result: &CampaignResult,
+) -> [Mark; 2] {
+    let chosen = || {
+        drawn
+            .iter()
+            .filter(|(_, correction)| correction.significant == significance)
+            .map(|(index, correction)| (*index, *index as f64 + 1.0, *correction))
+    };
+    let segments = chosen().map(|(_, x, correction)| Segment {
+        x: (x, x),
+        y: interval(correction),
+    });
+    let dots = chosen().map(|(index, x, correction)| Dot {
+        x,
+        y: correction.value,
+        title: format!(
+            "{}: {} ± {} {}",
+            result.tightenings[index].id,
+            significant(correction.value, 3),
+            significant(correction.standard_error, 2),
+            correction.unit
+        ),
+    });
+    [
+        Mark::Segments {
+            class,
+            segments: segments.collect(),
+        },
+        Mark::Dots {
+            class,
+            dots: dots.collect(),
+        },
+    ]
+}

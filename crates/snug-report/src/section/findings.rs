@@ -1,0 +1,86 @@
+use super::{Section, counted, nothing};
+use crate::number::missing;
+use crate::outcome::{severity_name, severity_words};
+use maud::{Markup, html};
+use snug_campaign::{CampaignResult, Finding, Severity};
+
+/// What was left out, repaired or is worth knowing.
+pub const SECTION: Section = Section {
+    anchor: "findings",
+    short_title: "Findings",
+    title: "Findings about the data",
+    render,
+};
+
+/// Findings of one kind listed on the page; the file holds all.
+const LISTED: usize = 200;
+
+fn render(result: &CampaignResult) -> Markup {
+    if result.findings.is_empty() {
+        return nothing("Nothing was left out, repaired or remarked on.");
+    }
+    let count = |severity| {
+        result
+            .findings
+            .iter()
+            .filter(|finding| finding.severity == severity)
+            .count()
+    };
+    html! {
+        p {
+            (counted(count(Severity::LeftOut), "finding")) " left data out, " (counted(count(Severity::Repaired), "finding"))
+            " repaired or corrected data, " (counted(count(Severity::Note), "finding")) " worth knowing changed nothing. findings.json lists all."
+        }
+        @for (index, kind) in kinds(result).into_iter().enumerate() {
+            details open[index < 3 && kind.findings.len() <= 10] {
+                summary {
+                    span class=(format!("severity {}", severity_name(kind.severity))) { (severity_words(kind.severity)) }
+                    " " strong { (kind.code.replace('_', " ")) } " – " (counted(kind.findings.len(), "finding"))
+                }
+                (listing(&kind.findings))
+            }
+        }
+    }
+}
+
+struct Kind<'a> {
+    severity: Severity,
+    code: &'a str,
+    findings: Vec<&'a Finding>,
+}
+
+/// Findings by kind, the gravest first, then the most frequent.
+fn kinds(result: &CampaignResult) -> Vec<Kind<'_>> {
+    let mut kinds: Vec<Kind> = Vec::new();
+    for finding in &result.findings {
+        let same =
+            |kind: &&mut Kind| kind.code == finding.code && kind.severity == finding.severity;
+        match kinds.iter_mut().find(same) {
+            Some(kind) => kind.findings.push(finding),
+            None => kinds.push(Kind {
+                severity: finding.severity,
+                code: &finding.code,
+                findings: vec![finding],
+            }),
+        }
+    }
+    kinds.sort_by_key(|kind| std::cmp::Reverse((kind.severity, kind.findings.len())));
+    kinds
+}
+
+fn listing(findings: &[&Finding]) -> Markup {
+    html! {
+        div.scroll { table {
+            thead { tr {
+                th scope="col" { "file" } th scope="col" { "tightening" } th.words scope="col" { "channel" } th.words scope="col" { "what was found and done" }
+            } }
+            tbody { @for finding in findings.iter().take(LISTED) { tr {
+                th scope="row" { (finding.file) }
+                td { @if let Some(number) = finding.tightening { "#" (number) } @else { (missing("concerns the whole file")) } }
+                td.words { @if let Some(channel) = &finding.channel { (channel) } @else { (missing("concerns no single channel")) } }
+                td.words.long { (finding.message) }
+            } } }
+        } }
+        @if findings.len() > LISTED { p.note { "The first " (LISTED) " of " (findings.len()) " are shown." } }
+    }
+}

@@ -1,0 +1,84 @@
+use super::Section;
+use maud::{Markup, html};
+use snug_campaign::CampaignResult;
+
+/// Terms, symbols and units.
+pub const SECTION: Section = Section {
+    anchor: "glossary",
+    short_title: "Glossary",
+    title: "Terms, symbols and units",
+    render,
+};
+
+const TERMS: [(&str, &str); 17] = [
+    (
+        "Tightening",
+        "One run of the tool on one bolt: torque builds up, then drops, and the tool kicks the hand.",
+    ),
+    (
+        "Model",
+        "The hand and arm as a mass m on a spring k and a damper c at the grip, l from the joint's axis: x = l θ, v = l ω, \
+         F = k x + c v (plus effects), (Iₙ + m l²) dω/dt = T − l F.",
+    ),
+    (
+        "Hand–arm mass m [kg], damping c [kg/s], stiffness k [N/m]",
+        "What is identified from every tightening.",
+    ),
+    (
+        "Tool inertia Iₙ [kg m²], lever arm l [m]",
+        "Known constants of the rig.",
+    ),
+    (
+        "Natural frequency fₙ [Hz]",
+        "√(k/m)/2π of the hand–arm alone.",
+    ),
+    (
+        "Damped frequency [Hz], damping ratio ζ",
+        "Of tool and hand–arm together; ζ below 1 is lightly damped.",
+    ),
+    (
+        "Angle θ [rad], velocity ω [rad/s], acceleration α [rad/s²]",
+        "Motion of the tool about the joint's axis; x = l θ is the grip's displacement [m].",
+    ),
+    ("Torque T [Nm]", "Measured at the joint; the model's input."),
+    (
+        "F1, F2, F3 [N]",
+        "Force between tool and hand: F1 = l (c ω + k θ) from the model's spring and damper; F2 = (T − Iₙ α)/l with the measured, F3 with the simulated acceleration.",
+    ),
+    (
+        "F_op_J [N]",
+        "The measured grip force, where a transducer is mounted.",
+    ),
+    ("Residual", "Measured minus simulated."),
+    (
+        "Fit [%]",
+        "100 (1 − ‖y − ŷ‖/‖y − ȳ‖), y measured, ŷ simulated: 100 is perfect, 0 no better than the mean.",
+    ),
+    (
+        "Error over noise",
+        "Root mean square of the residual in multiples of the measurement noise: 1 means nothing is left but noise.",
+    ),
+    (
+        "Euler method",
+        "The explicit Euler displacement of the original program; its accuracy is 100 (1 − mean |e| / mean |y|) %.",
+    ),
+    (
+        "95 % interval [low, high]",
+        "Would hold the true value in 95 of 100 repetitions, if the model is right.",
+    ),
+    (
+        "Standard deviation (SD)",
+        "How much single tightenings differ, not how sure their mean is.",
+    ),
+    (
+        "QS, TT",
+        "Tightening strategies Quick Step and Turbo Tight.",
+    ),
+];
+
+fn render(_: &CampaignResult) -> Markup {
+    html! {
+        dl.glossary { @for (term, meaning) in TERMS { dt { (term) } dd { (meaning) } } }
+        p.note { "Decimal points throughout; units are SI unless they stand beside the number." }
+    }
+}

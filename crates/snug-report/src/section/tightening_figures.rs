@@ -1,0 +1,285 @@
+use super::{Section, nothing};
+use crate::figure::{Axis, Bar, Figure, Mark, captioned, legend, linear_range};
+use crate::number::{rounded, short, significant};
+use crate::outcome::outcome_words;
+use crate::quantity;
+use crate::traces_json::{Example, Panel, embedded, examples, panels, residual_quantity};
+use maud::{Markup, PreEscaped, html};
+use serde_json::{Value, json};
+use snug_campaign::{CampaignResult, Quantity, TighteningResult};
+
+/// Measured and simulated signals of single tightenings.
+pub const SECTION: Section = Section {
+    anchor: "tightening-figures",
+    short_title: "Curve fits",
+    title: "Model and measurement, tightening by tightening",
+    render,
+};
+
+/// Points of a line in a still picture.
+const STILL_POINTS: usize = 400;
+
+fn render(result: &CampaignResult) -> Markup {
+    let examples = examples(result);
+    let panels = panels(result);
+    let Some(first) = examples.first() else {
+        return nothing("No signals were kept for drawing.");
+    };
+    let data = json!({
+        "panels": panels.iter().map(panel_json).collect::<Vec<_>>(),
+        "examples": examples.iter().map(|example| example_json(example, &panels, result)).collect::<Vec<_>>(),
+    });
+    html! {
+        @if examples.len() < result.tightenings.len() {
+            p { "Signals of " (examples.len()) " of " (result.tightenings.len()) " tightenings are kept here; the recording holds all." }
+        }
+        p.help.scripted {
+            "Choose a tightening; point at a curve to read values; drag across to zoom, double-click to see all again. Keys in a \
+            figure: ← → move the cursor, + − zoom, Esc shows all, n and p step through the tightenings."
+        }
+        div.viewer data-viewer="" {
+            div.chooser.scripted {
+                button type="button" data-step="-1" aria-label="previous tightening" { "‹" }
+                label { span.hidden { "tightening" }
+                    select data-choice="" {
+                        @for (number, example) in examples.iter().enumerate() {
+                            option value=(number) { (choice(&result.tightenings[example.tightening])) }
+                        }
+                    }
+                }
+                button type="button" data-step="1" aria-label="next tightening" { "›" }
+            }
+            p.current data-current="" aria-live="polite" { (heading(&result.tightenings[first.tightening])) }
+            div.figures {
+                @for panel in &panels { (still(panel, first, result)) }
+                (facts_card(first, result))
+            }
+        }
+        script type="application/json" id="viewer-data" { (PreEscaped(embedded(&data))) }
+    }
+}
+
+fn choice(tightening: &TighteningResult) -> String {
+    let mark = if tightening.selection.selected() {
+        "✓"
+    } else {
+        "✗"
+    };
+    format!("{mark} {}", tightening.id)
+}
+
+/// Name, conditions and outcome in one line.
+fn heading(tightening: &TighteningResult) -> String {
+    let conditions = &tightening.conditions;
+    let mut parts = vec![tightening.id.to_string()];
+    parts.extend(
+        [
+            &conditions.participant,
+            &conditions.strategy,
+            &conditions.joint,
+        ]
+        .into_iter()
+        .flatten()
+        .cloned(),
+    );
+    if let Some(pace) = conditions.pace_per_min {
+        parts.push(format!("{} per minute", short(pace)));
+    }
+    parts.push(format!(
+        "peak torque {} Nm",
+        significant(tightening.peak_torque_nm, 4)
+    ));
+    parts.push(outcome_words(&tightening.selection.rejections));
+    parts.join(" · ")
+}
+
+fn panel_json(panel: &Panel) -> Value {
+    let series: Vec<Value> = panel
+        .series
+        .iter()
+        .map(|series| json!({ "label": series.label, "class": series.class }))
+        .collect();
+    json!({ "title": panel.title, "axis": panel.axis, "series": series, "residual": panel.residual })
+}
+
+fn example_json(example: &Example, panels: &[Panel], result: &CampaignResult) -> Value {
+    let tightening = &result.tightenings[example.tightening];
+    let mut value = example.json(panels);
+    value["heading"] = json!(heading(tightening));
+    value["noise"] = json!(noise_band(tightening, result));
+    value["facts"] = json!(facts(tightening, result));
+    value["note"] = json!(note(example, tightening));
+    value
+}
+
+/// 1.96 standard deviations of the noise of the quantity whose residual is drawn; `None` when it is not known.
+fn noise_band(tightening: &TighteningResult, result: &CampaignResult) -> Option<f64> {
+    tightening
+        .noise
+        .as_ref()
+        .filter(|noise| noise.quantity == residual_quantity(result))
+        .map(|noise| 1.96 * noise.standard_deviation)
+        .filter(|band| band.is_finite())
+}
+
+/// Where the window begins and how large the noise is.
+fn note(example: &Example, tightening: &TighteningResult) -> String {
+    let mut text = format!(
+        "The window begins {} s after the segment's start.",
+        significant(example.start_s(), 4)
+    );
+    if let Some(noise) = &tightening.noise {
+        text += &format!(
+            " Noise of the fitted output: standard deviation {} {}.",
+            significant(noise.standard_deviation, 3),
+            unit(noise.quantity)
+        );
+    }
+    text
+}
+
+/// A panel without JavaScript: the first example, all of it.
+fn still(panel: &Panel, example: &Example, result: &CampaignResult) -> Markup {
+    let example = example.coarser(STILL_POINTS);
+    let times: Vec<f64> = example.times().collect();
+    let lines: Vec<(&'static str, Vec<Option<f64>>)> = panel
+        .series
+        .iter()
+        .filter_map(|series| Some((series.class, example.values(series)?)))
+        .collect();
+    let band =
+        noise_band(&result.tightenings[example.tightening], result).filter(|_| panel.residual);
+    let values = lines
+        .iter()
+        .flat_map(|(_, line)| line.iter().flatten().copied());
+    let (low, high) = linear_range(values.chain(band.iter().flat_map(|b| [-b, *b])), 0.05);
+    let end = times.last().copied().unwrap_or(1.0);
+    let mut marks = Vec::new();
+    if let Some(band) = band {
+        marks.push(Mark::Bars {
+            class: "c-band",
+            bars: vec![Bar {
+                x: (0.0, end),
+                y: (-band, band),
+                title: String::new(),
+            }],
+        });
+    }
+    marks.extend(lines.into_iter().map(|(class, line)| {
+        Mark::Line {
+            class,
+            points: times
+                .iter()
+                .zip(line)
+                .map(|(time, value)| value.map(|value| (*time, value)))
+                .collect(),
+        }
+    }));
+    let figure = Figure {
+        description: format!(
+            "{} of {}",
+            panel.title, result.tightenings[example.tightening].id
+        ),
+        width: 520.0,
+        height: 260.0,
+        x: Axis::linear(
+            format!("time since the window's start [{}]", example.time_unit().0),
+            0.0,
+            end,
+            6,
+        ),
+        y: Axis::linear(panel.axis, low, high, 5),
+        marks,
+    };
+    let mut entries: Vec<(&str, &str)> = panel
+        .series
+        .iter()
+        .map(|series| (series.class, series.label))
+        .collect();
+    if band.is_some() {
+        entries.push(("c-band", "95 % of the noise"));
+    }
+    captioned(
+        panel.title,
+        html! { div data-panel="" { (figure.svg()) (legend(&entries)) } },
+        None,
+    )
+}
+
+/// What was found out about one tightening: name, value with unit, interval.
+fn facts(tightening: &TighteningResult, result: &CampaignResult) -> Vec<[String; 3]> {
+    let mut facts = Vec::new();
+    for parameter in tightening
+        .estimate
+        .iter()
+        .flat_map(|estimate| &estimate.parameters)
+    {
+        let name = quantity::name(&parameter.name, result);
+        let shown = rounded(parameter.value, parameter.interval);
+        let interval = match shown.interval {
+            Some(interval) => interval,
+            None if parameter.fixed => "held fixed".into(),
+            None => "no interval".into(),
+        };
+        facts.push([
+            format!("{} {}", name.words, name.symbol).trim_end().into(),
+            format!("{} {}", shown.value, name.unit),
+            interval,
+        ]);
+    }
+    let measures = &tightening.measures;
+    for (name, value, unit) in [
+        ("natural frequency fₙ", measures.natural_frequency_hz, "Hz"),
+        (
+            "damped frequency with the tool",
+            measures.damped_frequency_hz,
+            "Hz",
+        ),
+        ("damping ratio ζ with the tool", measures.damping_ratio, ""),
+        ("fit of the displacement", measures.fit_percent, "%"),
+        (
+            "fit of the fitted output",
+            measures.fit_percent_fitted_output,
+            "%",
+        ),
+        ("error over noise", measures.error_over_noise, ""),
+        (
+            "accuracy of the Euler method",
+            measures.euler_accuracy_percent,
+            "%",
+        ),
+        ("peak |F1|", measures.peak_force_f1_n, "N"),
+        ("peak |F2|", measures.peak_force_f2_n, "N"),
+        ("peak |F3|", measures.peak_force_f3_n, "N"),
+        ("peak |F_op_J|", measures.peak_grip_force_n, "N"),
+    ] {
+        if let Some(value) = value.filter(|value| value.is_finite()) {
+            let text = format!("{} {unit}", significant(value, 3));
+            facts.push([name.into(), text, String::new()]);
+        }
+    }
+    facts
+}
+
+fn facts_card(example: &Example, result: &CampaignResult) -> Markup {
+    let tightening = &result.tightenings[example.tightening];
+    html! {
+        figure.facts {
+            figcaption { "Estimate with 95 % intervals" }
+            table { tbody data-facts="" {
+                @for [name, value, interval] in facts(tightening, result) {
+                    tr { th scope="row" { (name) } td { (value) } td.interval { (interval) } }
+                }
+            } }
+            p.note data-note="" { (note(example, tightening)) }
+        }
+    }
+}
+
+fn unit(quantity: Quantity) -> &'static str {
+    match quantity {
+        Quantity::Displacement => "rad",
+        Quantity::Velocity => "rad/s",
+        Quantity::Acceleration => "rad/s²",
+    }
+}

@@ -1,0 +1,122 @@
+//! `statistics.json`: both presets, means and spreads per condition, and tests.
+
+use crate::number::share;
+use crate::quantity;
+use serde::Serialize;
+use snug_campaign::{
+    CampaignResult, ConditionSummary, Interval, Moments, PresetSummary, Rejection, TestRow,
+};
+
+#[derive(Serialize)]
+struct Statistics<'a> {
+    format: u32,
+    title: &'a str,
+    preset: &'a str,
+    fitted_output: &'a str,
+    effects: &'a [String],
+    presets: Vec<Preset<'a>>,
+    conditions: Vec<Condition<'a>>,
+    tests: &'a [TestRow],
+}
+
+#[derive(Serialize)]
+struct Preset<'a> {
+    preset: &'a str,
+    tightenings: usize,
+    selected: usize,
+    selected_share: Option<f64>,
+    rejections: &'a [snug_campaign::RejectionCount],
+    outcomes: Vec<Outcome<'a>>,
+}
+
+#[derive(Serialize)]
+struct Outcome<'a> {
+    file: &'a str,
+    tightening: u32,
+    selected: bool,
+    rejections: &'a [Rejection],
+}
+
+#[derive(Serialize)]
+struct Condition<'a> {
+    factor: &'a str,
+    level: &'a str,
+    tightenings: usize,
+    selected: usize,
+    selected_share: Option<f64>,
+    selected_share_interval: Option<Interval>,
+    quantities: Vec<Quantity<'a>>,
+}
+
+#[derive(Serialize)]
+struct Quantity<'a> {
+    quantity: &'a str,
+    unit: String,
+    selected: &'a Option<Moments>,
+    rejected: &'a Option<Moments>,
+}
+
+/// Both presets side by side (counts, reasons, every outcome), per condition the counts, selected share and moments of
+/// each quantity over selected and rejected tightenings, and every test. `format` is 1; intervals are 95 %; what is not
+/// finite is `null`.
+pub fn statistics_json(result: &CampaignResult) -> String {
+    let statistics = Statistics {
+        format: 1,
+        title: &result.title,
+        preset: &result.preset,
+        fitted_output: &result.fitted_output,
+        effects: &result.effects,
+        presets: result.presets.iter().map(preset).collect(),
+        conditions: result
+            .conditions
+            .iter()
+            .map(|summary| condition(summary, result))
+            .collect(),
+        tests: &result.tests,
+    };
+    let mut text =
+        serde_json::to_string_pretty(&statistics).expect("plain structs with text keys serialise");
+    text.push('\n');
+    text
+}
+
+fn preset(summary: &PresetSummary) -> Preset<'_> {
+    Preset {
+        preset: &summary.preset,
+        tightenings: summary.tightenings,
+        selected: summary.selected,
+        selected_share: share(summary.selected, summary.tightenings),
+        rejections: &summary.rejections,
+        outcomes: summary
+            .outcomes
+            .iter()
+            .map(|(id, rejections)| Outcome {
+                file: &id.file,
+                tightening: id.number,
+                selected: rejections.is_empty(),
+                rejections,
+            })
+            .collect(),
+    }
+}
+
+fn condition<'a>(summary: &'a ConditionSummary, result: &CampaignResult) -> Condition<'a> {
+    Condition {
+        factor: &summary.factor,
+        level: &summary.level,
+        tightenings: summary.tightenings,
+        selected: summary.selected,
+        selected_share: share(summary.selected, summary.tightenings),
+        selected_share_interval: summary.selected_share_interval,
+        quantities: summary
+            .quantities
+            .iter()
+            .map(|row| Quantity {
+                quantity: &row.quantity,
+                unit: quantity::name(&row.quantity, result).unit,
+                selected: &row.selected,
+                rejected: &row.rejected,
+            })
+            .collect(),
+    }
+}

@@ -1,0 +1,289 @@
+//! The page as its readers and their browsers get it.
+#![allow(clippy::unwrap_used, missing_docs)]
+
+mod markup;
+mod specimen;
+
+use snug_campaign::{CampaignResult, Finding, Rejection, Severity};
+use snug_report::html;
+
+/// Text of the page outside scripts and styles, tags taken out.
+fn text(page: &str) -> String {
+    let mut text = String::new();
+    let mut rest = page;
+    while let Some(start) = rest.find('<') {
+        text.push_str(&rest[..start]);
+        rest = &rest[start..];
+        let end = ["script", "style"]
+            .iter()
+            .find(|name| rest[1..].starts_with(**name))
+            .map_or(">".to_string(), |name| format!("</{name}>"));
+        rest = &rest[rest.find(&end).unwrap() + end.len()..];
+        text.push(' ');
+    }
+    text + rest
+}
+
+#[test]
+fn every_element_is_closed_and_every_section_is_there() {
+    for result in [
+        specimen::campaign(24),
+        specimen::campaign(1),
+        specimen::empty(),
+    ] {
+        let page = html(&result);
+        let tags = markup::start_tags(&page).unwrap();
+        let sections = tags.iter().filter(|tag| tag.name == "section").count();
+        assert_eq!(sections, 14);
+    }
+}
+
+#[test]
+fn nothing_is_asked_from_outside() {
+    let page = html(&specimen::campaign(24));
+    for tag in markup::start_tags(&page).unwrap() {
+        for (name, allowed) in [("href=\"", &["#", "data:,"][..]), ("src=\"", &[])] {
+            for (at, _) in tag.attributes.match_indices(name) {
+                let value = &tag.attributes[at + name.len()..];
+                assert!(
+                    allowed.iter().any(|start| value.starts_with(start)),
+                    "{} {}",
+                    tag.name,
+                    tag.attributes
+                );
+            }
+        }
+    }
+    // The one address in the page is the name of the SVG vocabulary, which is never fetched.
+    let without_vocabulary = page.replace("http://www.w3.org/2000/svg", "");
+    for way_out in [
+        "http://",
+        "https://",
+        "@import",
+        "fetch(",
+        "XMLHttpRequest",
+        "url(h",
+    ] {
+        assert!(!without_vocabulary.contains(way_out), "{way_out}");
+    }
+}
+
+#[test]
+fn hostile_names_stay_text() {
+    let attack = "\"><script>alert(1)</script><img src=x onerror='1'>&amp;</title></style>";
+    let mut result = specimen::campaign(4);
+    let harmless = markup::start_tags(&html(&result)).unwrap().len();
+    result.title = attack.into();
+    result.study_ron = attack.into();
+    result.preset = attack.into();
+    result.fitted_output = attack.into();
+    result.effects = vec![attack.into()];
+    for tightening in &mut result.tightenings {
+        tightening.id.file = attack.into();
+        tightening.conditions.participant = Some(attack.into());
+        for correction in &mut tightening.corrections {
+            correction.effect = attack.into();
+            correction.unit = attack.into();
+        }
+        if let Some(estimate) = &mut tightening.estimate {
+            estimate.parameters[3].name = attack.into();
+            estimate.parameters[3].unit = attack.into();
+            estimate.active_constraints = vec![];
+        }
+    }
+    for finding in &mut result.findings {
+        finding.message = attack.into();
+        finding.channel = Some(attack.into());
+        finding.code = attack.into();
+    }
+    for row in &mut result.tests {
+        row.method = attack.into();
+        row.note = Some(attack.into());
+    }
+    let page = html(&result);
+    let tags = markup::start_tags(&page).unwrap();
+    assert!(tags.len() < 2 * harmless);
+    assert!(tags.iter().all(|tag| tag.name != "img"));
+    let scripts = |page: &str| page.matches("<script").count();
+    assert_eq!(scripts(&page), 2, "the data and the page's own");
+    assert!(text(&page).contains("&lt;script&gt;alert(1)"));
+}
+
+#[test]
+fn the_headline_says_how_many_and_how_well() {
+    let result = specimen::campaign(24);
+    let words = text(&html(&result));
+    assert!(
+        words.contains("20 of 24 tightenings (83.3 %) are usable"),
+        "headline"
+    );
+    assert!(words.contains("plus cubic stiffness"), "model");
+    assert!(
+        words.contains("24 tightenings in 12 files, by 6 participants"),
+        "measured"
+    );
+}
+
+#[test]
+fn validation_windows_are_not_counted_as_failures() {
+    let mut result = specimen::campaign(4);
+    for index in [1, 2, 3] {
+        result.tightenings[index].selection.rejections = vec![Rejection::Validation];
+    }
+    let words = text(&html(&result));
+    assert!(words.contains("1 of 1 tightening (100.0 %)"));
+    assert!(words.contains("3 were kept for validation"));
+}
+
+#[test]
+fn axes_and_columns_carry_units() {
+    let words = text(&html(&specimen::campaign(24)));
+    for label in [
+        "mass m [kg]",
+        "damping c [kg/s]",
+        "stiffness k [N/m]",
+        "natural frequency fₙ [Hz]",
+        "k3 [N/m³]",
+        "angle θ [rad]",
+        "acceleration α [rad/s²]",
+        "force [N]",
+        "joint torque T [Nm]",
+        "actual peak torque [Nm]",
+        "acceleration bias [rad/s²]",
+        "fit [%]",
+    ] {
+        assert!(words.contains(label), "{label}");
+    }
+}
+
+#[test]
+fn small_p_values_are_not_zero_and_untestable_ones_say_why() {
+    let page = html(&specimen::campaign(24));
+    assert!(text(&page).contains("&lt; 0.001"));
+    assert!(page.contains("title=\"each participant has one pace only\""));
+}
+
+fn spoiled() -> CampaignResult {
+    let mut result = specimen::campaign(4);
+    result.findings.clear();
+    for tightening in &mut result.tightenings {
+        tightening.peak_torque_nm = f64::NAN;
+        tightening.target_torque_nm = f64::INFINITY;
+        tightening.measures.fit_percent = Some(f64::NAN);
+        tightening.measures.error_over_noise = Some(f64::NEG_INFINITY);
+        tightening.conditions.pace_per_min = Some(f64::NAN);
+        tightening.corrections[0].value = f64::NAN;
+        for parameter in tightening
+            .estimate
+            .iter_mut()
+            .flat_map(|e| &mut e.parameters)
+        {
+            parameter.value = f64::NAN;
+            if let Some(interval) = &mut parameter.interval {
+                interval.low = f64::NEG_INFINITY;
+                interval.high = f64::NAN;
+            }
+        }
+        if let Some(estimate) = &mut tightening.estimate {
+            estimate.identifiability.condition = f64::INFINITY;
+            estimate.identifiability.strongest_correlation =
+                Some(("mass_kg".into(), "stiffness_n_per_m".into(), f64::NAN));
+        }
+        if let Some(noise) = &mut tightening.noise {
+            noise.standard_deviation = f64::NAN;
+        }
+    }
+    for (_, traces) in &mut result.examples {
+        traces.torque_nm.fill(f64::NAN);
+        traces.force_f1_n[7] = f64::INFINITY;
+        traces.force_f2_n.truncate(10);
+        traces.force_f3_n.clear();
+    }
+    for row in result.conditions.iter_mut().flat_map(|c| &mut c.quantities) {
+        if let Some(moments) = &mut row.selected {
+            moments.mean = f64::NAN;
+            moments.standard_deviation = Some(f64::INFINITY);
+            moments.mean_interval = None;
+        }
+    }
+    for row in &mut result.tests {
+        row.p = Some(f64::NAN);
+        row.statistic = Some(f64::INFINITY);
+    }
+    result
+}
+
+#[test]
+fn what_is_not_finite_never_reaches_the_reader() {
+    let page = html(&spoiled());
+    markup::start_tags(&page).unwrap();
+    let words = text(&page);
+    for word in ["NaN", "inf ", "inf]", "inf,", "∞"] {
+        assert!(!words.contains(word), "{word}");
+    }
+    for tag in markup::start_tags(&page).unwrap() {
+        assert!(
+            !tag.attributes.contains("NaN"),
+            "{} {}",
+            tag.name,
+            tag.attributes
+        );
+        assert!(
+            !tag.attributes.contains("\"inf"),
+            "{} {}",
+            tag.name,
+            tag.attributes
+        );
+    }
+}
+
+#[test]
+fn the_data_of_the_viewer_are_the_measured_samples() {
+    let result = specimen::campaign(2);
+    let page = html(&result);
+    let start = page.find("id=\"viewer-data\">").unwrap() + "id=\"viewer-data\">".len();
+    let end = start + page[start..].find("</script>").unwrap();
+    let data: serde_json::Value = serde_json::from_str(&page[start..end]).unwrap();
+    let example = &data["examples"][1];
+    let panel = data["panels"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .position(|panel| panel["title"] == "Torque pulse")
+        .unwrap();
+    let drawn = example["signals"][panel][0].as_array().unwrap();
+    let mut sample = 0;
+    for (step, value) in example["steps"].as_array().unwrap().iter().zip(drawn) {
+        sample += step.as_u64().unwrap() as usize;
+        let measured = result.examples[1].1.torque_nm[sample];
+        assert!((value.as_f64().unwrap() - measured).abs() <= 5e-6 * measured.abs());
+    }
+    assert_eq!(sample, 2999, "the last sample is drawn");
+}
+
+#[test]
+fn a_page_of_24_tightenings_stays_below_3_megabytes() {
+    let size = html(&specimen::campaign(24)).len();
+    assert!(size < 3_000_000, "{size} bytes");
+}
+
+#[test]
+fn the_same_result_gives_the_same_bytes() {
+    assert_eq!(html(&specimen::campaign(24)), html(&specimen::campaign(24)));
+}
+
+#[test]
+fn an_empty_campaign_says_so_and_keeps_its_findings() {
+    let mut result = specimen::empty();
+    result.findings = vec![Finding {
+        severity: Severity::LeftOut,
+        code: "missing_channel".into(),
+        file: "a.mat".into(),
+        tightening: None,
+        channel: Some("Inline_Torque".into()),
+        message: "no torque channel; the file was left out".into(),
+    }];
+    let words = text(&html(&result));
+    assert!(words.contains("No tightening was found"));
+    assert!(words.contains("no torque channel; the file was left out"));
+}
