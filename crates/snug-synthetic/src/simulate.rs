@@ -1,0 +1,184 @@
+use crate::effects::{Law, MeasurementLaw};
+use crate::fault::Fault;
+use crate::file::SyntheticFile;
+use crate::random::Stream;
+use crate::sensing::{Channels, sense};
+use crate::truth::{TighteningTruth, Truth};
+use crate::{CampaignPlan, FilePlan, HandArm, NoiseKind, Plant, Pulse, Strategy, SyntheticError};
+use crate::{SyntheticCampaign, Trajectory};
+use std::collections::BTreeMap;
+
+/// Samples of rest before the window that are integrated as well, so that nothing starts by surprise.
+const REST_SAMPLES: usize = 200;
+
+/// Simulates a campaign: the same plan and seed give the same bits.
+///
+/// Every tightening draws from streams of its own, so that a plan with one file more, another effect or no noise
+/// keeps everything else as it was.
+///
+/// # Errors
+/// A plan that cannot be simulated, see [`SyntheticError`].
+pub fn simulate(plan: &CampaignPlan, seed: u64) -> Result<SyntheticCampaign, SyntheticError> {
+    plan.check()?;
+    let mut files = Vec::with_capacity(plan.files.len());
+    let mut tightenings = Vec::new();
+    for (number, file_plan) in plan.files.iter().enumerate() {
+        let mut file = SyntheticFile::empty(plan, file_plan, number);
+        for index in 0..file_plan.tightenings {
+            let (channels, truth) = Bench { plan, seed }.tightening(number, file_plan, index)?;
+            file.append(channels, plan);
+            tightenings.push(truth);
+        }
+        files.push(file);
+    }
+    let hides = !plan.effects.is_empty();
+    let sensors = &plan.sensors;
+    let truth = Truth {
+        effects: if hides {
+            plan.effects.iter().map(|e| e.name().into()).collect()
+        } else {
+            vec!["none".into()]
+        },
+        strength: plan.strength,
+        seed,
+        noise: match sensors.noise {
+            NoiseKind::White => "white".into(),
+            NoiseKind::Coloured => "coloured".into(),
+        },
+        nuisance: sensors.bias_sd_rad_per_s2 > 0.0 || sensors.vibration_rad_per_s2 > 0.0,
+        tightenings,
+    };
+    Ok(SyntheticCampaign { files, truth })
+}
+
+/// Where tightenings are made: the plan and the seed.
+struct Bench<'a> {
+    plan: &'a CampaignPlan,
+    seed: u64,
+}
+
+impl Bench<'_> {
+    fn tightening(
+        &self,
+        number: usize,
+        file: &FilePlan,
+        index: usize,
+    ) -> Result<(Channels, TighteningTruth), SyntheticError> {
+        let plan = self.plan;
+        let fault = self.fault(number, index);
+        let place = Stream::Tightening {
+            file: number,
+            index,
+        };
+        let mut rng = place.rng(self.seed);
+        let around = self.person(file)?;
+        let known_inertia = file.known_inertia_kg_m2();
+        let arm = plan
+            .population
+            .tightening(around, plan.lever_arm_m, known_inertia, &mut rng)?;
+        let pulse = Pulse::drawn(file, &mut rng);
+        let (laws, used) = self.laws(number, index);
+        let plant = Plant {
+            lever_arm_m: plan.lever_arm_m * (1.0 + lever_arm_error(&laws)),
+            known_inertia_kg_m2: known_inertia,
+            hand_arm: tired(arm, &laws, index),
+            pulses: fault.map_or_else(|| vec![pulse], |fault| fault.pulses(pulse)),
+            laws: if fault == Some(Fault::NoPulse) {
+                Vec::new()
+            } else {
+                laws
+            },
+        };
+        let (trajectory, window) = self.trajectory(&plant);
+        let mut channels = sense(plan, &plant, &trajectory, window, self.seed, number, index);
+        if let Some(fault) = fault {
+            channels.spoil(fault, window, plan);
+        }
+        if file.strategy == Strategy::TurboTight {
+            channels.grip_force_n = None;
+        }
+        let truth = TighteningTruth {
+            file: file.label(),
+            index,
+            m: plant.hand_arm.mass_kg,
+            c: plant.hand_arm.damping_kg_per_s,
+            k: plant.hand_arm.stiffness_n_per_m,
+            target: pulse.peak_nm,
+            used,
+            bias: channels.bias_rad_per_s2,
+            peak_rad: trajectory.peak_rad(),
+            fault: fault.map(|fault| fault.name().into()),
+        };
+        Ok((channels, truth))
+    }
+
+    fn fault(&self, file: usize, tightening: usize) -> Option<Fault> {
+        let here = |planned: &&crate::PlannedFault| {
+            planned.file == file && planned.tightening == tightening
+        };
+        self.plan.faults.iter().find(here).map(|found| found.fault)
+    }
+
+    /// The participant's own hand–arm under this file's conditions.
+    fn person(&self, file: &FilePlan) -> Result<HandArm, SyntheticError> {
+        let population = &self.plan.population;
+        // Judged with the smaller inertia, which damps most: the person then suits both strategies.
+        let person = population.person(file.participant, self.plan.lever_arm_m, 0.15, self.seed)?;
+        Ok(population.under(
+            person,
+            file.strategy == Strategy::TurboTight,
+            file.joint == crate::Joint::Hard,
+            file.pace_per_min >= 8,
+        ))
+    }
+
+    fn laws(&self, file: usize, index: usize) -> (Vec<Law>, BTreeMap<String, Vec<f64>>) {
+        let mut rng = Stream::Effect { file, index }.rng(self.seed);
+        let mut laws = Vec::new();
+        let mut used = BTreeMap::new();
+        for &effect in &self.plan.effects {
+            if let Some(law) = effect.law(self.plan.strength, &mut rng) {
+                used.insert(effect.name().to_owned(), law.values());
+                laws.push(law);
+            }
+        }
+        if used.is_empty() {
+            used.insert("none".to_owned(), Vec::new());
+        }
+        (laws, used)
+    }
+
+    /// The true motion, and the index of the window's first sample in the whole segment.
+    fn trajectory(&self, plant: &Plant) -> (Trajectory, usize) {
+        let interval_s = 1.0 / self.plan.sample_rate_hz;
+        let window = (self.plan.quiet_s * self.plan.sample_rate_hz).round() as usize;
+        let rest = REST_SAMPLES.min(window);
+        let samples = self.plan.segment_samples() - window + rest;
+        let first_s = -(rest as f64) * interval_s;
+        (Trajectory::of(plant, first_s, interval_s, samples), window)
+    }
+}
+
+fn lever_arm_error(laws: &[Law]) -> f64 {
+    laws.iter()
+        .find_map(|law| match law {
+            Law::Measurement(MeasurementLaw::LeverArmError { error_ratio }) => Some(*error_ratio),
+            _ => None,
+        })
+        .unwrap_or(0.0)
+}
+
+/// `arm` after `index` tightenings.
+fn tired(arm: HandArm, laws: &[Law], index: usize) -> HandArm {
+    laws.iter().fold(arm, |arm, law| match law {
+        Law::Trend(trend) => {
+            let [mass, damping, stiffness] = trend.ratios(index);
+            HandArm {
+                mass_kg: arm.mass_kg * mass,
+                damping_kg_per_s: arm.damping_kg_per_s * damping,
+                stiffness_n_per_m: arm.stiffness_n_per_m * stiffness,
+            }
+        }
+        _ => arm,
+    })
+}
