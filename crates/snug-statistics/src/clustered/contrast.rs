@@ -1,0 +1,114 @@
+use faer::Mat;
+use serde::Serialize;
+
+use super::Design;
+use super::orthonormal::Orthonormal;
+use super::spectrum::Spectrum;
+use crate::distributions::{student_t_quantile, student_t_two_sided};
+use crate::sample::{check_confidence, check_finite, check_lengths};
+use crate::{Interval, Result, StatisticsError, TestResult};
+
+/// Approximate degrees of freedom below this mean that the data hold no test of the contrast.
+pub(super) const LEAST_FREEDOM: f64 = 0.1;
+
+/// Estimate of a linear combination `l'β` of coefficients.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ContrastEstimate {
+    /// Name of the coefficient, or empty for a combination.
+    pub name: String,
+    /// `l'β`.
+    pub estimate: f64,
+    /// Its standard error.
+    pub standard_error: f64,
+    /// Its t interval.
+    pub interval: Interval,
+    /// t test of `l'β = 0`.
+    pub test: TestResult,
+}
+
+/// t test and interval once standard error and degrees of freedom are known.
+pub(super) fn t_contrast(
+    method: &'static str,
+    name: &str,
+    (estimate, standard_error): (f64, f64),
+    df: f64,
+    confidence: f64,
+) -> Result<ContrastEstimate> {
+    check_confidence(confidence)?;
+    let t = estimate / standard_error;
+    let reach = student_t_quantile(0.5 + 0.5 * confidence, df) * standard_error;
+    Ok(ContrastEstimate {
+        name: name.to_owned(),
+        estimate,
+        standard_error,
+        interval: Interval {
+            low: estimate - reach,
+            high: estimate + reach,
+            confidence,
+        },
+        test: TestResult {
+            method,
+            statistic_name: "t",
+            statistic: t,
+            degrees_of_freedom: vec![df],
+            p: student_t_two_sided(t, df),
+        },
+    })
+}
+
+/// Contrasts in the orthonormal basis, as columns (coefficients × contrasts).
+///
+/// # Errors
+/// [`StatisticsError::LengthMismatch`], [`StatisticsError::NotFinite`], and
+/// [`StatisticsError::DependentContrasts`] when there is none or one is zero.
+pub(super) fn in_basis(
+    design: &Design,
+    basis: &Orthonormal,
+    contrasts: &[Vec<f64>],
+    clusters: usize,
+) -> Result<Mat<f64>> {
+    let coefficients = design.names().len();
+    let zero = contrasts
+        .iter()
+        .any(|row| row.iter().all(|weight| *weight == 0.0));
+    if contrasts.is_empty() || zero {
+        return Err(StatisticsError::DependentContrasts {
+            contrasts: contrasts.len(),
+            clusters,
+        });
+    }
+    let mut columns = Vec::with_capacity(contrasts.len());
+    for row in contrasts {
+        check_lengths(("coefficients", coefficients), ("contrast", row.len()))?;
+        check_finite("contrast", row)?;
+        columns.push(basis.contrast(row));
+    }
+    Ok(Mat::from_fn(
+        coefficients,
+        contrasts.len(),
+        |row, column| columns[column][row],
+    ))
+}
+
+/// Inverse of a covariance of contrasts, factored so that the contrasts' units do not matter;
+/// `None` when it is singular.
+pub(super) fn inverse(covariance: &Mat<f64>) -> Option<Mat<f64>> {
+    const SINGULAR: f64 = 1e-10;
+    let size = covariance.nrows();
+    let scales: Vec<f64> = (0..size)
+        .map(|index| covariance[(index, index)].sqrt())
+        .collect();
+    if !scales.iter().all(|scale| *scale > 0.0) {
+        return None;
+    }
+    let correlation = Mat::from_fn(size, size, |row, column| {
+        covariance[(row, column)] / scales[row] / scales[column]
+    });
+    let spectrum = Spectrum::of(&correlation);
+    let inverse = spectrum.map(f64::recip);
+    (spectrum.values[0] >= SINGULAR).then(|| {
+        Mat::from_fn(size, size, |row, column| {
+            inverse[(row, column)] / scales[row] / scales[column]
+        })
+    })
+}

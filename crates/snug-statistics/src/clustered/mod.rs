@@ -1,0 +1,24 @@
+//! Tests for rows that come in clusters (repeats of one participant) and are not independent.
+//!
+//! Which one: [`fit_random_intercept`] when clusters differ in level only; [`fit_cluster_robust`]
+//! when they may also differ in how they respond, or in spread; [`permutation_test`] and
+//! [`sign_flip_test`] when nothing is to be presumed about the distribution. With few clusters
+//! the first is the most powerful and trusts its model most.
+
+mod arrangements;
+mod cluster_robust;
+mod contrast;
+mod design;
+mod mixed_model;
+mod orthonormal;
+mod partition;
+mod permutation;
+mod sign_flip;
+mod spectrum;
+
+pub use cluster_robust::{ClusterRobustFit, fit_cluster_robust};
+pub use contrast::ContrastEstimate;
+pub use design::Design;
+pub use mixed_model::{DenominatorFreedom, RandomInterceptFit, fit_random_intercept};
+pub use permutation::{PermutationSettings, PermutationTest, Scheme, permutation_test};
+pub use sign_flip::sign_flip_test;

@@ -1,0 +1,220 @@
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use serde::{Deserialize, Serialize};
+
+use super::arrangements::{Block, between_labels, run};
+use super::partition::Partition;
+use crate::descriptive::Moments;
+use crate::sample::{check_lengths, check_sample, is_constant};
+use crate::{DoubleDouble, Result, StatisticsError, TestResult};
+
+const METHOD: &str = "cluster-wise permutation test";
+
+/// A permuted statistic this little (relative to the total) below the observed one equals it.
+const TIE: f64 = 1e-12;
+
+/// What is exchanged in [`permutation_test`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Scheme {
+    /// Within clusters when any cluster holds more than one label, else between clusters.
+    #[default]
+    Automatic,
+    /// Labels are exchanged among the rows of each cluster.
+    WithinClusters,
+    /// Labels are exchanged among whole clusters.
+    BetweenClusters,
+}
+
+/// Settings of [`permutation_test`] and [`super::sign_flip_test`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct PermutationSettings {
+    /// What is exchanged. Default: automatic.
+    pub scheme: Scheme,
+    /// Random arrangements when there are too many to try all. Default: 9999.
+    pub permutations: usize,
+    /// Up to this many arrangements, all of them are tried instead. Default: 20000.
+    pub exact_limit: usize,
+    /// Seed of the random arrangements. Default: 1.
+    pub seed: u64,
+}
+
+impl Default for PermutationSettings {
+    fn default() -> Self {
+        Self {
+            scheme: Scheme::Automatic,
+            permutations: 9999,
+            exact_limit: 20_000,
+            seed: 1,
+        }
+    }
+}
+
+impl PermutationSettings {
+    /// The generator of the random arrangements.
+    pub(super) fn generator(&self) -> ChaCha8Rng {
+        ChaCha8Rng::seed_from_u64(self.seed)
+    }
+
+    pub(super) fn check(&self) -> Result<()> {
+        if self.permutations == 0 {
+            return Err(StatisticsError::OutOfRange {
+                argument: "permutations",
+                value: 0.0,
+                allowed: "at least 1",
+            });
+        }
+        Ok(())
+    }
+}
+
+/// Result of a permutation test.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PermutationTest {
+    /// Statistic and p; no degrees of freedom.
+    pub test: TestResult,
+    /// What was exchanged (never `automatic`).
+    pub scheme: Scheme,
+    /// Arrangements tried, beside the observed one when random.
+    pub arrangements: usize,
+    /// Whether all arrangements were tried.
+    pub exact: bool,
+}
+
+/// Permutation test that labels have no effect on the response, for rows in clusters.
+///
+/// `label` and `cluster` hold an id per row. Within clusters, the response is centred in each
+/// cluster and labels are exchanged among its rows: valid when rows of a cluster are
+/// exchangeable if labels do nothing. Between clusters, each cluster counts once with its mean,
+/// and labels are exchanged among clusters. The statistic is η², the share of those
+/// values' sum of squares between the labels, which orders arrangements as F does. `p` is the
+/// share of all arrangements with an η² at least as large, or
+/// `(1 + count)/(1 + permutations)` with random ones. Same seed, same bits.
+///
+/// # Errors
+/// [`StatisticsError::LengthMismatch`]; [`StatisticsError::TooFew`];
+/// [`StatisticsError::NotFinite`]; [`StatisticsError::TooFewGroups`] below two labels;
+/// [`StatisticsError::SingleArrangement`]; [`StatisticsError::ZeroVariance`];
+/// [`StatisticsError::OutOfRange`] without permutations, or for the scheme `BetweenClusters`
+/// when a cluster holds two labels.
+pub fn permutation_test(
+    response: &[f64],
+    label: &[usize],
+    cluster: &[usize],
+    settings: &PermutationSettings,
+) -> Result<PermutationTest> {
+    settings.check()?;
+    check_lengths(("response", response.len()), ("label", label.len()))?;
+    check_lengths(("response", response.len()), ("cluster", cluster.len()))?;
+    check_sample("response", response, METHOD, 2)?;
+    let labels = labels(label)?;
+    let clusters = Partition::of(cluster);
+    let mixed = clusters.index.iter().zip(&labels.index).any({
+        let mut first = vec![None; clusters.count()];
+        move |(cluster, label)| *first[*cluster].get_or_insert(*label) != *label
+    });
+    let (scheme, mut blocks) = match (settings.scheme, mixed) {
+        (Scheme::BetweenClusters, true) => {
+            return Err(StatisticsError::OutOfRange {
+                argument: "scheme",
+                value: clusters.count() as f64,
+                allowed: "between clusters only when each cluster holds one label",
+            });
+        }
+        (Scheme::Automatic, true) | (Scheme::WithinClusters, _) => (
+            Scheme::WithinClusters,
+            blocks_within(response, &labels, &clusters),
+        ),
+        (Scheme::Automatic | Scheme::BetweenClusters, false) => (
+            Scheme::BetweenClusters,
+            vec![block_between(response, &labels, &clusters)],
+        ),
+    };
+    let spread: f64 = blocks
+        .iter()
+        .map(|b| b.values.iter().map(|v| v * v).sum::<f64>())
+        .sum();
+    if spread == 0.0 {
+        return Err(StatisticsError::ZeroVariance {
+            sample: "response".into(),
+            method: METHOD,
+        });
+    }
+    let observed = between_labels(&blocks, labels.count());
+    let bar = observed - TIE * spread;
+    let outcome = run(&mut blocks, labels.count(), bar, settings)?;
+    Ok(PermutationTest {
+        test: TestResult {
+            method: METHOD,
+            statistic_name: "η²",
+            statistic: observed / spread,
+            degrees_of_freedom: vec![],
+            p: outcome.p(),
+        },
+        scheme,
+        arrangements: outcome.arrangements,
+        exact: outcome.exact,
+    })
+}
+
+/// Rows grouped by label, of which there must be two.
+fn labels(label: &[usize]) -> Result<Partition> {
+    let labels = Partition::of(label);
+    if labels.count() < 2 {
+        return Err(StatisticsError::TooFewGroups {
+            method: METHOD,
+            what: "labels",
+            required: 2,
+            found: labels.count(),
+        });
+    }
+    Ok(labels)
+}
+
+/// One block per cluster: its rows' deviations from the cluster's mean.
+fn blocks_within(response: &[f64], labels: &Partition, clusters: &Partition) -> Vec<Block> {
+    let mut rows = vec![Vec::new(); clusters.count()];
+    clusters
+        .index
+        .iter()
+        .enumerate()
+        .for_each(|(row, cluster)| rows[*cluster].push(row));
+    rows.iter()
+        .map(|rows| Block {
+            values: centred(&rows.iter().map(|row| response[*row]).collect::<Vec<_>>()),
+            labels: rows.iter().map(|row| labels.index[*row]).collect(),
+        })
+        .collect()
+}
+
+/// One block: the clusters' means, each with its cluster's label.
+fn block_between(response: &[f64], labels: &Partition, clusters: &Partition) -> Block {
+    let mut own = vec![0; clusters.count()];
+    clusters
+        .index
+        .iter()
+        .zip(&labels.index)
+        .for_each(|(cluster, label)| own[*cluster] = *label);
+    let offset = Moments::of(response).mean;
+    let shifted: Vec<f64> = response
+        .iter()
+        .map(|value| (DoubleDouble::from(*value) - offset).to_f64())
+        .collect();
+    Block {
+        values: centred(&clusters.means(&shifted)),
+        labels: own,
+    }
+}
+
+/// Deviations from the mean; exactly zero for values that are all the same.
+fn centred(values: &[f64]) -> Vec<f64> {
+    if is_constant(values) {
+        return vec![0.0; values.len()];
+    }
+    let mean = Moments::of(values).mean;
+    values
+        .iter()
+        .map(|value| (DoubleDouble::from(*value) - mean).to_f64())
+        .collect()
+}
