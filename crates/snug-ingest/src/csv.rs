@@ -1,0 +1,332 @@
+//! CSV files with declared columns.
+
+mod number;
+mod table;
+
+pub use number::Decimal;
+pub use table::{Delimiter, Header};
+
+use crate::finding_log::{About, FindingLog};
+use crate::range::{self, Range};
+use crate::sampling::{self, Timed};
+use crate::signal::{self, Signal, Unit};
+use crate::{ConditionPattern, IngestError, Ingested};
+use serde::{Deserialize, Serialize};
+use snug_campaign::{Conditions, Motion, Recording, Segment, TimeBase};
+use std::fmt;
+use std::path::Path;
+use table::Table;
+
+/// What a CSV file's columns are. One file is one recording.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct CsvLayout {
+    /// The columns that are read: torque and at least one motion. Default none (must be declared).
+    pub channels: Vec<CsvChannel>,
+    /// Where the samples' times come from. Default a column `time` in s.
+    pub sampling: Sampling,
+    /// What separates the columns. Default `Auto`.
+    pub delimiter: Delimiter,
+    /// How decimals are written. Default `Auto`.
+    pub decimal: Decimal,
+    /// Whether the first line names the columns. Default `Auto`.
+    pub header: Header,
+    /// Lines that start with this are passed over. Default `#`.
+    pub comment: Option<char>,
+    /// Lines before the header that are passed over. Default 0.
+    pub skip_lines: usize,
+    /// Stretches that become segments; without any the whole file is one. Default none.
+    pub ranges: Vec<Range>,
+    /// How the file's name tells the conditions; `None` (default): it does not.
+    pub conditions: Option<ConditionPattern>,
+}
+
+impl Default for CsvLayout {
+    fn default() -> Self {
+        Self {
+            channels: Vec::new(),
+            sampling: Sampling::default(),
+            delimiter: Delimiter::default(),
+            decimal: Decimal::default(),
+            header: Header::default(),
+            comment: Some('#'),
+            skip_lines: 0,
+            ranges: Vec::new(),
+            conditions: None,
+        }
+    }
+}
+
+/// One column.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CsvChannel {
+    /// Which column.
+    pub column: Column,
+    /// What it measures.
+    pub signal: Signal,
+    /// In which unit.
+    pub unit: Unit,
+    /// Factor before the unit, for gain or sign (−1: the sensor counts the other way). Default 1.
+    #[serde(default = "one")]
+    pub scale: f64,
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+/// A column by the header's name or by place.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Column {
+    /// The header's text; letter case counts only where two columns differ by it alone.
+    Name(String),
+    /// Place, counted from 0.
+    Index(usize),
+}
+
+impl fmt::Display for Column {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Name(name) => formatter.write_str(name),
+            Self::Index(index) => write!(formatter, "column {index}"),
+        }
+    }
+}
+
+/// Where the samples' times come from.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum Sampling {
+    /// The samples are equally spaced, the first at 0 s.
+    Rate {
+        /// Samples per second \[Hz\].
+        hz: f64,
+    },
+    /// A column holds the times.
+    TimeColumn {
+        /// Which column.
+        column: Column,
+        /// Its unit. Default s.
+        #[serde(default)]
+        unit: TimeUnit,
+        /// How far a sample may lie from the uniform grid, in intervals, before all are interpolated. Default 0.1.
+        #[serde(default = "default_tolerance_ratio")]
+        tolerance_ratio: f64,
+    },
+}
+
+pub(crate) fn default_tolerance_ratio() -> f64 {
+    0.1
+}
+
+impl Default for Sampling {
+    fn default() -> Self {
+        Self::TimeColumn {
+            column: Column::Name("time".to_owned()),
+            unit: TimeUnit::default(),
+            tolerance_ratio: default_tolerance_ratio(),
+        }
+    }
+}
+
+/// Unit of a time column.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum TimeUnit {
+    /// s
+    #[default]
+    Second,
+    /// ms
+    Millisecond,
+    /// µs
+    Microsecond,
+    /// ns
+    Nanosecond,
+}
+
+impl TimeUnit {
+    fn seconds(self) -> f64 {
+        match self {
+            Self::Second => 1.0,
+            Self::Millisecond => 1e-3,
+            Self::Microsecond => 1e-6,
+            Self::Nanosecond => 1e-9,
+        }
+    }
+}
+
+impl CsvLayout {
+    /// Checks the settings that no type can check.
+    ///
+    /// # Errors
+    /// [`IngestError::Setting`] naming the field.
+    pub fn check(&self) -> Result<(), IngestError> {
+        signal::check(self.channels.iter().map(|c| (c.signal, c.unit, c.scale)))?;
+        range::check(&self.ranges)?;
+        let (field, value, fits) = match &self.sampling {
+            Sampling::Rate { hz } => ("sampling.hz", *hz, hz.is_finite() && *hz > 0.0),
+            Sampling::TimeColumn {
+                tolerance_ratio, ..
+            } => (
+                "sampling.tolerance_ratio",
+                *tolerance_ratio,
+                *tolerance_ratio > 0.0,
+            ),
+        };
+        if !fits {
+            return Err(IngestError::Setting {
+                field,
+                value: value.to_string(),
+                allowed: "a positive number",
+            });
+        }
+        if let Some(comment) = self.comment.filter(|comment| !comment.is_ascii()) {
+            return Err(IngestError::Setting {
+                field: "comment",
+                value: comment.to_string(),
+                allowed: "an ASCII character",
+            });
+        }
+        Ok(())
+    }
+
+    /// The recording in a CSV file's content; `path` names it, `lever_arm_m` turns lengths of the grip into angles.
+    ///
+    /// # Errors
+    /// [`IngestError::MissingChannel`] for a column that is not there, [`IngestError::CsvSyntax`],
+    /// [`IngestError::NoRows`], [`IngestError::TimeNotRising`] and [`IngestError::TimeGap`].
+    pub fn recording(
+        &self,
+        content: &[u8],
+        path: &Path,
+        lever_arm_m: f64,
+    ) -> Result<Ingested, IngestError> {
+        if content.trim_ascii().is_empty() {
+            return Err(IngestError::EmptyFile);
+        }
+        let file = path
+            .file_name()
+            .unwrap_or_default()
+            .to_string_lossy()
+            .into_owned();
+        let label = path
+            .file_stem()
+            .unwrap_or_default()
+            .to_string_lossy()
+            .into_owned();
+        let mut log = FindingLog::new(&file);
+        let mut wanted: Vec<(String, &Column)> = self
+            .channels
+            .iter()
+            .map(|channel| {
+                (
+                    format!("{:?}", channel.signal).to_lowercase(),
+                    &channel.column,
+                )
+            })
+            .collect();
+        if let Sampling::TimeColumn { column, .. } = &self.sampling {
+            wanted.push(("time".to_owned(), column));
+        }
+        let Table { mut columns, lines } = table::read(content, self, &wanted, &mut log)?;
+        let time_base = match &self.sampling {
+            Sampling::Rate { hz } => TimeBase {
+                start_s: 0.0,
+                interval_s: 1.0 / hz,
+            },
+            Sampling::TimeColumn {
+                unit,
+                tolerance_ratio,
+                ..
+            } => {
+                let mut times_s = columns.pop().unwrap_or_default();
+                times_s.iter_mut().for_each(|time| *time *= unit.seconds());
+                let timed = Timed {
+                    times_s,
+                    channels: &mut columns,
+                    place: &|index| format!("line {}", lines[index]),
+                };
+                sampling::uniform(timed, *tolerance_ratio, &mut log)?
+            }
+        };
+        let samples = columns.first().map_or(0, Vec::len);
+        let recording = Recording {
+            conditions: self
+                .conditions
+                .as_ref()
+                .map_or_else(Conditions::default, |pattern| {
+                    pattern.read(&[label.as_str()], &mut log)
+                }),
+            segments: range::segments(&self.ranges, samples, &mut log),
+            ..assemble(
+                file,
+                label,
+                time_base,
+                self.channels
+                    .iter()
+                    .map(|c| (c.signal, c.unit, c.scale))
+                    .zip(columns),
+                lever_arm_m,
+            )
+        };
+        Ok(Ingested {
+            recordings: vec![recording],
+            findings: log.finish(),
+        })
+    }
+}
+
+/// A recording of declared channels, converted to SI units about the joint; one segment over everything.
+pub(crate) fn assemble(
+    file: String,
+    label: String,
+    time_base: TimeBase,
+    channels: impl Iterator<Item = ((Signal, Unit, f64), Vec<f64>)>,
+    lever_arm_m: f64,
+) -> Recording {
+    let mut recording = Recording {
+        file,
+        label,
+        conditions: Conditions::default(),
+        time_base,
+        torque_nm: Vec::new(),
+        motion: Motion::default(),
+        grip_force_n: None,
+        has_force_channel: false,
+        segments: Vec::new(),
+    };
+    for ((signal, unit, scale), mut samples) in channels {
+        let factor = scale * unit.factor(signal, lever_arm_m).unwrap_or(f64::NAN);
+        // Numbers that are in SI units already stay what they are, bit for bit.
+        if factor != 1.0 {
+            samples.iter_mut().for_each(|sample| *sample *= factor);
+        }
+        match signal.quantity() {
+            Some(quantity) => recording.motion.set(quantity, samples),
+            None if signal == Signal::Torque => recording.torque_nm = samples,
+            None => {
+                recording.grip_force_n = Some(samples);
+                recording.has_force_channel = true;
+            }
+        }
+    }
+    recording.segments = vec![Segment {
+        number: 1,
+        start: 0,
+        end: recording.torque_nm.len(),
+        event_times_s: None,
+    }];
+    recording
+}
+
+/// Says how many cells of a column are no numbers.
+fn report_gaps(name: &str, count: usize, rows: usize, line: u64, text: &str, log: &mut FindingLog) {
+    log.note(
+        "not_a_number",
+        About::Channel(name),
+        format!("{count} of {rows} cells are no numbers and are read as NaN (first: {text:?} in line {line})"),
+    );
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,20 @@
+#![doc = include_str!("../README.md")]
+
+mod condition_pattern;
+pub mod csv;
+mod error;
+mod finding_log;
+pub mod mat;
+pub mod mcap;
+mod range;
+mod sampling;
+mod signal;
+mod source;
+mod thesis_layout;
+
+pub use condition_pattern::{ConditionPattern, Template};
+pub use error::IngestError;
+pub use range::Range;
+pub use signal::{Signal, Unit};
+pub use source::{Format, Ingested, Listing, Source, list, read};
+pub use thesis_layout::ThesisLayout;

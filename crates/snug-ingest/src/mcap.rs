@@ -1,0 +1,102 @@
+//! MCAP: Snug's own recordings, and declared numeric channels of anybody's.
+
+#[cfg(feature = "mcap")]
+mod reading;
+
+use crate::csv::default_tolerance_ratio;
+use crate::range::{self, Range};
+use crate::signal::{self, Signal, Unit};
+use crate::{ConditionPattern, IngestError};
+use serde::{Deserialize, Serialize};
+
+/// What an MCAP file's topics are. Without channels the file is one that Snug wrote, and gives its measurements.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct McapLayout {
+    /// The numeric channels that are read: torque and at least one motion, or none for Snug's own files. Default none.
+    pub channels: Vec<McapChannel>,
+    /// Samples per second \[Hz\] where the log times do not count; `None` (default): they do.
+    pub rate_hz: Option<f64>,
+    /// How far a sample may lie from the uniform grid, in intervals, before all are interpolated. Default 0.1.
+    pub tolerance_ratio: f64,
+    /// Stretches that become segments; without any the whole file is one. Default none.
+    pub ranges: Vec<Range>,
+    /// How the file's name tells the conditions; `None` (default): it does not.
+    pub conditions: Option<ConditionPattern>,
+}
+
+impl Default for McapLayout {
+    fn default() -> Self {
+        Self {
+            channels: Vec::new(),
+            rate_hz: None,
+            tolerance_ratio: default_tolerance_ratio(),
+            ranges: Vec::new(),
+            conditions: None,
+        }
+    }
+}
+
+/// One numeric field of one topic.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct McapChannel {
+    /// Topic, for example `/tool/torque`.
+    pub topic: String,
+    /// Path of the field within the message, for example `wrench.torque.z`.
+    pub field: String,
+    /// What it measures.
+    pub signal: Signal,
+    /// In which unit.
+    pub unit: Unit,
+    /// Factor before the unit, for gain or sign. Default 1.
+    #[serde(default = "one")]
+    pub scale: f64,
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+impl McapLayout {
+    /// Checks the settings that no type can check.
+    ///
+    /// # Errors
+    /// [`IngestError::Setting`] naming the field.
+    pub fn check(&self) -> Result<(), IngestError> {
+        if !self.channels.is_empty() {
+            signal::check(self.channels.iter().map(|c| (c.signal, c.unit, c.scale)))?;
+        }
+        range::check(&self.ranges)?;
+        for (field, value) in [
+            ("rate_hz", self.rate_hz),
+            ("tolerance_ratio", Some(self.tolerance_ratio)),
+        ] {
+            if value.is_some_and(|value| !(value.is_finite() && value > 0.0)) {
+                return Err(IngestError::Setting {
+                    field,
+                    value: value.unwrap_or_default().to_string(),
+                    allowed: "a positive number",
+                });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The recordings in an MCAP file's content.
+#[cfg(feature = "mcap")]
+pub(crate) use reading::read;
+
+#[cfg(not(feature = "mcap"))]
+pub(crate) fn read(
+    _: &McapLayout,
+    _: &[u8],
+    _: &std::path::Path,
+    _: f64,
+) -> Result<crate::Ingested, IngestError> {
+    Err(IngestError::FormatNotBuilt {
+        format: "MCAP",
+        feature: "mcap",
+    })
+}

@@ -1,0 +1,174 @@
+use super::McapLayout;
+use crate::csv::assemble;
+use crate::finding_log::{About, FindingLog};
+use crate::sampling::{self, Timed, Track};
+use crate::{IngestError, Ingested, range};
+use snug_campaign::{Conditions, Recording, TimeBase};
+use snug_record::read::{Completeness, Extent, numeric_channels, recordings};
+use std::path::Path;
+
+/// The recordings in an MCAP file's content; `path` names it, `lever_arm_m` turns lengths of the grip into angles.
+///
+/// A file that ends too early, or is damaged, gives what came before, and a finding.
+///
+/// # Errors
+/// [`IngestError::Mcap`] for content that is no MCAP, [`IngestError::NoRecordings`],
+/// [`IngestError::MissingChannel`], [`IngestError::TimeNotRising`] and [`IngestError::TimeGap`].
+pub(crate) fn read(
+    layout: &McapLayout,
+    content: &[u8],
+    path: &Path,
+    lever_arm_m: f64,
+) -> Result<Ingested, IngestError> {
+    let file = path
+        .file_name()
+        .unwrap_or_default()
+        .to_string_lossy()
+        .into_owned();
+    let mut log = FindingLog::new(&file);
+    let recordings = if layout.channels.is_empty() {
+        own(content, &mut log)?
+    } else {
+        let stem = path
+            .file_stem()
+            .unwrap_or_default()
+            .to_string_lossy()
+            .into_owned();
+        vec![declared(
+            layout,
+            content,
+            file,
+            stem,
+            lever_arm_m,
+            &mut log,
+        )?]
+    };
+    Ok(Ingested {
+        recordings,
+        findings: log.finish(),
+    })
+}
+
+/// Measurements that Snug wrote.
+fn own(content: &[u8], log: &mut FindingLog) -> Result<Vec<Recording>, IngestError> {
+    let campaign = recordings(content)?;
+    report_completeness(&campaign.completeness, log);
+    if campaign.malformed_messages > 0 {
+        log.left_out(
+            "malformed_messages",
+            About::File,
+            format!(
+                "{} messages could not be understood",
+                campaign.malformed_messages
+            ),
+        );
+    }
+    if campaign.files.is_empty() {
+        let present = numeric_channels(content)?.channels;
+        return Err(IngestError::NoRecordings {
+            present: present
+                .iter()
+                .map(|c| format!("{} {}", c.topic, c.field))
+                .collect(),
+        });
+    }
+    let mut measurements = Vec::with_capacity(campaign.files.len());
+    for file in campaign.files {
+        if let Extent::Windows { stored_every } = file.extent {
+            log.note(
+                "windows_only",
+                About::File,
+                format!(
+                    "of {} the recording holds only the tightenings' windows (every {stored_every}. sample), without the \
+                     quiet part before them",
+                    file.recording.file
+                ),
+            );
+        }
+        measurements.push(file.recording);
+    }
+    Ok(measurements)
+}
+
+/// One recording of the declared channels.
+fn declared(
+    layout: &McapLayout,
+    content: &[u8],
+    file: String,
+    stem: String,
+    lever_arm_m: f64,
+    log: &mut FindingLog,
+) -> Result<Recording, IngestError> {
+    let mut read = numeric_channels(content)?;
+    report_completeness(&read.completeness, log);
+    let mut tracks = Vec::with_capacity(layout.channels.len());
+    for wanted in &layout.channels {
+        let found = read
+            .channels
+            .iter_mut()
+            .find(|channel| channel.topic == wanted.topic && channel.field == wanted.field);
+        let Some(found) = found else {
+            return Err(IngestError::MissingChannel {
+                channel: format!("{:?}", wanted.signal).to_lowercase(),
+                accepted: vec![format!("{} {}", wanted.topic, wanted.field)],
+                present: read
+                    .channels
+                    .iter()
+                    .map(|c| format!("{} {}", c.topic, c.field))
+                    .collect(),
+            });
+        };
+        tracks.push(Track {
+            times_s: found.log_time_s.clone(),
+            values: std::mem::take(&mut found.values),
+        });
+    }
+    let (time_base, channels) = match layout.rate_hz {
+        Some(hz) => {
+            let time_base = TimeBase {
+                start_s: 0.0,
+                interval_s: 1.0 / hz,
+            };
+            (time_base, sampling::cut_to_shortest(tracks, log))
+        }
+        None => {
+            let (times_s, mut channels) = sampling::align(tracks, log)?;
+            let timed = Timed {
+                times_s,
+                channels: &mut channels,
+                place: &|index| format!("sample {}", index + 1),
+            };
+            let time_base = sampling::uniform(timed, layout.tolerance_ratio, log)?;
+            (time_base, channels)
+        }
+    };
+    let samples = channels.first().map_or(0, Vec::len);
+    let conditions = layout
+        .conditions
+        .as_ref()
+        .map_or_else(Conditions::default, |pattern| {
+            pattern.read(&[stem.as_str()], log)
+        });
+    let signals = layout.channels.iter().map(|c| (c.signal, c.unit, c.scale));
+    Ok(Recording {
+        conditions,
+        segments: range::segments(&layout.ranges, samples, log),
+        ..assemble(file, stem, time_base, signals.zip(channels), lever_arm_m)
+    })
+}
+
+fn report_completeness(completeness: &Completeness, log: &mut FindingLog) {
+    let message = match completeness {
+        Completeness::Complete => return,
+        Completeness::Truncated => "the file ends early; what came before was read".to_owned(),
+        Completeness::Damaged { messages, fault } => {
+            format!(
+                "the file is damaged after {messages} messages ({fault}); what came before was read"
+            )
+        }
+        Completeness::TooLarge { messages } => {
+            format!("reading stopped after {messages} messages, at the limit for one file's values")
+        }
+    };
+    log.left_out("file_incomplete", About::File, message);
+}
