@@ -79,6 +79,8 @@ pub enum Rejection {
     AtConstraint,
     /// The identification did not reach an optimum, or the data do not determine the parameters.
     NotIdentified,
+    /// Kept for validation: simulated with the parameters of the others, not fitted.
+    Validation,
     /// The data themselves are faulty (saturation, gaps, no pulse, truncated, …): see the findings.
     DataQuality,
 }
@@ -94,6 +96,7 @@ impl Rejection {
             Self::MassNotPositive => "mass_not_positive",
             Self::AtConstraint => "at_constraint",
             Self::NotIdentified => "not_identified",
+            Self::Validation => "validation",
             Self::DataQuality => "data_quality",
         }
     }

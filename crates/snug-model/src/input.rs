@@ -44,6 +44,11 @@ impl Input {
         self
     }
 
+    /// For how long before the first sample the sensor's signal was already being integrated \[s\].
+    pub fn rest_before_s(&self) -> f64 {
+        self.rest_before_s
+    }
+
     /// Number of samples.
     pub fn samples(&self) -> usize {
         self.samples

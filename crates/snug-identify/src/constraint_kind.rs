@@ -1,0 +1,71 @@
+use crate::{Affine, Constraints};
+use serde::{Deserialize, Serialize};
+use snug_model::Model;
+
+/// A constraint a study can ask for on m, c, k.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum ConstraintKind {
+    /// m > 0, c > 0, k > 0, each as far as it is free.
+    Positive,
+    /// Tool and hand–arm together are lightly damped: (c l²)² < 4 k l² (I_n + m l²).
+    LightlyDamped,
+    /// The motion decays: I_n + m l² > 0, c > 0, k > 0, with m of either sign.
+    Stable,
+}
+
+/// What keeps a strict inequality strict in floating point, in the parameter's own unit.
+const STRICT: f64 = 1e-9;
+
+/// The convex set of a model's free parameters: their bounds and the constraints asked for.
+pub fn convex_set(model: &Model, kinds: &[ConstraintKind]) -> Constraints {
+    let parameters = model.parameters();
+    let free = model.free();
+    let column = |parameter: usize| free.iter().position(|&index| index == parameter);
+    let mut set = Constraints::new(free.len());
+    for (column, &index) in free.iter().enumerate() {
+        let parameter = &parameters[index];
+        set.bound(
+            column,
+            parameter.minimum,
+            parameter.maximum,
+            &parameter.name,
+        );
+    }
+    let rig = model.rig();
+    let square = rig.lever_arm_m * rig.lever_arm_m;
+    // factor · parameter + constant over the free parameters.
+    let affine = |parameter: usize, factor: f64, constant: f64| match column(parameter) {
+        Some(column) => Affine::term(free.len(), column, factor, constant),
+        None => Affine::constant(free.len(), constant + factor * parameters[parameter].value),
+    };
+    for kind in kinds {
+        match kind {
+            ConstraintKind::Positive => {
+                for (index, parameter) in parameters.iter().enumerate().take(3) {
+                    if let Some(column) = column(index) {
+                        set.bound(column, STRICT, f64::INFINITY, &parameter.name);
+                    }
+                }
+            }
+            ConstraintKind::Stable => {
+                for (index, minimum) in [(0, -rig.known_inertia_kg_m2 / square), (1, 0.0), (2, 0.0)]
+                {
+                    if let Some(column) = column(index) {
+                        set.bound(
+                            column,
+                            minimum + STRICT,
+                            f64::INFINITY,
+                            &parameters[index].name,
+                        );
+                    }
+                }
+            }
+            ConstraintKind::LightlyDamped => {
+                let stiffness = affine(2, square, 0.0);
+                let inertia = affine(0, square, rig.known_inertia_kg_m2);
+                set.rotated_cone("light_damping", stiffness, inertia, affine(1, square, 0.0));
+            }
+        }
+    }
+    set
+}

@@ -1,0 +1,42 @@
+#![doc = include_str!("../README.md")]
+
+mod active_set;
+pub mod agreement;
+mod conic_program;
+mod constraint_kind;
+mod constraints;
+mod covariance;
+mod dense;
+mod difference_residual;
+mod error;
+mod faces;
+mod fit;
+mod identifiability;
+mod least_squares;
+mod linearization;
+mod residual;
+mod residual_noise;
+mod settings;
+mod solver;
+mod starts;
+mod step;
+mod tightening_fit;
+mod tightening_residual;
+mod whitening;
+
+pub use constraint_kind::{ConstraintKind, convex_set};
+pub use constraints::{Affine, Constraints};
+pub use covariance::{Covariance, ResidualNoise};
+pub use difference_residual::DifferenceResidual;
+pub use error::{EvaluationError, IdentifyError};
+pub use fit::{ActiveConstraint, Fit, Status, Work};
+pub use identifiability::Identifiability;
+pub use least_squares::LeastSquares;
+pub use linearization::Linearization;
+pub use residual::{DenseResidual, Residual};
+pub use settings::Settings;
+pub use solver::solve;
+pub use starts::solve_from_starts;
+pub use tightening_fit::{IdentifySettings, identify};
+pub use tightening_residual::TighteningResidual;
+pub use whitening::Whitening;

@@ -1,0 +1,133 @@
+use crate::dense::{add_scaled, dot};
+use crate::{EvaluationError, LeastSquares, Linearization};
+
+/// A residual r(p) = measured − simulated, weighted so that equal sizes mean equally unlikely.
+pub trait Residual {
+    /// Number m of residuals.
+    fn residual_count(&self) -> usize;
+
+    /// Number n of parameters.
+    fn parameter_count(&self) -> usize;
+
+    /// Writes r(p) into `residual` (m) and, where asked, J = ∂r/∂p into `jacobian` (m × n, column-major).
+    ///
+    /// # Errors
+    /// [`EvaluationError`] where r(p) has no finite value. Non-finite entries are found by the caller as well.
+    fn evaluate(
+        &mut self,
+        parameters: &[f64],
+        residual: &mut [f64],
+        jacobian: Option<&mut [f64]>,
+    ) -> Result<(), EvaluationError>;
+}
+
+/// A [`Residual`] as a [`LeastSquares`] problem: J is stored and factored by Householder reflections.
+#[derive(Debug, Clone)]
+pub struct DenseResidual<R> {
+    residual_function: R,
+    residual: Vec<f64>,
+    jacobian: Vec<f64>,
+    bend: Option<BendRoom>,
+}
+
+/// Room for second differences, made when a fit first asks for them.
+#[derive(Debug, Clone)]
+struct BendRoom {
+    residual: Vec<f64>,
+    ahead: Vec<f64>,
+    jacobian: Vec<f64>,
+    parameters: Vec<f64>,
+}
+
+/// Part of a step over which its bending is measured.
+const BEND_SHARE: f64 = 0.1;
+
+impl<R: Residual> DenseResidual<R> {
+    /// Wraps `residual_function` and makes room for m residuals and the m × n matrix J.
+    pub fn new(residual_function: R) -> Self {
+        let (m, n) = (
+            residual_function.residual_count(),
+            residual_function.parameter_count(),
+        );
+        Self {
+            residual_function,
+            residual: vec![0.0; m],
+            jacobian: vec![0.0; m * n],
+            bend: None,
+        }
+    }
+
+    /// Gives the residual function back.
+    pub fn into_inner(self) -> R {
+        self.residual_function
+    }
+}
+
+impl<R: Residual> LeastSquares for DenseResidual<R> {
+    fn parameter_count(&self) -> usize {
+        self.residual_function.parameter_count()
+    }
+
+    fn residual_count(&self) -> usize {
+        self.residual.len()
+    }
+
+    fn cost(&mut self, parameters: &[f64]) -> Result<f64, EvaluationError> {
+        self.residual_function
+            .evaluate(parameters, &mut self.residual, None)?;
+        let cost = 0.5 * dot(&self.residual, &self.residual);
+        if cost.is_finite() {
+            Ok(cost)
+        } else {
+            Err(EvaluationError::NotFinite)
+        }
+    }
+
+    fn linearize(
+        &mut self,
+        parameters: &[f64],
+        linearization: &mut Linearization,
+    ) -> Result<(), EvaluationError> {
+        self.residual_function.evaluate(
+            parameters,
+            &mut self.residual,
+            Some(&mut self.jacobian),
+        )?;
+        linearization.set_jacobian(&mut self.residual, &mut self.jacobian)
+    }
+
+    /// r″ ≈ 2 ((r(p + h v) − r(p))/h − J v)/h with h = 0.1.
+    fn bending(
+        &mut self,
+        parameters: &[f64],
+        direction: &[f64],
+        bending: &mut [f64],
+    ) -> Result<bool, EvaluationError> {
+        let (m, n) = (self.residual.len(), parameters.len());
+        let room = self.bend.get_or_insert_with(|| BendRoom {
+            residual: vec![0.0; m],
+            ahead: vec![0.0; m],
+            jacobian: vec![0.0; m * n],
+            parameters: vec![0.0; n],
+        });
+        let function = &mut self.residual_function;
+        function.evaluate(parameters, &mut room.residual, Some(&mut room.jacobian))?;
+        room.parameters.copy_from_slice(parameters);
+        add_scaled(&mut room.parameters, BEND_SHARE, direction);
+        function.evaluate(&room.parameters, &mut room.ahead, None)?;
+        for (ahead, here) in room.ahead.iter_mut().zip(&room.residual) {
+            *ahead = (*ahead - here) / BEND_SHARE;
+        }
+        let columns = || room.jacobian.chunks_exact(m.max(1));
+        for (column, step) in columns().zip(direction) {
+            add_scaled(&mut room.ahead, -step, column);
+        }
+        for (bending, column) in bending.iter_mut().zip(columns()) {
+            *bending = 2.0 / BEND_SHARE * dot(column, &room.ahead);
+        }
+        match bending.iter().all(|value| value.is_finite()) {
+            true => Ok(true),
+            false => Err(EvaluationError::NotFinite),
+        }
+    }
+}

@@ -1,0 +1,149 @@
+//! One tightening, identified: the glue between model, measurement and solver.
+
+use crate::residual_noise::noise_of;
+use crate::{
+    ConstraintKind, Covariance, DenseResidual, Fit, IdentifyError, Settings, Status,
+    TighteningResidual, Whitening, convex_set, solve_from_starts,
+};
+use serde::{Deserialize, Serialize};
+use snug_campaign::{
+    Estimate, FitStatus, Identifiability, Interval, ParameterEstimate, Quantity, Tightening,
+};
+use snug_model::{Input, Model};
+
+/// How tightenings are identified.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct IdentifySettings {
+    /// Which output is fitted: `Acceleration`, `Velocity` or `Displacement`; default `Acceleration`.
+    pub fitted_output: Quantity,
+    /// What must hold of m, c, k; default `[Positive, LightlyDamped]`.
+    pub constraints: Vec<ConstraintKind>,
+    /// Samples at the window's start that count for nothing; default 0.
+    pub unscored_samples: usize,
+    /// The solver's own settings.
+    pub solver: Settings,
+}
+
+impl Default for IdentifySettings {
+    fn default() -> Self {
+        Self {
+            fitted_output: Quantity::Acceleration,
+            constraints: vec![ConstraintKind::Positive, ConstraintKind::LightlyDamped],
+            unscored_samples: 0,
+            solver: Settings::default(),
+        }
+    }
+}
+
+/// Identifies the free parameters of `model` from one tightening.
+///
+/// The residual is measured − simulated of the fitted output. Where the noise floor is of that output, the residual is
+/// whitened with it (generalised least squares); otherwise all samples weigh the same. Either way the covariance is that
+/// of the estimate under the measured noise, with the uncertainty of what was corrected in the quiet part, and widened
+/// where the residual holds more than noise.
+///
+/// # Errors
+/// [`IdentifyError::MissingOutput`] when the tightening does not hold the fitted output, [`IdentifyError::TooShort`]
+/// when fewer samples are scored than parameters are free, and what [`crate::solve`] refuses.
+pub fn identify(
+    model: &Model,
+    input: &Input,
+    tightening: &Tightening,
+    settings: &IdentifySettings,
+) -> Result<Estimate, IdentifyError> {
+    let quantity = settings.fitted_output;
+    let measured = tightening
+        .motion
+        .get(quantity)
+        .ok_or(IdentifyError::MissingOutput { quantity })?;
+    let whitening = tightening
+        .noise
+        .as_ref()
+        .filter(|noise| noise.quantity == quantity)
+        .and_then(Whitening::new);
+    let residual = TighteningResidual::new(
+        model,
+        input,
+        measured,
+        quantity,
+        whitening.as_ref(),
+        settings.unscored_samples,
+    );
+    residual.check_length()?;
+    let set = convex_set(model, &settings.constraints);
+    let mut problem = DenseResidual::new(residual);
+    let fit = solve_from_starts(&mut problem, &starts(model), &set, &settings.solver)?;
+    let mut residual = problem.into_inner();
+    let noise = noise_of(&mut residual, tightening, input, &fit);
+    let covariance = fit.covariance(noise.as_residual_noise());
+    Ok(estimate(model, &fit, &covariance))
+}
+
+/// Free values of the usual start, then of the further ones.
+fn starts(model: &Model) -> Vec<Vec<f64>> {
+    let free = model.free();
+    let usual: Vec<f64> = model.parameters().iter().map(|p| p.value).collect();
+    std::iter::once(usual)
+        .chain(model.further_starts())
+        .map(|values| free.iter().map(|&index| values[index]).collect())
+        .collect()
+}
+
+/// The fit in the words everyone shares.
+fn estimate(model: &Model, fit: &Fit, covariance: &Covariance) -> Estimate {
+    let free = model.free();
+    let parameters = model
+        .parameters()
+        .iter()
+        .enumerate()
+        .map(|(index, parameter)| {
+            let column = free.iter().position(|&free| free == index);
+            ParameterEstimate {
+                name: parameter.name.clone(),
+                unit: parameter.unit.clone(),
+                value: column.map_or(parameter.value, |column| fit.values[column]),
+                standard_error: column.and_then(|column| covariance.standard_errors[column]),
+                interval: column.and_then(|column| {
+                    let (low, high) = covariance.interval(column, fit.values[column], 0.95)?;
+                    Some(Interval { low, high })
+                }),
+                fixed: column.is_none(),
+            }
+        })
+        .collect();
+    let name = |column: usize| model.parameters()[free[column]].name.clone();
+    Estimate {
+        parameters,
+        covariance: covariance.matrix.clone(),
+        status: status(fit.status),
+        active_constraints: fit
+            .active
+            .iter()
+            .map(|active| active.name.clone())
+            .collect(),
+        identifiability: Identifiability {
+            rank: fit.identifiability.rank,
+            free: fit.identifiability.free,
+            condition: fit.identifiability.condition,
+            strongest_correlation: fit
+                .identifiability
+                .strongest
+                .map(|(first, second, correlation)| (name(first), name(second), correlation)),
+        },
+        iterations: fit.work.iterations,
+        evaluations: fit.work.evaluations + fit.work.linearizations,
+        conic_solves: fit.work.conic_solves,
+    }
+}
+
+fn status(status: Status) -> FitStatus {
+    match status {
+        Status::Converged => FitStatus::Converged,
+        Status::ConvergedAtConstraint => FitStatus::ConvergedAtConstraint,
+        Status::IterationLimit => FitStatus::IterationLimit,
+        Status::Stalled => FitStatus::Stalled,
+        Status::NotIdentifiable => FitStatus::NotIdentifiable,
+        Status::Failed => FitStatus::Failed,
+    }
+}

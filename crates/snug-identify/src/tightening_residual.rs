@@ -1,0 +1,142 @@
+use crate::{EvaluationError, IdentifyError, Residual, Whitening};
+use snug_campaign::Quantity;
+use snug_model::{Input, Model};
+
+/// Measured minus simulated output of one tightening over the model's free parameters, whitened where the noise is known.
+pub struct TighteningResidual<'a> {
+    model: &'a Model,
+    input: &'a Input,
+    measured: &'a [f64],
+    quantity: Quantity,
+    whitening: Option<&'a Whitening>,
+    unscored: usize,
+    free: Vec<usize>,
+    values: Vec<f64>,
+    output: Vec<f64>,
+    sensitivity: Vec<f64>,
+}
+
+impl<'a> TighteningResidual<'a> {
+    /// `unscored` samples at the start count for nothing (an unknown initial state dies away in them).
+    pub fn new(
+        model: &'a Model,
+        input: &'a Input,
+        measured: &'a [f64],
+        quantity: Quantity,
+        whitening: Option<&'a Whitening>,
+        unscored: usize,
+    ) -> Self {
+        let free = model.free();
+        let samples = measured.len();
+        Self {
+            model,
+            input,
+            measured,
+            quantity,
+            whitening,
+            unscored: unscored.min(samples),
+            values: model.parameters().iter().map(|p| p.value).collect(),
+            output: vec![0.0; samples],
+            sensitivity: vec![0.0; samples * free.len()],
+            free,
+        }
+    }
+
+    /// Number of samples, scored or not.
+    pub fn samples(&self) -> usize {
+        self.measured.len()
+    }
+
+    /// The fitted quantity.
+    pub fn quantity(&self) -> Quantity {
+        self.quantity
+    }
+
+    /// Whether the residual is whitened with a known noise.
+    pub fn is_whitened(&self) -> bool {
+        self.whitening.is_some()
+    }
+
+    /// Refuses fewer residuals than free parameters.
+    ///
+    /// # Errors
+    /// [`IdentifyError::TooShort`].
+    pub fn check_length(&self) -> Result<(), IdentifyError> {
+        let (residuals, parameters) = (self.residual_count(), self.parameter_count());
+        if residuals > parameters {
+            Ok(())
+        } else {
+            Err(IdentifyError::TooShort {
+                residuals,
+                parameters,
+            })
+        }
+    }
+
+    /// Whitens (or copies) the scored part of `signal` into `scored`.
+    pub fn weigh(&self, signal: &[f64], scored: &mut [f64]) {
+        let signal = &signal[self.unscored..];
+        match self.whitening {
+            Some(whitening) => whitening.apply(signal, scored),
+            None => scored.copy_from_slice(signal),
+        }
+    }
+}
+
+impl Residual for TighteningResidual<'_> {
+    fn residual_count(&self) -> usize {
+        let lost = self.whitening.map_or(0, Whitening::order);
+        (self.measured.len() - self.unscored).saturating_sub(lost)
+    }
+
+    fn parameter_count(&self) -> usize {
+        self.free.len()
+    }
+
+    fn evaluate(
+        &mut self,
+        parameters: &[f64],
+        residual: &mut [f64],
+        jacobian: Option<&mut [f64]>,
+    ) -> Result<(), EvaluationError> {
+        for (&index, &value) in self.free.iter().zip(parameters) {
+            self.values[index] = value;
+        }
+        let (mut output, mut sensitivity) = (
+            std::mem::take(&mut self.output),
+            std::mem::take(&mut self.sensitivity),
+        );
+        if jacobian.is_some() {
+            self.model.sensitivities(
+                &self.values,
+                &self.free,
+                self.input,
+                self.quantity,
+                &mut output,
+                &mut sensitivity,
+            );
+        } else {
+            self.model
+                .output(&self.values, self.input, self.quantity, &mut output);
+        }
+        for (simulated, measured) in output.iter_mut().zip(self.measured) {
+            *simulated = measured - *simulated;
+        }
+        self.weigh(&output, residual);
+        if let Some(jacobian) = jacobian {
+            let (samples, scored) = (self.measured.len(), residual.len());
+            for (column, weighted) in sensitivity
+                .chunks_exact_mut(samples)
+                .zip(jacobian.chunks_exact_mut(scored))
+            {
+                for value in column.iter_mut() {
+                    *value = -*value;
+                }
+                self.weigh(column, weighted);
+            }
+        }
+        self.output = output;
+        self.sensitivity = sensitivity;
+        Ok(())
+    }
+}

@@ -1,0 +1,109 @@
+use snug_campaign::NoiseFloor;
+
+/// Makes stationary noise white with unit variance: w_t = (r_t + a_1 r_{t−1} + … + a_p r_{t−p}) / σ_e.
+///
+/// The first p samples lack their past and are left out, so n samples give n − p.
+#[derive(Debug, Clone)]
+pub struct Whitening {
+    autoregression: Vec<f64>,
+    innovation_sd: f64,
+}
+
+impl Whitening {
+    /// The filter that whitens `noise`; `None` when its innovations have no positive standard deviation.
+    pub fn new(noise: &NoiseFloor) -> Option<Self> {
+        (noise.innovation_sd > 0.0 && noise.innovation_sd.is_finite()).then(|| Self {
+            autoregression: noise.autoregression.clone(),
+            innovation_sd: noise.innovation_sd,
+        })
+    }
+
+    /// Number of samples that are left out at the start.
+    pub fn order(&self) -> usize {
+        self.autoregression.len()
+    }
+
+    /// Variance of a long sum over its number of terms: (σ_e / (1 + a_1 + … + a_p))².
+    pub fn long_run_variance(&self) -> f64 {
+        (self.innovation_sd / (1.0 + self.autoregression.iter().sum::<f64>())).powi(2)
+    }
+
+    /// Whitens `signal` into `white`, which is shorter by [`Whitening::order`].
+    pub fn apply(&self, signal: &[f64], white: &mut [f64]) {
+        let order = self.order();
+        let scale = 1.0 / self.innovation_sd;
+        let mut reversed = self.autoregression.clone();
+        reversed.reverse();
+        for (out, window) in white.iter_mut().zip(signal.windows(order + 1)) {
+            let past: f64 = reversed.iter().zip(window).map(|(a, r)| a * r).sum();
+            *out = (window[order] + past) * scale;
+        }
+    }
+
+    /// Cᵀ s, where C colours unit white noise into this noise: s is filtered backwards in time by σ_e / A.
+    ///
+    /// ‖Cᵀ s‖² is the variance of the inner product of s with the noise.
+    pub fn colour_transposed(&self, signal: &mut [f64]) {
+        for t in (0..signal.len()).rev() {
+            let mut value = signal[t];
+            for (lag, a) in self.autoregression.iter().enumerate() {
+                if let Some(later) = signal.get(t + lag + 1) {
+                    value -= a * later;
+                }
+            }
+            signal[t] = value;
+        }
+        for value in signal {
+            *value *= self.innovation_sd;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use snug_campaign::{NoiseSource, Quantity};
+
+    fn second_order() -> Whitening {
+        Whitening::new(&NoiseFloor {
+            source: NoiseSource::Declared,
+            quantity: Quantity::Acceleration,
+            standard_deviation: 1.0,
+            autoregression: vec![-0.9, 0.2],
+            innovation_sd: 0.5,
+            samples: 1000,
+        })
+        .expect("a positive innovation")
+    }
+
+    #[test]
+    fn whitening_undoes_the_recursion_that_made_the_noise() {
+        let innovations = [0.3, -1.0, 0.4, 0.7, -0.2, 1.5];
+        let mut noise = [0.0; 6];
+        for t in 0..6 {
+            let past = |lag: usize| if t >= lag { noise[t - lag] } else { 0.0 };
+            noise[t] = 0.5 * innovations[t] + 0.9 * past(1) - 0.2 * past(2);
+        }
+        let mut white = [0.0; 4];
+        second_order().apply(&noise, &mut white);
+        for (computed, expected) in white.iter().zip(&innovations[2..]) {
+            assert!((computed - expected).abs() < 1e-14);
+        }
+    }
+
+    /// sᵀ C e computed forwards (colour e, then the inner product) equals (Cᵀ s)ᵀ e.
+    #[test]
+    fn transposed_colouring_is_the_adjoint() {
+        let (s, e) = ([1.0, -2.0, 0.5, 3.0], [0.2, 0.1, -0.4, 1.0]);
+        let mut noise = [0.0; 4];
+        for t in 0..4 {
+            let past = |lag: usize| if t >= lag { noise[t - lag] } else { 0.0 };
+            noise[t] = 0.5 * e[t] + 0.9 * past(1) - 0.2 * past(2);
+        }
+        let forwards: f64 = s.iter().zip(&noise).map(|(s, n)| s * n).sum();
+        let mut transposed = s;
+        second_order().colour_transposed(&mut transposed);
+        let backwards: f64 = transposed.iter().zip(&e).map(|(s, e)| s * e).sum();
+        assert!((forwards - backwards).abs() < 1e-14);
+    }
+}

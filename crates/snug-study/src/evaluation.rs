@@ -1,0 +1,227 @@
+//! One tightening, from prepared signals to everything that is reported about it.
+
+use crate::{Study, StudyError};
+use snug_campaign::{
+    Estimate, FitMeasures, FitStatus, Motion, Recording, Rejection, Segment, Selection, Tightening,
+    TighteningId, TighteningResult, Traces,
+};
+use snug_identify::{agreement, identify};
+use snug_model::{
+    Input, Model, damped_frequency_hz, damping_ratio, euler_displacement, inverse_dynamics_force,
+    natural_frequency_hz, spring_damper_force, thesis_damping_ratio,
+};
+use snug_preprocess::{Prepared, Preset, target_torque_nm};
+
+/// A tightening's result with its signals.
+pub struct Evaluated {
+    pub result: TighteningResult,
+    /// `None` when nothing was simulated because the identification failed.
+    pub traces: Option<Traces>,
+    pub onset: Option<usize>,
+}
+
+/// Identifies one tightening and simulates it with what was found.
+pub fn fitted(study: &Study, prepared: &Prepared) -> Result<Evaluated, StudyError> {
+    let tightening = &prepared.tightening;
+    let model = study.model.model(tightening.rig)?;
+    let input = input(study, tightening);
+    let estimate = identify(&model, &input, tightening, &study.identify)?;
+    let preset = study.preprocess.preset;
+    Ok(simulated(
+        study,
+        &model,
+        &input,
+        prepared,
+        estimate,
+        study.identify.unscored_samples,
+        |estimate, measures| {
+            let mut rejections = prepared.rejections();
+            rejections.extend(study.selection.rejections(preset, estimate, measures));
+            rejections
+        },
+    ))
+}
+
+/// Simulates a tightening that is kept for validation with parameters found elsewhere.
+pub fn validated(
+    study: &Study,
+    prepared: &Prepared,
+    estimate: &Estimate,
+) -> Result<Evaluated, StudyError> {
+    let tightening = &prepared.tightening;
+    let model = study.model.model(tightening.rig)?;
+    let input = input(study, tightening);
+    let mut estimate = estimate.clone();
+    for parameter in &mut estimate.parameters {
+        parameter.standard_error = None;
+        parameter.interval = None;
+    }
+    Ok(simulated(
+        study,
+        &model,
+        &input,
+        prepared,
+        estimate,
+        study.validation.unscored_samples,
+        |_, _| vec![Rejection::Validation],
+    ))
+}
+
+/// What is known of a segment that could not be used; its findings say why.
+pub fn without_estimate(study: &Study, recording: &Recording, segment: &Segment) -> Evaluated {
+    let end = segment.end.min(recording.torque_nm.len());
+    let torque = recording
+        .torque_nm
+        .get(segment.start..end)
+        .unwrap_or_default();
+    let finite = torque.iter().copied().filter(|torque| torque.is_finite());
+    let peak_torque_nm = finite.reduce(f64::max).unwrap_or(f64::NAN);
+    Evaluated {
+        result: TighteningResult {
+            id: TighteningId {
+                file: recording.file.clone(),
+                number: segment.number,
+            },
+            conditions: recording.conditions.clone(),
+            rig: study.preprocess.rig.rig(recording),
+            peak_torque_nm,
+            target_torque_nm: target_torque_nm(peak_torque_nm),
+            estimate: None,
+            measures: FitMeasures::default(),
+            selection: Selection {
+                rejections: vec![Rejection::DataQuality],
+            },
+            corrections: Vec::new(),
+            noise: None,
+        },
+        traces: None,
+        onset: None,
+    }
+}
+
+/// The input as the study says it behaves, and since when the sensor's signal has been integrated.
+fn input(study: &Study, tightening: &Tightening) -> Input {
+    let input = Input::new(
+        &tightening.torque_nm,
+        tightening.time_base.interval_s,
+        study.model.intersample,
+    );
+    match study.preprocess.preset {
+        // The original integrates from the segment's start, where its time is 0.
+        Preset::Thesis => input.with_rest_before(tightening.time_base.start_s),
+        Preset::Snug => input,
+    }
+}
+
+/// Everything that follows from a tightening and its parameters.
+fn simulated(
+    study: &Study,
+    model: &Model,
+    input: &Input,
+    prepared: &Prepared,
+    estimate: Estimate,
+    unscored: usize,
+    rejections: impl FnOnce(&Estimate, &FitMeasures) -> Vec<Rejection>,
+) -> Evaluated {
+    let tightening = &prepared.tightening;
+    let values: Vec<f64> = estimate.parameters.iter().map(|p| p.value).collect();
+    let failed = estimate.status == FitStatus::Failed || values.iter().any(|v| !v.is_finite());
+    let traces = (!failed).then(|| traces(model, input, tightening, &values));
+    let measures = traces.as_ref().map_or_else(FitMeasures::default, |traces| {
+        measures(study, tightening, traces, &values, unscored)
+    });
+    let selection = Selection {
+        rejections: rejections(&estimate, &measures),
+    };
+    Evaluated {
+        result: TighteningResult {
+            id: tightening.id.clone(),
+            conditions: tightening.conditions.clone(),
+            rig: tightening.rig,
+            peak_torque_nm: tightening.peak_torque_nm,
+            target_torque_nm: tightening.target_torque_nm,
+            estimate: Some(estimate),
+            measures,
+            selection,
+            corrections: tightening.corrections.clone(),
+            noise: tightening.noise.clone(),
+        },
+        traces,
+        onset: tightening.onset,
+    }
+}
+
+fn traces(model: &Model, input: &Input, tightening: &Tightening, values: &[f64]) -> Traces {
+    let simulated = model.simulate(values, input);
+    let force = |motion: &Motion| {
+        motion
+            .acceleration_rad_per_s2
+            .as_ref()
+            .map_or_else(Vec::new, |acceleration| {
+                inverse_dynamics_force(&tightening.rig, &tightening.torque_nm, acceleration)
+            })
+    };
+    Traces {
+        time_base: tightening.time_base,
+        torque_nm: tightening.torque_nm.clone(),
+        measured: tightening.motion.clone(),
+        euler_displacement_rad: euler_displacement(
+            &tightening.rig,
+            values,
+            &tightening.torque_nm,
+            tightening.time_base.interval_s,
+        ),
+        force_f1_n: spring_damper_force(&tightening.rig, values, &simulated),
+        force_f2_n: force(&tightening.motion),
+        force_f3_n: force(&simulated),
+        grip_force_n: tightening.grip_force_n.clone(),
+        simulated,
+    }
+}
+
+fn measures(
+    study: &Study,
+    tightening: &Tightening,
+    traces: &Traces,
+    values: &[f64],
+    unscored: usize,
+) -> FitMeasures {
+    let scored = |samples: &[f64]| samples.get(unscored..).unwrap_or_default().to_vec();
+    let pair = |quantity| {
+        let measured = traces.measured.get(quantity)?;
+        Some((scored(measured), scored(traces.simulated.get(quantity)?)))
+    };
+    let displacement = pair(snug_campaign::Quantity::Displacement);
+    let (m, c, k) = (values[0], values[1], values[2]);
+    let rig = &tightening.rig;
+    FitMeasures {
+        fit_percent: displacement
+            .as_ref()
+            .and_then(|(y, s)| agreement::fit_percent(y, s)),
+        fit_percent_fitted_output: pair(study.identify.fitted_output)
+            .and_then(|(y, s)| agreement::fit_percent(&y, &s)),
+        error_over_noise: tightening.noise.as_ref().and_then(|noise| {
+            let (measured, simulated) = pair(noise.quantity)?;
+            agreement::error_over_noise(&measured, &simulated, noise)
+        }),
+        rms_displacement_rad: displacement
+            .as_ref()
+            .map(|(y, s)| agreement::rms_residual(y, s)),
+        euler_accuracy_percent: displacement.as_ref().and_then(|(y, _)| {
+            agreement::accuracy_percent(y, &scored(&traces.euler_displacement_rad))
+        }),
+        natural_frequency_hz: natural_frequency_hz(m, k),
+        damped_frequency_hz: damped_frequency_hz(rig, m, c, k),
+        damping_ratio: damping_ratio(rig, m, c, k),
+        thesis_damping_ratio: thesis_damping_ratio(study.selection.tool_mass_kg, m, c, k),
+        peak_force_f1_n: peak(&traces.force_f1_n),
+        peak_force_f2_n: peak(&traces.force_f2_n),
+        peak_force_f3_n: peak(&traces.force_f3_n),
+        peak_grip_force_n: traces.grip_force_n.as_deref().and_then(peak),
+    }
+}
+
+/// max |F|.
+fn peak(force: &[f64]) -> Option<f64> {
+    force.iter().map(|force| force.abs()).reduce(f64::max)
+}

@@ -1,0 +1,18 @@
+#![doc = include_str!("../README.md")]
+
+mod error;
+mod evaluation;
+mod examples;
+mod file_evaluation;
+mod progress;
+mod run;
+mod selection;
+mod statistics;
+mod study;
+
+pub use error::StudyError;
+pub use progress::ProgressEvent;
+pub use run::{Outcome, RunSettings, run};
+pub use selection::SelectionSettings;
+pub use snug_preprocess::Preset;
+pub use study::{Study, ValidationSettings};

@@ -1,0 +1,108 @@
+use crate::StudyError;
+use serde::{Deserialize, Serialize};
+use snug_campaign::{Estimate, FitMeasures, FitStatus, Rejection};
+use snug_preprocess::Preset;
+
+/// When a tightening counts in the statistics.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct SelectionSettings {
+    /// Smallest fit of the displacement \[%\]; default 90, the thesis' rule.
+    pub minimum_fit_percent: f64,
+    /// Preset `snug`: a fit below the limit still counts while the residual stays within this multiple of the measured
+    /// noise, for then what is left in the displacement is integrated noise and no misfit \[ratio\]; default 1.1.
+    pub noise_limited_ratio: f64,
+    /// m_n, mass of the tool for the thesis' damping check \[kg\]; default 2.60.
+    pub tool_mass_kg: f64,
+}
+
+impl Default for SelectionSettings {
+    fn default() -> Self {
+        Self {
+            minimum_fit_percent: 90.0,
+            noise_limited_ratio: 1.1,
+            tool_mass_kg: 2.60,
+        }
+    }
+}
+
+impl SelectionSettings {
+    /// Checks every setting.
+    ///
+    /// # Errors
+    /// [`StudyError::Setting`] names the first that is not allowed.
+    pub fn check(&self) -> Result<(), StudyError> {
+        let reject = |setting, value, allowed| {
+            Err(StudyError::Setting {
+                setting,
+                value,
+                allowed,
+            })
+        };
+        if !(self.minimum_fit_percent <= 100.0) {
+            return reject(
+                "selection.minimum_fit_percent",
+                self.minimum_fit_percent,
+                "at most 100",
+            );
+        }
+        if !(self.noise_limited_ratio >= 0.0) {
+            return reject(
+                "selection.noise_limited_ratio",
+                self.noise_limited_ratio,
+                "0 or more",
+            );
+        }
+        if !(self.tool_mass_kg >= 0.0 && self.tool_mass_kg.is_finite()) {
+            return reject("selection.tool_mass_kg", self.tool_mass_kg, "0 or more kg");
+        }
+        Ok(())
+    }
+
+    /// Why a fitted tightening is not selected, beside what preparation found.
+    ///
+    /// `snug`: no free optimum, or a fit below the limit that is not the noise's doing. `thesis`: the original's rules, in its order: overdamped by
+    /// its own check (which also fires for k < 0 or a negative total mass), fit at or below the limit, mass not positive.
+    pub fn rejections(
+        &self,
+        preset: Preset,
+        estimate: &Estimate,
+        measures: &FitMeasures,
+    ) -> Vec<Rejection> {
+        let poor = measures
+            .fit_percent
+            .is_none_or(|percent| !(percent > self.minimum_fit_percent));
+        let mass = estimate.value("mass_kg").unwrap_or(f64::NAN);
+        let mut rejections = Vec::new();
+        match preset {
+            Preset::Snug => {
+                match estimate.status {
+                    FitStatus::Converged => {}
+                    FitStatus::ConvergedAtConstraint => rejections.push(Rejection::AtConstraint),
+                    _ => rejections.push(Rejection::NotIdentified),
+                }
+                let noise_limited = measures
+                    .error_over_noise
+                    .is_some_and(|ratio| ratio <= self.noise_limited_ratio);
+                if poor && !noise_limited {
+                    rejections.push(Rejection::PoorFit);
+                }
+            }
+            Preset::Thesis => {
+                if !measures
+                    .thesis_damping_ratio
+                    .is_some_and(|zeta| zeta <= 1.0)
+                {
+                    rejections.push(Rejection::NotLightlyDamped);
+                }
+                if poor {
+                    rejections.push(Rejection::PoorFit);
+                }
+                if !(mass > 0.0) {
+                    rejections.push(Rejection::MassNotPositive);
+                }
+            }
+        }
+        rejections
+    }
+}

@@ -1,0 +1,164 @@
+use crate::StudyError;
+use serde::{Deserialize, Serialize};
+use snug_campaign::{Intersample, Quantity};
+use snug_identify::{ConstraintKind, IdentifySettings};
+use snug_ingest::Source;
+use snug_model::ModelSettings;
+use snug_preprocess::{PreprocessSettings, Preset};
+use snug_record::RecordSettings;
+use std::path::{Path, PathBuf};
+
+use crate::selection::SelectionSettings;
+
+/// A study: which data, how they are prepared, which model is fitted how, and what is reported.
+///
+/// Every part belongs to the crate it configures; what a study file leaves out has its default.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Study {
+    /// Title of the report; default: the data folder's name.
+    pub title: String,
+    /// Where the data lie (relative to the study file) and how they are written; default: MAT files in the thesis' layout.
+    pub source: Source,
+    /// How recordings become tightenings.
+    pub preprocess: PreprocessSettings,
+    /// The model: effects, input behaviour, single parameters.
+    pub model: ModelSettings,
+    /// Which output is fitted and under which constraints.
+    pub identify: IdentifySettings,
+    /// When a tightening counts in the statistics.
+    pub selection: SelectionSettings,
+    /// What is only simulated, with the parameters of the others.
+    pub validation: ValidationSettings,
+    /// The recording.
+    pub record: RecordSettings,
+    /// Seed of everything random (permutation tests); default 0.
+    pub seed: u64,
+}
+
+/// Which tightenings are not fitted but only simulated, with the mean parameters of the fitted ones.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct ValidationSettings {
+    /// Names of the source's ranges; default none.
+    pub ranges: Vec<String>,
+    /// Samples at the start of each that are simulated but not scored; default 0.
+    pub unscored_samples: usize,
+}
+
+impl Study {
+    /// The default study on a folder in the thesis' file layout.
+    pub fn on(data: PathBuf) -> Self {
+        let mut study = Self::default();
+        study.set_data(&data);
+        study
+    }
+
+    /// Reads a study file (RON); its data path is taken relative to the file.
+    ///
+    /// # Errors
+    /// [`StudyError::Read`] when the file cannot be read, [`StudyError::Syntax`] with line and column when it does not
+    /// follow the format.
+    pub fn read(path: &Path) -> Result<Self, StudyError> {
+        let text = std::fs::read_to_string(path).map_err(|source| StudyError::Read {
+            path: path.to_path_buf(),
+            source,
+        })?;
+        let mut study: Self = options()
+            .from_str(&text)
+            .map_err(|source| StudyError::Syntax {
+                path: path.to_path_buf(),
+                line: source.span.start.line,
+                column: source.span.start.col,
+                message: source.code.to_string(),
+            })?;
+        let folder = path.parent().unwrap_or(Path::new(""));
+        study.source.path = folder.join(&study.source.path);
+        Ok(study)
+    }
+
+    /// The study with every default written out, as RON that [`Study::read`] takes.
+    ///
+    /// # Errors
+    /// [`StudyError::Write`] when a value has no RON form.
+    pub fn to_ron(&self) -> Result<String, StudyError> {
+        options()
+            .to_string_pretty(self, ron::ser::PrettyConfig::default())
+            .map_err(|source| StudyError::Serialize { source })
+    }
+
+    /// Numbers of the segments that are only simulated.
+    pub(crate) fn validation_segments(&self) -> Vec<u32> {
+        (1..)
+            .zip(self.source.ranges())
+            .filter(|(_, range)| self.validation.ranges.contains(&range.name))
+            .map(|(number, _)| number)
+            .collect()
+    }
+
+    /// Takes other data than the study's own.
+    pub fn set_data(&mut self, data: &Path) {
+        self.source.path = data.to_path_buf();
+    }
+
+    /// Puts everything as the preset has it: preparation, fitted output, input behaviour and constraints.
+    pub fn set_preset(&mut self, preset: Preset) {
+        self.preprocess.preset = preset;
+        match preset {
+            Preset::Snug => {
+                self.identify.fitted_output = Quantity::Acceleration;
+                self.model.intersample = Intersample::Linear;
+                self.identify.constraints =
+                    vec![ConstraintKind::Positive, ConstraintKind::LightlyDamped];
+            }
+            Preset::Thesis => {
+                self.identify.fitted_output = Quantity::Displacement;
+                self.model.intersample = Intersample::ZeroOrder;
+                self.identify.constraints = vec![ConstraintKind::Stable];
+            }
+        }
+    }
+
+    /// Checks every part before work starts.
+    ///
+    /// # Errors
+    /// The first setting that is not allowed, with its field, value and what is allowed.
+    pub fn check(&self) -> Result<(), StudyError> {
+        self.preprocess.check()?;
+        self.identify.solver.check()?;
+        self.selection.check()?;
+        self.source.check()?;
+        let known = self.source.ranges();
+        for name in &self.validation.ranges {
+            if !known.iter().any(|range| range.name == *name) {
+                return Err(StudyError::UnknownRange {
+                    name: name.clone(),
+                    known: known.iter().map(|range| range.name.clone()).collect(),
+                });
+            }
+        }
+        let rig = self.preprocess.rig;
+        let any = snug_campaign::Rig {
+            lever_arm_m: rig.lever_arm_m,
+            known_inertia_kg_m2: 0.0,
+        };
+        self.model.model(any)?;
+        Ok(())
+    }
+
+    /// The study's title, or the data's name where it has none.
+    pub fn title(&self) -> String {
+        if self.title.is_empty() {
+            let path = &self.source.path;
+            let name = path.file_name().unwrap_or(path.as_os_str());
+            name.to_string_lossy().into_owned()
+        } else {
+            self.title.clone()
+        }
+    }
+}
+
+/// `Option` fields are written as plain values.
+fn options() -> ron::Options {
+    ron::Options::default().with_default_extension(ron::extensions::Extensions::IMPLICIT_SOME)
+}

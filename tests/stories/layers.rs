@@ -1,0 +1,71 @@
+//! The layering: which crate may know which, checked against what cargo says.
+
+use cargo_metadata::{DependencyKind, MetadataCommand};
+use std::collections::BTreeSet;
+
+/// Every allowed edge between Snug's crates. An edge that is not here is a design change: change it here on purpose.
+const ALLOWED: &[(&str, &[&str])] = &[
+    ("snug-campaign", &[]),
+    ("snug-statistics", &[]),
+    ("snug-record", &["snug-campaign"]),
+    ("snug-ingest", &["snug-campaign", "snug-record"]),
+    ("snug-preprocess", &["snug-campaign"]),
+    ("snug-model", &["snug-campaign"]),
+    ("snug-identify", &["snug-campaign", "snug-model"]),
+    ("snug-report", &["snug-campaign"]),
+    ("snug-synthetic", &["snug-campaign"]),
+    (
+        "snug-study",
+        &[
+            "snug-campaign",
+            "snug-identify",
+            "snug-ingest",
+            "snug-model",
+            "snug-preprocess",
+            "snug-record",
+            "snug-report",
+            "snug-statistics",
+        ],
+    ),
+    (
+        "xtask",
+        &[
+            "snug-campaign",
+            "snug-model",
+            "snug-study",
+            "snug-synthetic",
+        ],
+    ),
+];
+
+#[test]
+fn crates_know_only_whom_they_may() {
+    let metadata = MetadataCommand::new()
+        .manifest_path(concat!(env!("CARGO_MANIFEST_DIR"), "/../Cargo.toml"))
+        .no_deps()
+        .exec()
+        .unwrap();
+    let mut checked = BTreeSet::new();
+    for package in metadata.workspace_packages() {
+        if package.name.as_str() == "snug-tests" {
+            continue;
+        }
+        let (_, allowed) = ALLOWED
+            .iter()
+            .find(|(name, _)| *name == package.name.as_str())
+            .unwrap_or_else(|| panic!("{} has no line in the list of layers", package.name));
+        for dependency in &package.dependencies {
+            let shipped = dependency.kind == DependencyKind::Normal;
+            if shipped && dependency.name.starts_with("snug-") {
+                assert!(
+                    allowed.contains(&dependency.name.as_str()),
+                    "{} must not know {}",
+                    package.name,
+                    dependency.name
+                );
+            }
+        }
+        checked.insert(package.name.to_string());
+    }
+    assert_eq!(checked.len(), ALLOWED.len(), "a listed crate is gone");
+}

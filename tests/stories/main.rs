@@ -1,0 +1,5 @@
+//! Stories that cross crates: one module per story.
+#![allow(clippy::unwrap_used, reason = "a failing story should say where")]
+#![allow(clippy::print_stdout, reason = "a skipped or measured check says so")]
+
+mod layers;

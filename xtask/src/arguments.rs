@@ -1,0 +1,117 @@
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use std::path::PathBuf;
+
+/// Snug identifies the hand–arm model of a nutrunner from measured tightenings.
+#[derive(Debug, Parser)]
+#[command(
+    name = "cargo xtask",
+    bin_name = "cargo xtask",
+    version,
+    about,
+    after_help = "\
+Examples:
+  cargo xtask run                              the embedded campaign, into out/
+  cargo xtask run --data DIR                   your folder of MAT files (or a folder of recordings)
+  cargo xtask run --data DIR --preset thesis   the same, as the original program did it
+  cargo xtask run --study rig.ron              any rig described in a study file
+  cargo xtask effects cubic_stiffness          one effect of the catalogue in full
+
+Exit codes: 0 done, 1 failed, 2 bad arguments, 3 done but some data was left out (see findings.json)."
+)]
+pub struct Arguments {
+    /// What to do.
+    #[command(subcommand)]
+    pub verb: Verb,
+    /// How log lines are written.
+    #[command(flatten)]
+    pub log: LogOptions,
+}
+
+/// Options of the log; every verb takes them.
+#[derive(Debug, Args)]
+pub struct LogOptions {
+    /// Log lines for people or, one JSON object a line, for machines (on standard error).
+    #[arg(long, global = true, value_enum, default_value_t = LogFormat::Text)]
+    pub log: LogFormat,
+    /// Which log lines: error, warn, info, debug, trace, or a filter such as snug_ingest=debug.
+    #[arg(long, global = true, default_value = "warn", value_name = "FILTER")]
+    pub log_level: String,
+}
+
+/// Form of the log.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum LogFormat {
+    /// For people.
+    Text,
+    /// One JSON object a line.
+    Json,
+}
+
+/// What to do.
+#[derive(Debug, Subcommand)]
+pub enum Verb {
+    /// From recordings to identified parameters, statistics, report and MCAP.
+    ///
+    /// Without arguments on the campaign embedded in fixtures/. Writes report.html, tightenings.csv, statistics.json,
+    /// findings.json, recording.mcap (with a layout for the viewer) and study.ron, the study with every default written
+    /// out, which can be run again.
+    Run(RunOptions),
+    /// The catalogue of physical effects, or one of them in full.
+    Effects {
+        /// Name of one effect, for example coulomb_friction.
+        name: Option<String>,
+    },
+    /// Makes the embedded campaign in fixtures/ anew, bit for bit.
+    Fixtures,
+    /// Every test of the workspace.
+    Test {
+        /// Also the statistical checks with many cases (minutes).
+        #[arg(long)]
+        many: bool,
+        /// Only tests whose name contains this.
+        filter: Option<String>,
+    },
+    /// The benchmarks, side by side in one table.
+    Bench {
+        /// Only rows whose name contains this.
+        filter: Option<String>,
+    },
+}
+
+/// Options of `run`.
+#[derive(Debug, Args)]
+pub struct RunOptions {
+    /// Study file (RON); without it, the thesis' rig and file layout.
+    #[arg(long, value_name = "FILE.ron")]
+    pub study: Option<PathBuf>,
+    /// Folder (or file) with the data; overrides the study's.
+    #[arg(long, value_name = "DIR")]
+    pub data: Option<PathBuf>,
+    /// How recordings become tightenings; overrides the study's.
+    #[arg(long, value_enum)]
+    pub preset: Option<PresetName>,
+    /// Effects in the model, separated by commas, for example coulomb_friction,torque_delay.
+    #[arg(long, value_delimiter = ',', value_name = "A,B")]
+    pub effects: Option<Vec<String>>,
+    /// Folder for the results; made if it is not there.
+    #[arg(long, value_name = "DIR", default_value = "out")]
+    pub out: PathBuf,
+    /// No progress, no summary: only errors.
+    #[arg(long)]
+    pub quiet: bool,
+    /// Threads; without it, one a core. Results do not depend on it.
+    #[arg(long, value_name = "N")]
+    pub threads: Option<usize>,
+    /// Seed of everything random (permutation tests).
+    #[arg(long, value_name = "N")]
+    pub seed: Option<u64>,
+}
+
+/// How recordings become tightenings.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum PresetName {
+    /// Bias and noise measured in the quiet part, velocity zeroed there; the default.
+    Snug,
+    /// The original program, step by step.
+    Thesis,
+}

@@ -1,0 +1,55 @@
+//! Snug's command line: `cargo xtask run`, `cargo xtask test`, and what else `cargo xtask --help` lists.
+//!
+//! It parses arguments, shows progress and prints summaries; every equation lives in the crates.
+#![allow(
+    clippy::print_stdout,
+    clippy::print_stderr,
+    reason = "a command line prints"
+)]
+
+mod arguments;
+mod logging;
+mod progress;
+mod summary;
+mod verbs;
+mod workspace;
+
+use arguments::{Arguments, Verb};
+use clap::Parser;
+use std::process::ExitCode;
+
+/// Exit codes other programs rely on.
+mod exit {
+    use std::process::ExitCode;
+
+    /// Done.
+    pub const DONE: ExitCode = ExitCode::SUCCESS;
+    /// Failed.
+    pub fn failed() -> ExitCode {
+        ExitCode::from(1)
+    }
+    /// Bad arguments or a bad study file (clap exits with the same code).
+    pub fn bad_arguments() -> ExitCode {
+        ExitCode::from(2)
+    }
+    /// Done, but some data was left out.
+    pub fn left_out() -> ExitCode {
+        ExitCode::from(3)
+    }
+    /// Stopped by Ctrl-C, as shells count it.
+    pub fn interrupted() -> ExitCode {
+        ExitCode::from(130)
+    }
+}
+
+fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    logging::start(&arguments.log);
+    match arguments.verb {
+        Verb::Run(options) => verbs::run(&options),
+        Verb::Effects { name } => verbs::effects(name.as_deref()),
+        Verb::Fixtures => verbs::fixtures(),
+        Verb::Test { many, filter } => verbs::test(many, filter.as_deref()),
+        Verb::Bench { filter } => verbs::bench(filter.as_deref()),
+    }
+}

@@ -1,0 +1,105 @@
+use indicatif::{ProgressBar, ProgressStyle};
+use snug_study::ProgressEvent;
+use std::io::IsTerminal;
+use std::sync::Mutex;
+use std::time::{Duration, Instant};
+
+/// Between two plain progress lines where there is no terminal.
+const PLAIN_EVERY: Duration = Duration::from_secs(5);
+
+/// Shows a run's progress: a bar with rate and time left on a terminal, a line now and then elsewhere.
+pub struct Progress {
+    bar: Option<ProgressBar>,
+    plain: Option<Mutex<Plain>>,
+}
+
+/// What the plain lines need to know.
+struct Plain {
+    started: Instant,
+    last: Instant,
+    files_done: usize,
+    files: usize,
+    tightenings: usize,
+}
+
+impl Progress {
+    /// Shows nothing when `quiet`.
+    pub fn new(quiet: bool) -> Self {
+        let terminal = std::io::stderr().is_terminal();
+        let bar = (!quiet && terminal).then(|| {
+            let bar = ProgressBar::new(0);
+            let style = ProgressStyle::with_template(
+                "{spinner} {pos}/{len} files  {msg}  {wide_bar}  {elapsed} elapsed, {eta} left",
+            )
+            .expect("the template is well-formed");
+            bar.set_style(style);
+            bar.enable_steady_tick(Duration::from_millis(100));
+            bar
+        });
+        let now = Instant::now();
+        let plain = (!quiet && !terminal).then(|| {
+            Mutex::new(Plain {
+                started: now,
+                last: now,
+                files_done: 0,
+                files: 0,
+                tightenings: 0,
+            })
+        });
+        Self { bar, plain }
+    }
+
+    /// Takes what a run reports.
+    pub fn report(&self, event: ProgressEvent) {
+        if let Some(bar) = &self.bar {
+            match event {
+                ProgressEvent::Started { files } => bar.set_length(files as u64),
+                ProgressEvent::FileDone { tightenings } => {
+                    bar.inc(1);
+                    bar.set_message(format!("{tightenings} tightenings"));
+                }
+                ProgressEvent::Writing { what } => bar.set_message(format!("writing {what}")),
+            }
+        }
+        if let Some(plain) = &self.plain {
+            plain
+                .lock()
+                .expect("no thread panics while it reports")
+                .report(event);
+        }
+    }
+
+    /// Takes the bar away.
+    pub fn finish(&self) {
+        if let Some(bar) = &self.bar {
+            bar.finish_and_clear();
+        }
+    }
+}
+
+impl Plain {
+    fn report(&mut self, event: ProgressEvent) {
+        match event {
+            ProgressEvent::Started { files } => self.files = files,
+            ProgressEvent::FileDone { tightenings } => {
+                self.files_done += 1;
+                self.tightenings = tightenings;
+                if self.last.elapsed() >= PLAIN_EVERY {
+                    self.last = Instant::now();
+                    self.line();
+                }
+            }
+            ProgressEvent::Writing { .. } => {}
+        }
+    }
+
+    fn line(&self) {
+        let elapsed = self.started.elapsed().as_secs_f64();
+        let rate = self.tightenings as f64 / elapsed;
+        let left = elapsed / self.files_done as f64 * (self.files - self.files_done) as f64;
+        eprintln!(
+            "{} of {} files, {} tightenings, {rate:.0} a second, about {left:.0} s left",
+            self.files_done, self.files, self.tightenings
+        );
+    }
+}

@@ -1,0 +1,210 @@
+use snug_campaign::{
+    CampaignResult, Finding, Moments, PresetSummary, Rejection, Severity, TighteningResult,
+};
+use snug_study::Outcome;
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+
+/// What a run came to, on one screen.
+pub fn of_run(outcome: &Outcome) -> String {
+    let result = &outcome.result;
+    let mut text = format!("\n{}\n", result.title);
+    headline(&mut text, outcome);
+    for preset in &result.presets {
+        selection(&mut text, preset);
+    }
+    corrections(&mut text, result);
+    parameters(&mut text, result);
+    validation(&mut text, result);
+    agreement(&mut text, result);
+    findings(&mut text, &result.findings);
+    if outcome.interrupted {
+        text.push_str("\nInterrupted: the results cover what was evaluated until then.\n");
+    }
+    text.push_str("\nWritten:\n");
+    for path in &outcome.written {
+        line(&mut text, format_args!("  {}", path.display()));
+    }
+    text
+}
+
+fn line(text: &mut String, arguments: std::fmt::Arguments<'_>) {
+    writeln!(text, "{arguments}").expect("a string takes every write");
+}
+
+fn headline(text: &mut String, outcome: &Outcome) {
+    let result = &outcome.result;
+    let model = if result.effects.is_empty() {
+        "base model".to_owned()
+    } else {
+        format!("base model + {}", result.effects.join(" + "))
+    };
+    line(
+        text,
+        format_args!(
+            "  {} tightenings from {} files; {model}, {} fitted",
+            result.tightenings.len(),
+            outcome.files,
+            result.fitted_output
+        ),
+    );
+}
+
+fn selection(text: &mut String, preset: &PresetSummary) {
+    let share = 100.0 * preset.selected as f64 / preset.tightenings.max(1) as f64;
+    let reasons: Vec<String> = preset
+        .rejections
+        .iter()
+        .map(|count| format!("{} {}", count.tightenings, words(count.rejection)))
+        .collect();
+    let why = if reasons.is_empty() {
+        String::new()
+    } else {
+        format!("; rejected: {}", reasons.join(", "))
+    };
+    line(
+        text,
+        format_args!(
+            "  preset {:<7} selects {} of {} ({share:.0} %){why}",
+            preset.preset, preset.selected, preset.tightenings
+        ),
+    );
+}
+
+fn words(rejection: Rejection) -> String {
+    rejection.name().replace('_', " ")
+}
+
+/// What was measured in the quiet part and taken out, where it is more than chance.
+fn corrections(text: &mut String, result: &CampaignResult) {
+    let mut sizes: BTreeMap<(&str, &str), Vec<f64>> = BTreeMap::new();
+    for correction in result.tightenings.iter().flat_map(|t| &t.corrections) {
+        if correction.significant {
+            sizes
+                .entry((correction.effect.as_str(), correction.unit.as_str()))
+                .or_default()
+                .push(correction.value.abs());
+        }
+    }
+    for ((effect, unit), mut sizes) in sizes {
+        sizes.sort_by(f64::total_cmp);
+        line(
+            text,
+            format_args!(
+                "  corrected from the quiet part: {effect} in {} of {} tightenings, median size {} {unit}",
+                sizes.len(),
+                result.tightenings.len(),
+                significant(sizes[sizes.len() / 2])
+            ),
+        );
+    }
+}
+
+fn parameters(text: &mut String, result: &CampaignResult) {
+    let Some(all) = result.conditions.first() else {
+        return;
+    };
+    let rows: Vec<(&str, &Moments)> = all
+        .quantities
+        .iter()
+        .filter_map(|q| Some((q.quantity.as_str(), q.selected.as_ref()?)))
+        .collect();
+    if rows.is_empty() {
+        return;
+    }
+    line(
+        text,
+        format_args!(
+            "\n  {:<24} {:>11} {:>11} {:>25}",
+            "selected", "mean", "SD", "95 % of the mean"
+        ),
+    );
+    for (name, moments) in rows {
+        let sd = moments
+            .standard_deviation
+            .map_or_else(|| "–".to_owned(), significant);
+        let interval = moments.mean_interval.map_or_else(
+            || "–".to_owned(),
+            |i| format!("{} to {}", significant(i.low), significant(i.high)),
+        );
+        line(
+            text,
+            format_args!(
+                "  {name:<24} {:>11} {sd:>11} {interval:>25}",
+                significant(moments.mean)
+            ),
+        );
+    }
+}
+
+/// Four significant digits.
+fn significant(value: f64) -> String {
+    if value == 0.0 || (1e-3..1e6).contains(&value.abs()) {
+        let digits = 3 - value.abs().max(1e-9).log10().floor() as i32;
+        format!("{value:.*}", digits.clamp(0, 8) as usize)
+    } else {
+        format!("{value:.3e}")
+    }
+}
+
+fn validation(text: &mut String, result: &CampaignResult) {
+    let kept = |t: &&TighteningResult| t.selection.rejections.contains(&Rejection::Validation);
+    for tightening in result.tightenings.iter().filter(kept) {
+        if let Some(rms) = tightening.measures.rms_displacement_rad {
+            line(
+                text,
+                format_args!(
+                    "  validation {}: rms residual {} of the displacement",
+                    tightening.id,
+                    significant(rms)
+                ),
+            );
+        }
+    }
+}
+
+fn agreement(text: &mut String, result: &CampaignResult) {
+    let median = |value: fn(&TighteningResult) -> Option<f64>| {
+        let mut values: Vec<f64> = result.tightenings.iter().filter_map(value).collect();
+        values.sort_by(f64::total_cmp);
+        values.get(values.len() / 2).copied()
+    };
+    let fit = median(|t| t.measures.fit_percent);
+    let noise = median(|t| t.measures.error_over_noise);
+    if let Some(fit) = fit {
+        line(
+            text,
+            format_args!("\n  median fit of the displacement {fit:.1} %"),
+        );
+    }
+    if let Some(noise) = noise {
+        line(
+            text,
+            format_args!("  median error over noise {noise:.3} (1 = nothing left but noise)"),
+        );
+    }
+}
+
+fn findings(text: &mut String, findings: &[Finding]) {
+    let mut counts: BTreeMap<(std::cmp::Reverse<Severity>, &str), usize> = BTreeMap::new();
+    for finding in findings {
+        *counts
+            .entry((std::cmp::Reverse(finding.severity), finding.code.as_str()))
+            .or_default() += 1;
+    }
+    if counts.is_empty() {
+        return;
+    }
+    text.push_str("\n  findings (details in findings.json and in the report)\n");
+    for ((std::cmp::Reverse(severity), code), count) in counts {
+        let severity = match severity {
+            Severity::LeftOut => "left out",
+            Severity::Repaired => "repaired",
+            Severity::Note => "note",
+        };
+        line(
+            text,
+            format_args!("  {count:>6} {severity:<9} {}", code.replace('_', " ")),
+        );
+    }
+}

@@ -1,0 +1,81 @@
+use crate::arguments::{PresetName, RunOptions};
+use crate::progress::Progress;
+use crate::{exit, summary, workspace};
+use snug_study::{Preset, RunSettings, Study, StudyError};
+use std::process::ExitCode;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// From recordings to report and MCAP.
+pub fn run(options: &RunOptions) -> ExitCode {
+    let study = match study(options) {
+        Ok(study) => study,
+        Err(error) => {
+            eprintln!("{error}");
+            return exit::bad_arguments();
+        }
+    };
+    let settings = RunSettings {
+        out: options.out.clone(),
+        threads: options.threads,
+    };
+    let interrupted = Arc::new(AtomicBool::new(false));
+    let flag = Arc::clone(&interrupted);
+    if let Err(error) = ctrlc::set_handler(move || flag.store(true, Ordering::Relaxed)) {
+        tracing::warn!(%error, "Ctrl-C will stop at once instead of after the current file");
+    }
+    let progress = Progress::new(options.quiet);
+    let outcome = snug_study::run(
+        &study,
+        &settings,
+        &|event| progress.report(event),
+        &interrupted,
+    );
+    progress.finish();
+    match outcome {
+        Ok(outcome) => {
+            if !options.quiet {
+                print!("{}", summary::of_run(&outcome));
+            }
+            if outcome.interrupted {
+                exit::interrupted()
+            } else if outcome.left_out > 0 {
+                exit::left_out()
+            } else {
+                exit::DONE
+            }
+        }
+        Err(error) => {
+            eprintln!("{error}");
+            if error.is_bad_argument() {
+                exit::bad_arguments()
+            } else {
+                exit::failed()
+            }
+        }
+    }
+}
+
+/// The study file, or the thesis' defaults, with what the command line overrides.
+fn study(options: &RunOptions) -> Result<Study, StudyError> {
+    let mut study = match &options.study {
+        Some(path) => Study::read(path)?,
+        None => Study::on(workspace::embedded_campaign()),
+    };
+    if let Some(data) = &options.data {
+        study.set_data(data);
+    }
+    match options.preset {
+        Some(PresetName::Snug) => study.set_preset(Preset::Snug),
+        Some(PresetName::Thesis) => study.set_preset(Preset::Thesis),
+        None => {}
+    }
+    if let Some(effects) = &options.effects {
+        study.model.effects.clone_from(effects);
+    }
+    if let Some(seed) = options.seed {
+        study.seed = seed;
+    }
+    study.check()?;
+    Ok(study)
+}
