@@ -2,4 +2,12 @@
 #![allow(clippy::unwrap_used, reason = "a failing story should say where")]
 #![allow(clippy::print_stdout, reason = "a skipped or measured check says so")]
 
+mod bad_input;
+mod campaign;
+mod intervals;
 mod layers;
+mod other_rigs;
+mod practice;
+mod recording;
+mod thesis_preset;
+mod threads;

@@ -1,4 +1,5 @@
 use crate::StudyError;
+use ron::extensions::Extensions;
 use serde::{Deserialize, Serialize};
 use snug_campaign::{Intersample, Quantity};
 use snug_identify::{ConstraintKind, IdentifySettings};
@@ -158,7 +159,8 @@ impl Study {
     }
 }
 
-/// `Option` fields are written as plain values.
+/// `Option` fields are written as plain values, and `Csv(channels: …)` needs no second pair of parentheses.
 fn options() -> ron::Options {
-    ron::Options::default().with_default_extension(ron::extensions::Extensions::IMPLICIT_SOME)
+    ron::Options::default()
+        .with_default_extension(Extensions::IMPLICIT_SOME | Extensions::UNWRAP_VARIANT_NEWTYPES)
 }

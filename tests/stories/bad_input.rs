@@ -1,0 +1,174 @@
+//! Bad input gives a clear error or a named finding, and everything else is still evaluated.
+
+use crate::campaign::{embedded, run_study, study_on};
+use snug_campaign::{Finding, Severity};
+use snug_study::{Outcome, Preset, Study, StudyError};
+use std::path::Path;
+use tempfile::TempDir;
+
+const GOOD: &str = "TP1_QS_Soft_5_01.mat";
+
+/// A folder with one good file and whatever `add` puts beside it.
+fn beside_a_good_file(add: impl FnOnce(&Path)) -> (Outcome, TempDir, TempDir) {
+    let data = tempfile::tempdir().unwrap();
+    std::fs::copy(embedded().join(GOOD), data.path().join(GOOD)).unwrap();
+    add(data.path());
+    let (outcome, out) = run_study(&study_on(data.path(), Preset::Snug)).unwrap();
+    assert_eq!(
+        outcome.result.presets[0].selected, 4,
+        "the good file's tightenings are all evaluated"
+    );
+    (outcome, data, out)
+}
+
+fn left_out<'a>(outcome: &'a Outcome, file: &str) -> Vec<&'a Finding> {
+    outcome
+        .result
+        .findings
+        .iter()
+        .filter(|f| f.severity == Severity::LeftOut && f.file == file)
+        .collect()
+}
+
+#[test]
+fn a_garbage_file_is_a_finding() {
+    let (outcome, _data, _out) = beside_a_good_file(|folder| {
+        std::fs::write(
+            folder.join("garbage.mat"),
+            b"not a MAT file at all, only text".repeat(9),
+        )
+        .unwrap();
+    });
+    assert_eq!(left_out(&outcome, "garbage.mat").len(), 1);
+    assert_eq!(outcome.left_out, 1);
+}
+
+#[test]
+fn a_truncated_file_keeps_what_it_holds_or_says_why_not() {
+    let (outcome, _data, _out) = beside_a_good_file(|folder| {
+        let bytes = std::fs::read(embedded().join("TP2_QS_Hard_8_02.mat")).unwrap();
+        std::fs::write(folder.join("cut.mat"), &bytes[..bytes.len() / 2]).unwrap();
+    });
+    assert!(!left_out(&outcome, "cut.mat").is_empty());
+}
+
+#[test]
+fn zero_torque_and_nan_are_named() {
+    use snug_synthetic::{MatValue, mat5};
+    let samples = 20_000;
+    let noise = |index: usize| ((index * 7919) % 1000) as f64 / 1000.0 - 0.5;
+    let acceleration: Vec<f64> = (0..samples).map(noise).collect();
+    let events = [
+        "1", "Start", "0,0", "1", "Torque", "1,48", "1", "Stop", "2,0",
+    ];
+    let write = |folder: &Path, name: &str, torque: &[f64], acceleration: &[f64]| {
+        let texts = events.map(str::to_owned).to_vec();
+        let variables = [
+            ("Events", MatValue::CellOfText { columns: 3, texts }),
+            ("Inline_Torque", MatValue::Double(torque)),
+            ("angle_acc_Acc_FIR150", MatValue::Double(acceleration)),
+        ];
+        std::fs::write(folder.join(name), mat5(&variables, true).unwrap()).unwrap();
+    };
+    let (outcome, _data, _out) = beside_a_good_file(|folder| {
+        write(
+            folder,
+            "TP1_QS_Soft_5_zero.mat",
+            &vec![0.0; samples],
+            &acceleration,
+        );
+        write(
+            folder,
+            "TP1_QS_Soft_5_nan.mat",
+            &vec![f64::NAN; samples],
+            &acceleration,
+        );
+        write(
+            folder,
+            "TP1_QS_Soft_5_still.mat",
+            &vec![0.0; samples],
+            &vec![0.0; samples],
+        );
+    });
+    for file in [
+        "TP1_QS_Soft_5_zero.mat",
+        "TP1_QS_Soft_5_nan.mat",
+        "TP1_QS_Soft_5_still.mat",
+    ] {
+        assert_eq!(left_out(&outcome, file).len(), 1, "{file}");
+    }
+}
+
+#[test]
+fn a_missing_channel_is_named_with_what_is_there() {
+    let (outcome, _data, _out) = beside_a_good_file(|folder| {
+        let bytes = snug_synthetic::mat5(
+            &[(
+                "Inline_Torque",
+                snug_synthetic::MatValue::Double(&[0.0; 100]),
+            )],
+            false,
+        )
+        .unwrap();
+        std::fs::write(folder.join("TP9_QS_Soft_5.mat"), bytes).unwrap();
+    });
+    let findings = left_out(&outcome, "TP9_QS_Soft_5.mat");
+    let message = &findings[0].message;
+    assert!(
+        message.contains("angle_acc_Acc_FIR150"),
+        "names what is wanted: {message}"
+    );
+    assert!(
+        message.contains("Inline_Torque"),
+        "names what is there: {message}"
+    );
+}
+
+#[test]
+fn an_empty_or_missing_folder_is_an_error_that_names_it() {
+    let empty = tempfile::tempdir().unwrap();
+    for folder in [empty.path().to_path_buf(), empty.path().join("nowhere")] {
+        let error = run_study(&study_on(&folder, Preset::Snug)).unwrap_err();
+        let text = error.to_string();
+        assert!(text.contains(&*folder.to_string_lossy()), "{text}");
+        assert!(!error.is_bad_argument(), "the study itself is fine");
+    }
+}
+
+#[test]
+fn a_typo_in_the_study_is_told_with_line_and_column() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("study.ron");
+    std::fs::write(&path, "(\n    preprocess: (windw: Whole),\n)\n").unwrap();
+    let error = Study::read(&path).unwrap_err();
+    let StudyError::Syntax { line, .. } = &error else {
+        panic!("{error}");
+    };
+    assert_eq!(*line, 2);
+    let text = error.to_string();
+    assert!(text.contains("windw") && text.contains("window"), "{text}");
+    assert!(error.is_bad_argument());
+}
+
+#[test]
+fn settings_that_make_no_sense_are_named() {
+    let mut study = study_on(&embedded(), Preset::Snug);
+    study.model.effects = vec!["cubic_stifness".to_owned()];
+    let text = study.check().unwrap_err().to_string();
+    assert!(
+        text.contains("cubic_stifness") && text.contains("cubic_stiffness"),
+        "{text}"
+    );
+    let mut study = study_on(&embedded(), Preset::Snug);
+    study.validation.ranges = vec!["tset".to_owned()];
+    assert!(study.check().unwrap_err().to_string().contains("tset"));
+    let mut study = study_on(&embedded(), Preset::Snug);
+    study.preprocess.rig.lever_arm_m = -0.33;
+    assert!(
+        study
+            .check()
+            .unwrap_err()
+            .to_string()
+            .contains("lever_arm_m")
+    );
+}
