@@ -37,11 +37,11 @@ fn intervals_cover_the_truth() {
     }
     assert_eq!(total as u64, 48 * campaigns);
     println!("covered {covered:?} of {total}");
-    // 95 % of 144 has a binomial standard deviation of 1.8 %, of 1152 of 0.6 %.
+    // The promise is 90 to 98 %; the few default cases scatter by 1.8 %, the many by 0.6 %.
     let (low, high) = if snug_tests::many() {
-        (0.93, 0.97)
+        (0.90, 0.98)
     } else {
-        (0.90, 0.99)
+        (0.88, 0.99)
     };
     for (name, covered) in ["mass", "damping", "stiffness"].iter().zip(covered) {
         let share = covered as f64 / total as f64;

@@ -83,6 +83,33 @@ impl<'a> TighteningResidual<'a> {
     }
 }
 
+impl TighteningResidual<'_> {
+    /// Measured − simulated of every sample and, where asked, its Jacobian (column-major, samples × free).
+    fn subtract(&self, residual: &mut [f64], jacobian: Option<&mut [f64]>) {
+        match jacobian {
+            Some(jacobian) => {
+                self.model.sensitivities(
+                    &self.values,
+                    &self.free,
+                    self.input,
+                    self.quantity,
+                    residual,
+                    jacobian,
+                );
+                for value in jacobian {
+                    *value = -*value;
+                }
+            }
+            None => self
+                .model
+                .output(&self.values, self.input, self.quantity, residual),
+        }
+        for (simulated, measured) in residual.iter_mut().zip(self.measured) {
+            *simulated = measured - *simulated;
+        }
+    }
+}
+
 impl Residual for TighteningResidual<'_> {
     fn residual_count(&self) -> usize {
         let lost = self.whitening.map_or(0, Whitening::order);
@@ -102,40 +129,28 @@ impl Residual for TighteningResidual<'_> {
         for (&index, &value) in self.free.iter().zip(parameters) {
             self.values[index] = value;
         }
-        let (mut output, mut sensitivity) = (
+        if self.whitening.is_none() && self.unscored == 0 {
+            // Every sample counts, and counts the same: straight into the solver's buffers.
+            self.subtract(residual, jacobian);
+            return Ok(());
+        }
+        let (mut every, mut sensitivity) = (
             std::mem::take(&mut self.output),
             std::mem::take(&mut self.sensitivity),
         );
-        if jacobian.is_some() {
-            self.model.sensitivities(
-                &self.values,
-                &self.free,
-                self.input,
-                self.quantity,
-                &mut output,
-                &mut sensitivity,
-            );
-        } else {
-            self.model
-                .output(&self.values, self.input, self.quantity, &mut output);
-        }
-        for (simulated, measured) in output.iter_mut().zip(self.measured) {
-            *simulated = measured - *simulated;
-        }
-        self.weigh(&output, residual);
+        let wanted = jacobian.is_some();
+        self.subtract(&mut every, wanted.then_some(&mut sensitivity[..]));
+        self.weigh(&every, residual);
         if let Some(jacobian) = jacobian {
             let (samples, scored) = (self.measured.len(), residual.len());
             for (column, weighted) in sensitivity
-                .chunks_exact_mut(samples)
+                .chunks_exact(samples)
                 .zip(jacobian.chunks_exact_mut(scored))
             {
-                for value in column.iter_mut() {
-                    *value = -*value;
-                }
                 self.weigh(column, weighted);
             }
         }
-        self.output = output;
+        self.output = every;
         self.sensitivity = sensitivity;
         Ok(())
     }

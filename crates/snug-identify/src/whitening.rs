@@ -32,6 +32,12 @@ impl Whitening {
     pub fn apply(&self, signal: &[f64], white: &mut [f64]) {
         let order = self.order();
         let scale = 1.0 / self.innovation_sd;
+        if order == 0 {
+            for (out, value) in white.iter_mut().zip(signal) {
+                *out = value * scale;
+            }
+            return;
+        }
         let mut reversed = self.autoregression.clone();
         reversed.reverse();
         for (out, window) in white.iter_mut().zip(signal.windows(order + 1)) {

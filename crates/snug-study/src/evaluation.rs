@@ -26,6 +26,13 @@ pub fn fitted(study: &Study, prepared: &Prepared) -> Result<Evaluated, StudyErro
     let model = study.model.model(tightening.rig)?;
     let input = input(study, tightening);
     let estimate = identify(&model, &input, tightening, &study.identify)?;
+    tracing::debug!(
+        tightening = tightening.id.number,
+        status = ?estimate.status,
+        iterations = estimate.iterations,
+        conic_solves = estimate.conic_solves,
+        "identified"
+    );
     let preset = study.preprocess.preset;
     Ok(simulated(
         study,

@@ -22,7 +22,8 @@ impl Examples {
         while self.kept.len() > MOST {
             self.halvings += 1;
             let halvings = self.halvings;
-            self.kept.retain(|(index, _)| index % (1 << halvings) == 0);
+            self.kept
+                .retain(|(index, _)| index.is_multiple_of(1 << halvings));
         }
     }
 
@@ -32,7 +33,7 @@ impl Examples {
     }
 
     fn takes(&self, index: usize) -> bool {
-        index % (1 << self.halvings) == 0
+        index.is_multiple_of(1 << self.halvings)
     }
 }
 

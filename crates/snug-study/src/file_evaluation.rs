@@ -21,11 +21,12 @@ pub struct FileEvaluation {
 
 /// Reads, prepares and evaluates one file. What cannot be used becomes a finding.
 pub fn evaluate_file(study: &Study, path: &Path) -> Result<FileEvaluation, StudyError> {
+    let _span = tracing::info_span!("file", path = %path.display()).entered();
     let lever_arm_m = study.preprocess.rig.lever_arm_m;
     let ingested = match snug_ingest::read(&study.source, path, lever_arm_m) {
         Ok(ingested) => ingested,
         Err(error) => {
-            tracing::warn!(file = %path.display(), %error, "left out");
+            tracing::warn!(%error, "the file is left out");
             return Ok(FileEvaluation {
                 recordings: Vec::new(),
                 evaluated: Vec::new(),
@@ -44,6 +45,11 @@ pub fn evaluate_file(study: &Study, path: &Path) -> Result<FileEvaluation, Study
             there.extend(outcomes(&evaluate(other, recording, &mut Vec::new())?));
         }
     }
+    tracing::info!(
+        tightenings = evaluated.len(),
+        findings = findings.len(),
+        "the file is evaluated"
+    );
     Ok(FileEvaluation {
         recordings: ingested.recordings,
         evaluated,

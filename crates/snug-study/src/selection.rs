@@ -39,22 +39,21 @@ impl SelectionSettings {
                 allowed,
             })
         };
-        if !(self.minimum_fit_percent <= 100.0) {
+        if self.minimum_fit_percent.is_nan() || self.minimum_fit_percent > 100.0 {
             return reject(
                 "selection.minimum_fit_percent",
                 self.minimum_fit_percent,
                 "at most 100",
             );
         }
-        if !(self.noise_limited_ratio >= 0.0) {
-            return reject(
-                "selection.noise_limited_ratio",
-                self.noise_limited_ratio,
-                "0 or more",
-            );
-        }
-        if !(self.tool_mass_kg >= 0.0 && self.tool_mass_kg.is_finite()) {
-            return reject("selection.tool_mass_kg", self.tool_mass_kg, "0 or more kg");
+        let positive_or_zero = [
+            ("selection.noise_limited_ratio", self.noise_limited_ratio),
+            ("selection.tool_mass_kg", self.tool_mass_kg),
+        ];
+        for (setting, value) in positive_or_zero {
+            if value.is_nan() || value < 0.0 {
+                return reject(setting, value, "0 or more");
+            }
         }
         Ok(())
     }
@@ -69,10 +68,10 @@ impl SelectionSettings {
         estimate: &Estimate,
         measures: &FitMeasures,
     ) -> Vec<Rejection> {
-        let poor = measures
+        let good = measures
             .fit_percent
-            .is_none_or(|percent| !(percent > self.minimum_fit_percent));
-        let mass = estimate.value("mass_kg").unwrap_or(f64::NAN);
+            .is_some_and(|percent| percent > self.minimum_fit_percent);
+        let mass_is_positive = estimate.value("mass_kg").is_some_and(|mass| mass > 0.0);
         let mut rejections = Vec::new();
         match preset {
             Preset::Snug => {
@@ -84,7 +83,7 @@ impl SelectionSettings {
                 let noise_limited = measures
                     .error_over_noise
                     .is_some_and(|ratio| ratio <= self.noise_limited_ratio);
-                if poor && !noise_limited {
+                if !good && !noise_limited {
                     rejections.push(Rejection::PoorFit);
                 }
             }
@@ -95,10 +94,10 @@ impl SelectionSettings {
                 {
                     rejections.push(Rejection::NotLightlyDamped);
                 }
-                if poor {
+                if !good {
                     rejections.push(Rejection::PoorFit);
                 }
-                if !(mass > 0.0) {
+                if !mass_is_positive {
                     rejections.push(Rejection::MassNotPositive);
                 }
             }

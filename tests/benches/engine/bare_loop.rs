@@ -4,14 +4,6 @@
 //! for straight input and nine inner products; b1 is linear and eliminated; Gauss–Newton on b2, b3 with halving. No
 //! constraints, no weights, no covariance, no checks: what any complete fit can at best approach on one core.
 
-/// The optimum (m, c, k) of ½‖θ − θ̂‖² and the passes it took.
-pub struct BareFit {
-    /// m \[kg\], c \[kg/s\], k \[N/m\].
-    pub values: [f64; 3],
-    /// Passes over the samples.
-    pub passes: usize,
-}
-
 /// Inner products of (g, −z, −z′, θ) with each other, upper triangle.
 #[derive(Default, Clone, Copy)]
 struct Products {
@@ -26,7 +18,7 @@ struct Products {
     yd: f64,
 }
 
-/// Fits from `start` (m, c, k) the angle \[rad\] under torque \[Nm\], lever `l` \[m\] and inertia `known` \[kg m²\].
+/// The optimum m \[kg\], c \[kg/s\], k \[N/m\] of ½‖θ − θ̂‖², from `start` (the same), for the angle \[rad\] under torque \[Nm\], lever `l` \[m\] and inertia `known` \[kg m²\].
 pub fn fit(
     torque: &[f64],
     angle: &[f64],
@@ -34,7 +26,7 @@ pub fn fit(
     l: f64,
     known: f64,
     start: [f64; 3],
-) -> BareFit {
+) -> [f64; 3] {
     let square = l * l;
     let inertia = known + start[0] * square;
     let (mut b2, mut b3) = (start[2] * square / inertia, start[1] * square / inertia);
@@ -60,14 +52,11 @@ pub fn fit(
         let small = d2.abs() < 1e-9 * b2.abs() && d3.abs() < 1e-9 * b3.abs();
         if small || passes > 50 {
             let inertia = 1.0 / b1;
-            return BareFit {
-                values: [
-                    (inertia - known) / square,
-                    b3 * inertia / square,
-                    b2 * inertia / square,
-                ],
-                passes,
-            };
+            return [
+                (inertia - known) / square,
+                b3 * inertia / square,
+                b2 * inertia / square,
+            ];
         }
         loop {
             let trial = pass(torque, angle, interval_s, b2 + d2, b3 + d3);

@@ -83,7 +83,7 @@ fn fit(problem: &Problem, model: &ModelSettings, settings: &IdentifySettings) ->
 /// Both fits of the displacement must end at the same optimum, or the table compares different work.
 fn assert_same_optimum(problems: &[Problem]) {
     for problem in problems {
-        let bare = problem.bare_fit().values;
+        let bare = problem.bare_fit();
         let snug = fit(
             problem,
             &ModelSettings::default(),

@@ -1,4 +1,4 @@
-use crate::bare_loop::{self, BareFit};
+use crate::bare_loop;
 use snug_campaign::{
     Conditions, Intersample, Motion, NoiseFloor, NoiseSource, Quantity, Rig, Tightening,
     TighteningId, TimeBase,
@@ -52,7 +52,7 @@ impl Problem {
     }
 
     /// The yardstick's fit of the displacement.
-    pub fn bare_fit(&self) -> BareFit {
+    pub fn bare_fit(&self) -> [f64; 3] {
         bare_loop::fit(
             &self.tightening.torque_nm,
             self.tightening
