@@ -1,4 +1,5 @@
 use crate::arguments::{LogFormat, LogOptions};
+use std::io::IsTerminal;
 use tracing_subscriber::EnvFilter;
 
 /// Sends `tracing` to standard error, as text or as JSON lines.
@@ -15,6 +16,7 @@ pub fn start(options: &LogOptions) {
     };
     let subscriber = tracing_subscriber::fmt()
         .with_env_filter(filter)
+        .with_ansi(std::io::stderr().is_terminal())
         .with_writer(std::io::stderr);
     match options.log {
         LogFormat::Text => subscriber.init(),

@@ -37,8 +37,16 @@ pub fn run(options: &RunOptions) -> ExitCode {
             if !options.quiet {
                 print!("{}", summary::of_run(&outcome));
             }
+            let evaluated = outcome
+                .result
+                .tightenings
+                .iter()
+                .any(|t| t.estimate.is_some());
             if outcome.interrupted {
                 exit::interrupted()
+            } else if !evaluated {
+                eprintln!("no tightening could be evaluated; findings.json says why");
+                exit::failed()
             } else if outcome.left_out > 0 {
                 exit::left_out()
             } else {
