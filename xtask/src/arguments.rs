@@ -7,7 +7,6 @@ use std::path::PathBuf;
     name = "cargo xtask",
     bin_name = "cargo xtask",
     version,
-    about,
     after_help = "\
 Examples:
   cargo xtask run                              the embedded campaign, into out/

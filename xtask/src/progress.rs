@@ -56,7 +56,8 @@ impl Progress {
                 ProgressEvent::Started { files } => bar.set_length(files as u64),
                 ProgressEvent::FileDone { tightenings } => {
                     bar.inc(1);
-                    bar.set_message(format!("{tightenings} tightenings"));
+                    let rate = tightenings as f64 / bar.elapsed().as_secs_f64().max(1e-3);
+                    bar.set_message(format!("{tightenings} tightenings, {rate:.0} a second"));
                 }
                 ProgressEvent::Writing { what } => bar.set_message(format!("writing {what}")),
             }

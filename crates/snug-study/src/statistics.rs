@@ -2,8 +2,8 @@
 
 mod conditions;
 mod factor;
+mod hypothesis_tests;
 mod quantity;
-mod tests;
 
 pub use conditions::summaries;
-pub use tests::rows;
+pub use hypothesis_tests::rows;
