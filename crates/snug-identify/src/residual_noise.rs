@@ -1,5 +1,6 @@
 //! What the noise does to an estimate: M = Jᵀ cov(r) J at the optimum, for the sandwich (JᵀJ)⁻¹ M (JᵀJ)⁻¹.
 
+use crate::agreement::error_over_noise;
 use crate::{Fit, Residual, ResidualNoise, TighteningResidual, Whitening};
 use snug_campaign::{Quantity, Tightening};
 use snug_model::Input;
@@ -39,18 +40,17 @@ struct Linearized {
 ///
 /// Whitened residual: unit variance, plus the uncertainty of the bias taken out in the quiet part. Integrated noise
 /// (displacement or velocity fitted, acceleration measured): the measured noise, integrated as the signal was. Unknown
-/// noise, or more residual than noise: from the scores of the residual itself, summed over stretches so that their
-/// correlation in time counts.
+/// noise: from the scores of the residual itself, summed over stretches so that their correlation in time counts. More
+/// residual than noise: those scores beside the noise, or the integrated noise times the excess.
 pub fn noise_of(
     residual: &mut TighteningResidual<'_>,
     tightening: &Tightening,
     input: &Input,
     fit: &Fit,
 ) -> OwnedNoise {
-    let count = residual.residual_count();
     let whitened = residual.is_whitened();
-    let mean_square = fit.sum_of_squares() / count as f64;
-    let misfit = mean_square > 1.0 + MISFIT * (2.0 / count as f64).sqrt();
+    let excess = excess(residual, tightening, fit);
+    let misfit = excess > 1.0;
     let bias_variance = bias_variance(tightening);
     if whitened && !misfit && bias_variance == 0.0 {
         return OwnedNoise::Unit;
@@ -64,14 +64,40 @@ pub fn noise_of(
         integrated_noise(residual, &at, tightening, input)
     };
     let mut meat = match known {
-        Some(known) if whitened && misfit => larger(known, &at),
-        Some(known) => known,
+        Some(known) if misfit && whitened => sum(known, &scores(&at)),
+        // Integrated noise leaves too few independent stretches to learn from.
+        Some(known) => known.iter().map(|value| excess * value).collect(),
         None => scores(&at),
     };
     if whitened && bias_variance > 0.0 {
         add_bias(&mut meat, residual, &at, bias_variance);
     }
     OwnedNoise::Sandwich(meat)
+}
+
+/// Mean square of the whitened residual of the quantity whose noise is known, where it exceeds 1 beyond chance; else 1.
+fn excess(residual: &mut TighteningResidual<'_>, tightening: &Tightening, fit: &Fit) -> f64 {
+    let count = residual.residual_count() as f64;
+    let mean_square = if residual.is_whitened() {
+        Some(fit.sum_of_squares() / count)
+    } else {
+        tightening.noise.as_ref().and_then(|noise| {
+            let measured = tightening.motion.get(noise.quantity)?;
+            let simulated = residual.simulate(&fit.values, noise.quantity);
+            Some(error_over_noise(measured, &simulated, noise)?.powi(2))
+        })
+    };
+    let chance = 1.0 + MISFIT * (2.0 / count).sqrt();
+    mean_square
+        .filter(|&mean_square| mean_square > chance)
+        .unwrap_or(1.0)
+}
+
+fn sum(mut noise: Vec<f64>, misfit: &[f64]) -> Vec<f64> {
+    for (value, more) in noise.iter_mut().zip(misfit) {
+        *value += more;
+    }
+    noise
 }
 
 /// Variance of the acceleration bias that was estimated and taken out \[(rad/s²)²\].
@@ -128,21 +154,6 @@ fn scores(at: &Linearized) -> Vec<f64> {
         *value *= stretches as f64 / lost;
     }
     meat
-}
-
-/// The scores' M, blown up where necessary so that no parameter gets less variance than the noise alone gives it.
-fn larger(noise: Vec<f64>, at: &Linearized) -> Vec<f64> {
-    let mut meat = scores(at);
-    let p = at.parameters;
-    let shortage = (0..p)
-        .map(|i| noise[i * p + i] / meat[i * p + i])
-        .fold(1.0, f64::max);
-    if shortage.is_finite() {
-        meat.iter_mut().for_each(|value| *value *= shortage);
-        meat
-    } else {
-        noise
-    }
 }
 
 /// Adds var(b) g gᵀ, g = J_wᵀ d_w, where d is what a unit bias does to the fitted output.

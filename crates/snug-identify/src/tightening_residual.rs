@@ -52,6 +52,17 @@ impl<'a> TighteningResidual<'a> {
         self.quantity
     }
 
+    /// Another quantity, simulated with these free values.
+    pub fn simulate(&mut self, free_values: &[f64], quantity: Quantity) -> Vec<f64> {
+        for (&index, &value) in self.free.iter().zip(free_values) {
+            self.values[index] = value;
+        }
+        let mut output = vec![0.0; self.samples()];
+        self.model
+            .output(&self.values, self.input, quantity, &mut output);
+        output
+    }
+
     /// Whether the residual is whitened with a known noise.
     pub fn is_whitened(&self) -> bool {
         self.whitening.is_some()

@@ -348,7 +348,12 @@ fn thesis_keeps_what_the_original_keeps() {
             tightening.motion.get(Quantity::Acceleration).unwrap(),
             &measured[kept]
         );
-        assert!(tightening.noise.is_none() && tightening.corrections.is_empty());
+        assert!(tightening.corrections.is_empty(), "nothing is corrected");
+        let noise = tightening.noise.as_ref().unwrap();
+        assert!(
+            (noise.standard_deviation / 0.5 - 1.0).abs() < 0.05,
+            "but it is measured"
+        );
         // Cumulative trapezoid from the segment's start, written out.
         let inner: f64 = measured[start + 1..start + 14_800].iter().sum();
         let velocity = (inner + 0.5 * (measured[start] + measured[start + 14_800])) * 1e-4;

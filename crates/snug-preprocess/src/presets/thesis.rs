@@ -7,18 +7,22 @@
 //! 4. Codes 1 and 2 on the displacement (see [`crate::ThesisChecks`]).
 //! 5. Target torque from the whole segment.
 //!
+//! The noise of the quiet part is measured as well, for the intervals alone: nothing is corrected or weighted with it.
+//!
 //! Deviations, both reported: short runs of not-finite samples are bridged, and a segment too short for the window is
 //! left out (the original fails later, in a plot). No data-quality verdict: the original has none.
 
 use super::Context;
+use crate::autoregression::Autoregression;
 use crate::channel::Channel;
 use crate::integration::cumulative_trapezoid;
+use crate::noise::pre_roll_floor;
 use crate::offset::zero_index;
 use crate::remarks::Remarks;
 use crate::signals::Signals;
 use crate::torque_target::peak_torque_nm;
 use crate::{Prepared, ThesisChecks, window};
-use snug_campaign::{Finding, Quantity, Segment};
+use snug_campaign::{Finding, NoiseFloor, Quantity, Segment};
 
 /// Prepares one segment as the original did; `start_s` and `length_s` are the window's.
 pub(crate) fn prepare(
@@ -38,6 +42,7 @@ pub(crate) fn prepare(
         let channel = Some(Channel::Motion(Quantity::Acceleration));
         return Err(remarks.left_out("missing_channel", channel, message));
     };
+    let noise = noise_before(context, acceleration, window.start);
     let velocity = cumulative_trapezoid(acceleration, context.interval_s);
     let displacement = cumulative_trapezoid(&velocity, context.interval_s);
     signals.motion.velocity_rad_per_s = Some(velocity);
@@ -54,9 +59,27 @@ pub(crate) fn prepare(
         displacement.iter_mut().for_each(|value| *value -= offset);
     }
     let checks = ThesisChecks::of(displacement);
+    let mut tightening = context.tightening(remarks, signals, window.start, peak);
+    tightening.noise = noise;
     Ok(Prepared {
-        tightening: context.tightening(remarks, signals, window.start, peak),
+        tightening,
         thesis_checks: Some(checks),
         data_quality_rejects: false,
     })
+}
+
+/// Noise floor of the acceleration before the window; `None` when there is too little of it.
+fn noise_before(
+    context: &Context<'_>,
+    acceleration: &[f64],
+    window_start: usize,
+) -> Option<NoiseFloor> {
+    let settings = &context.settings.quiet;
+    let end = window_start.checked_sub(context.samples(settings.guard_s))?;
+    let quiet = acceleration.get(..end)?;
+    if quiet.len() < context.samples(settings.minimum_s) {
+        return None;
+    }
+    let noise = Autoregression::fit(quiet, settings.maximum_order)?;
+    (noise.standard_deviation > 0.0).then(|| pre_roll_floor(&noise, Quantity::Acceleration))
 }
