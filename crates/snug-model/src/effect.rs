@@ -1,4 +1,4 @@
-use crate::{Input, Number};
+use crate::Number;
 
 /// Where in the chain from bolt to sample an effect sits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
@@ -75,6 +75,49 @@ pub struct Instant<N> {
     pub x_m: N,
     /// Grip velocity v = l ω \[m/s\].
     pub v_m_per_s: N,
+    /// Time since the pulse began, as the input states it \[s\].
+    pub since_onset_s: f64,
+}
+
+/// How far the hand's spring is stretched and how fast its damper moves.
+#[derive(Debug, Clone, Copy)]
+pub struct Deflection<N> {
+    /// Stretch of the spring \[m\].
+    pub x_m: N,
+    /// Speed of the damper \[m/s\].
+    pub v_m_per_s: N,
+}
+
+/// A spring that acts on the displacement of a while ago.
+#[derive(Debug, Clone, Copy)]
+pub struct Delayed<N> {
+    /// Its stiffness \[N/m\].
+    pub stiffness_n_per_m: N,
+    /// The delay \[s\].
+    pub delay_s: N,
+}
+
+/// How the torque y that is logged relates to the torque that acts: T(t) = y(t − d) + τ y'(t − d) − T0.
+#[derive(Debug, Clone, Copy)]
+pub struct LoggedTorque<N> {
+    /// d, how much earlier it is logged than it acts \[s\].
+    pub delay_s: N,
+    /// τ of the first-order lag behind which it is logged \[s\].
+    pub lag_s: N,
+    /// T0, what is logged when none acts \[Nm\].
+    pub offset_nm: N,
+}
+
+impl<N: Number> LoggedTorque<N> {
+    /// The torque that acts is the one that is logged.
+    pub fn faithful() -> Self {
+        let none = N::from(0.0);
+        Self {
+            delay_s: none,
+            lag_s: none,
+            offset_nm: none,
+        }
+    }
 }
 
 /// The measured motion at one sample.
@@ -91,7 +134,14 @@ pub struct Kinematics<N> {
 /// A physical effect: what it adds to the base model, written once over the number type.
 ///
 /// Every hook adds nothing unless an effect overrides it. `p` holds the effect's own parameters in the order of its
-/// [`Description`], `own` its own states; the assembly decides where they live.
+/// [`Description`], `own` its own states; the assembly decides where they live. What several effects add to the same
+/// place is summed, so their order does not matter:
+///
+/// ```text
+/// F = limit(k (1 + Σ stiffening) d + c dd/dt + Σ force + Σ delayed)     d = deflection(x − Σ support)
+/// T = y(t − Σ delay) + Σ lag · y'(t − Σ delay) − Σ offset               y: logged torque
+/// a = measure(lagged(α + Σ leak, Σ acceleration lag))
+/// ```
 pub trait Law {
     /// What people read about it.
     fn description(&self) -> &'static Description;
@@ -102,20 +152,72 @@ pub trait Law {
         N::from(0.0)
     }
 
-    /// Rates of its own states.
+    /// Rates of its own states; `hand_n` is what the hand's spring and damper alone exert \[N\].
     #[inline(always)]
-    fn rates<N: Number>(&self, _p: &[N], _at: &Instant<N>, _own: &[N], _rates: &mut [N]) {}
+    fn rates<N: Number>(
+        &self,
+        _p: &[N],
+        _at: &Instant<N>,
+        _own: &[N],
+        _hand_n: N,
+        _rates: &mut [N],
+    ) {
+    }
 
-    /// Added to the logged torque to give the acting torque \[Nm\], at `time_s` after the first sample.
+    /// Where the far end of the hand's spring and damper is and how it moves; without it, at rest.
     #[inline(always)]
-    fn torque<N: Number>(&self, _p: &[N], _input: &Input, _time_s: f64) -> N {
-        N::from(0.0)
+    fn support<N: Number>(&self, _p: &[N], _own: &[N]) -> Option<Deflection<N>> {
+        None
+    }
+
+    /// What the hand's spring and damper see of the deflection between tool and support.
+    #[inline(always)]
+    fn deflection<N: Number>(&self, _p: &[N], between: Deflection<N>) -> Deflection<N> {
+        between
+    }
+
+    /// By how much of itself the hand's stiffness grows.
+    #[inline(always)]
+    fn stiffening<N: Number>(&self, _p: &[N], _at: &Instant<N>) -> Option<N> {
+        None
+    }
+
+    /// What the grip transmits of the hand force \[N\].
+    #[inline(always)]
+    fn limit<N: Number>(&self, _p: &[N], force_n: N) -> N {
+        force_n
+    }
+
+    /// A spring that acts on the displacement of a while ago, added to the hand force.
+    ///
+    /// Before the first sample the tool rests at its first displacement.
+    #[inline(always)]
+    fn delayed<N: Number>(&self, _p: &[N]) -> Option<Delayed<N>> {
+        None
+    }
+
+    /// How the logged torque relates to the torque that acts.
+    #[inline(always)]
+    fn logged_torque<N: Number>(&self, _p: &[N]) -> Option<LoggedTorque<N>> {
+        None
     }
 
     /// Initial angle \[rad\] and angular velocity \[rad/s\].
     #[inline(always)]
     fn initial<N: Number>(&self, _p: &[N]) -> (N, N) {
         (N::from(0.0), N::from(0.0))
+    }
+
+    /// What else the accelerometer senses \[rad/s²\]; the velocity and displacement integrated from it follow.
+    #[inline(always)]
+    fn leak<N: Number>(&self, _p: &[N], _motion: &Kinematics<N>) -> Option<N> {
+        None
+    }
+
+    /// Time constant \[s\] of the lag behind which the acceleration is measured; what is integrated from it follows.
+    #[inline(always)]
+    fn acceleration_lag_s<N: Number>(&self, _p: &[N]) -> Option<N> {
+        None
     }
 
     /// What the sensor makes of the true motion; `since_rest_s` is the time since the integration of its signal began.

@@ -1,7 +1,7 @@
 //! The catalogue: one file per effect, one line each in the list below.
 
-use crate::effect::{Description, Instant, Kinematics, Law};
-use crate::{Input, Number};
+use crate::Number;
+use crate::effect::{Deflection, Delayed, Description, Instant, Kinematics, Law, LoggedTorque};
 
 /// Declares the effects' modules and an enum over them that forwards every hook of [`Law`].
 macro_rules! catalogue {
@@ -28,16 +28,44 @@ macro_rules! catalogue {
                 match self { $(Self::$Effect => $module::$Effect.force(p, at, own),)+ }
             }
             #[inline(always)]
-            fn rates<N: Number>(&self, p: &[N], at: &Instant<N>, own: &[N], rates: &mut [N]) {
-                match self { $(Self::$Effect => $module::$Effect.rates(p, at, own, rates),)+ }
+            fn rates<N: Number>(&self, p: &[N], at: &Instant<N>, own: &[N], hand_n: N, rates: &mut [N]) {
+                match self { $(Self::$Effect => $module::$Effect.rates(p, at, own, hand_n, rates),)+ }
             }
             #[inline(always)]
-            fn torque<N: Number>(&self, p: &[N], input: &Input, time_s: f64) -> N {
-                match self { $(Self::$Effect => $module::$Effect.torque(p, input, time_s),)+ }
+            fn support<N: Number>(&self, p: &[N], own: &[N]) -> Option<Deflection<N>> {
+                match self { $(Self::$Effect => $module::$Effect.support(p, own),)+ }
+            }
+            #[inline(always)]
+            fn deflection<N: Number>(&self, p: &[N], between: Deflection<N>) -> Deflection<N> {
+                match self { $(Self::$Effect => $module::$Effect.deflection(p, between),)+ }
+            }
+            #[inline(always)]
+            fn stiffening<N: Number>(&self, p: &[N], at: &Instant<N>) -> Option<N> {
+                match self { $(Self::$Effect => $module::$Effect.stiffening(p, at),)+ }
+            }
+            #[inline(always)]
+            fn limit<N: Number>(&self, p: &[N], force_n: N) -> N {
+                match self { $(Self::$Effect => $module::$Effect.limit(p, force_n),)+ }
+            }
+            #[inline(always)]
+            fn delayed<N: Number>(&self, p: &[N]) -> Option<Delayed<N>> {
+                match self { $(Self::$Effect => $module::$Effect.delayed(p),)+ }
+            }
+            #[inline(always)]
+            fn logged_torque<N: Number>(&self, p: &[N]) -> Option<LoggedTorque<N>> {
+                match self { $(Self::$Effect => $module::$Effect.logged_torque(p),)+ }
             }
             #[inline(always)]
             fn initial<N: Number>(&self, p: &[N]) -> (N, N) {
                 match self { $(Self::$Effect => $module::$Effect.initial(p),)+ }
+            }
+            #[inline(always)]
+            fn leak<N: Number>(&self, p: &[N], motion: &Kinematics<N>) -> Option<N> {
+                match self { $(Self::$Effect => $module::$Effect.leak(p, motion),)+ }
+            }
+            #[inline(always)]
+            fn acceleration_lag_s<N: Number>(&self, p: &[N]) -> Option<N> {
+                match self { $(Self::$Effect => $module::$Effect.acceleration_lag_s(p),)+ }
             }
             #[inline(always)]
             fn measure<N: Number>(&self, p: &[N], since_rest_s: f64, motion: Kinematics<N>) -> Kinematics<N> {
@@ -52,12 +80,28 @@ macro_rules! catalogue {
 
 catalogue! {
     cubic_stiffness::CubicStiffness,
+    quadratic_stiffness::QuadraticStiffness,
     coulomb_friction::CoulombFriction,
+    quadratic_damping::QuadraticDamping,
+    directional_damping::DirectionalDamping,
+    backlash::Backlash,
     maxwell_branch::MaxwellBranch,
+    second_mass::SecondMass,
+    grip_slip::GripSlip,
+    bouc_wen::BoucWen,
+    stretch_reflex::StretchReflex,
+    voluntary_push::VoluntaryPush,
+    co_contraction::CoContraction,
+    torque_dependent_stiffness::TorqueDependentStiffness,
+    torque_offset::TorqueOffset,
     torque_delay::TorqueDelay,
+    torque_lag::TorqueLag,
+    acceleration_lag::AccelerationLag,
     acceleration_bias::AccelerationBias,
     initial_motion::InitialMotion,
     output_offset::OutputOffset,
+    centripetal_crosstalk::CentripetalCrosstalk,
+    gravity_leakage::GravityLeakage,
 }
 
 impl Effect {

@@ -16,6 +16,7 @@ pub struct Input {
     samples: usize,
     held: bool,
     rest_before_s: f64,
+    onset_s: f64,
 }
 
 impl Input {
@@ -35,6 +36,7 @@ impl Input {
             samples: samples.len(),
             held: intersample == Intersample::ZeroOrder,
             rest_before_s: 0.0,
+            onset_s: 0.0,
         }
     }
 
@@ -49,28 +51,59 @@ impl Input {
         self.rest_before_s
     }
 
+    /// States when the pulse begins \[s after the first sample\]; without it, at the first sample.
+    pub fn with_onset(mut self, onset_s: f64) -> Self {
+        self.onset_s = onset_s;
+        self
+    }
+
+    /// When the pulse begins \[s after the first sample\].
+    pub fn onset_s(&self) -> f64 {
+        self.onset_s
+    }
+
     /// Number of samples.
     pub fn samples(&self) -> usize {
         self.samples
     }
 
     /// Torque \[Nm\] and its slope \[Nm/s\] at `time_s` after the first sample; the ends are held.
+    ///
+    /// Straight between grid points for a held input too: shifted by part of an interval, a held input has the straight
+    /// line's values as its means over the intervals.
     pub fn at(&self, time_s: f64) -> (f64, f64) {
+        self.straight(time_s, |index| self.grid[index])
+    }
+
+    /// Slope of the torque \[Nm/s\] and how fast it changes \[Nm/s²\] at `time_s` after the first sample.
+    ///
+    /// Straight between the grid points' own slopes, which are those from one neighbour to the other.
+    pub fn slope_at(&self, time_s: f64) -> (f64, f64) {
+        self.straight(time_s, |index| {
+            let (before, after) = (
+                index.saturating_sub(1),
+                (index + 1).min(self.grid.len() - 1),
+            );
+            let span = (after - before).max(1) as f64 * self.grid_interval_s;
+            (self.grid[after] - self.grid[before]) / span
+        })
+    }
+
+    /// Value and slope at `time_s` of the line through `of(index)` at the grid points; the ends are held.
+    #[inline(always)]
+    fn straight(&self, time_s: f64, of: impl Fn(usize) -> f64) -> (f64, f64) {
         let Some(last) = self.grid.len().checked_sub(1) else {
             return (0.0, 0.0);
         };
         let position = time_s / self.grid_interval_s;
-        if position <= 0.0 {
-            return (self.grid[0], 0.0);
+        if position < 0.0 {
+            return (of(0), 0.0);
         }
         let index = position as usize;
         if index >= last {
-            return (self.grid[last], 0.0);
+            return (of(last), 0.0);
         }
-        let (here, step) = (self.grid[index], self.grid[index + 1] - self.grid[index]);
-        if self.held {
-            return (here, 0.0);
-        }
+        let (here, step) = (of(index), of(index + 1) - of(index));
         (
             here + step * (position - index as f64),
             step / self.grid_interval_s,

@@ -1,5 +1,6 @@
 #![doc = include_str!("../README.md")]
 
+mod accelerometer;
 mod band_limited;
 mod dual;
 mod effect;
@@ -8,16 +9,22 @@ mod error;
 mod euler;
 mod exponential;
 mod forces;
+mod history;
 mod input;
 mod linear;
 mod model;
 mod number;
 mod oscillation;
+mod plant;
 mod runge_kutta;
+mod sensors;
 mod settings;
 
 pub use dual::Dual;
-pub use effect::{Description, Instant, Kind, Kinematics, Law, ParameterSpec, Scope};
+pub use effect::{
+    Deflection, Delayed, Description, Instant, Kind, Kinematics, Law, LoggedTorque, ParameterSpec,
+    Scope,
+};
 pub use effects::Effect;
 pub use error::ModelError;
 pub use euler::euler_displacement;

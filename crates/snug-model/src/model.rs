@@ -1,12 +1,13 @@
 use crate::dual::Dual;
 use crate::effect::{Kinematics, Law, ParameterSpec};
 use crate::linear::{self, Oscillator, Response};
+use crate::sensors::Sensors;
 use crate::{Effect, Input, ModelError, Number, runge_kutta};
 use snug_campaign::{Motion, Parameter, ParameterSource, Quantity, Rig};
 use std::ops::Range;
 
-/// θ, ω and up to ten states of effects.
-pub(crate) const MAXIMUM_STATES: usize = 12;
+/// θ, ω and up to four states of effects.
+pub(crate) const MAXIMUM_STATES: usize = 6;
 /// Free parameters a simulation with sensitivities can carry.
 pub const MAXIMUM_FREE: usize = 16;
 
@@ -195,7 +196,13 @@ impl Model {
             0..=4 => {
                 assembly.carry::<4>(values, free, input, quantity, output, sensitivity);
             }
-            5..=8 => {
+            5 => {
+                assembly.carry::<5>(values, free, input, quantity, output, sensitivity);
+            }
+            6 => {
+                assembly.carry::<6>(values, free, input, quantity, output, sensitivity);
+            }
+            7 | 8 => {
                 assembly.carry::<8>(values, free, input, quantity, output, sensitivity);
             }
             _ => {
@@ -212,10 +219,6 @@ impl Assembly {
 
     pub(crate) fn parts(&self) -> &[Part] {
         &self.parts
-    }
-
-    pub(crate) fn state_count(&self) -> usize {
-        self.state_count
     }
 
     /// No effect at all: the fast exact path without dual numbers applies.
@@ -237,36 +240,40 @@ impl Assembly {
         }
     }
 
-    /// What the sensors make of the true motion.
-    pub(crate) fn measured<N: Number>(
-        &self,
-        p: &[N],
-        since_rest_s: f64,
-        motion: Kinematics<N>,
-    ) -> Kinematics<N> {
-        self.parts.iter().fold(motion, |motion, part| {
-            part.effect
-                .measure(&p[part.parameters.clone()], since_rest_s, motion)
-        })
-    }
-
-    /// Simulates by the exact recursion where the motion is the base model's, else by Runge–Kutta.
+    /// Simulates and hands every sample's measured motion to `sample`.
     fn respond<N: Number + FromResponse>(
         &self,
         p: &[N],
         input: &Input,
         mut sample: impl FnMut(usize, &Kinematics<N>),
     ) {
+        let mut sensors = Sensors::new(self, p, input);
+        self.move_tool(p, input, |index, motion| {
+            sample(index, &sensors.sample(index, motion));
+        });
+    }
+
+    /// The true motion: by the exact recursion where it is the base model's, else by Runge–Kutta.
+    fn move_tool<N: Number + FromResponse>(
+        &self,
+        p: &[N],
+        input: &Input,
+        mut sample: impl FnMut(usize, Kinematics<N>),
+    ) {
         if !self.moves_as_base() {
-            return runge_kutta::respond(self, p, input, sample);
+            return match self.state_count {
+                2 => runge_kutta::respond::<N, 2>(self, p, input, sample),
+                3 => runge_kutta::respond::<N, 3>(self, p, input, sample),
+                4 => runge_kutta::respond::<N, 4>(self, p, input, sample),
+                _ => runge_kutta::respond::<N, MAXIMUM_STATES>(self, p, input, sample),
+            };
         }
         let values: Vec<f64> = p.iter().map(|number| number.value()).collect();
         let square = self.rig.lever_arm_m * self.rig.lever_arm_m;
         // m, c, k enter through I, C, K, each times l².
         let base = [p[0] * square, p[1] * square, p[2] * square];
         linear::respond(&self.oscillator(&values), input, |index, response| {
-            let motion = N::from_response(response, &base);
-            sample(index, &self.measured(p, input.since_rest_s(index), motion));
+            sample(index, N::from_response(response, &base));
         });
     }
 

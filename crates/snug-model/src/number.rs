@@ -32,6 +32,26 @@ pub trait Number:
         let slope = if value == 0.0 { 0.0 } else { value.signum() };
         self.chain(value.abs(), slope)
     }
+    /// Square root of a positive number.
+    fn sqrt(self) -> Self {
+        let root = self.value().sqrt();
+        self.chain(root, 0.5 / root)
+    }
+    /// Exponential function.
+    fn exp(self) -> Self {
+        let power = self.value().exp();
+        self.chain(power, power)
+    }
+    /// Sine of an angle \[rad\].
+    fn sin(self) -> Self {
+        let (sine, cosine) = self.value().sin_cos();
+        self.chain(sine, cosine)
+    }
+    /// u² (3 − 2u) between 0 and 1; 0 before and 1 after.
+    fn smooth_step(self) -> Self {
+        let u = self.value().clamp(0.0, 1.0);
+        self.chain(u * u * (3.0 - 2.0 * u), 6.0 * u * (1.0 - u))
+    }
 }
 
 impl Number for f64 {

@@ -47,7 +47,14 @@ impl Law for MaxwellBranch {
     }
 
     #[inline(always)]
-    fn rates<N: Number>(&self, p: &[N], at: &Instant<N>, own: &[N], rates: &mut [N]) {
+    fn rates<N: Number>(
+        &self,
+        p: &[N],
+        at: &Instant<N>,
+        own: &[N],
+        _hand_n: N,
+        rates: &mut [N],
+    ) {
         rates[0] = p[0] * at.v_m_per_s - own[0] / p[1];
     }
 }

@@ -3,8 +3,8 @@
 //! Excited by fast torque changes (shut-off). Its residual follows dT/dt. Half a sample of delay already looks like
 //! physics. Source: channel timing of separate amplifiers and filters.
 
-use crate::effect::{Description, Kind, Law, ParameterSpec, Scope};
-use crate::{Input, Number};
+use crate::Number;
+use crate::effect::{Description, Kind, Law, LoggedTorque, ParameterSpec, Scope};
 
 pub struct TorqueDelay;
 
@@ -32,9 +32,10 @@ impl Law for TorqueDelay {
     }
 
     #[inline(always)]
-    fn torque<N: Number>(&self, p: &[N], input: &Input, time_s: f64) -> N {
-        let now = input.at(time_s).0;
-        let (then, slope) = input.at(time_s - p[0].value());
-        p[0].chain(then - now, -slope)
+    fn logged_torque<N: Number>(&self, p: &[N]) -> Option<LoggedTorque<N>> {
+        Some(LoggedTorque {
+            delay_s: p[0],
+            ..LoggedTorque::faithful()
+        })
     }
 }

@@ -1,0 +1,102 @@
+use crate::Number;
+use crate::effect::Kinematics;
+
+/// What an accelerometer with leaks and a lag makes of the motion, and what its integrated signals then show.
+///
+/// ```text
+/// s = α + leak,  τ a' = s − a                        sensed, measured [rad/s²]
+/// ω_a = ω + ∫ leak − τ a                             ∫ a, from rest [rad/s]
+/// θ_a = θ + ∫∫ leak − τ ω_a                          ∫ ω_a, from rest [rad]
+/// ```
+///
+/// Leak and s are taken as straight between samples, s as starting from zero one interval before the first; the lag's
+/// recursion is then exact, also as τ → 0.
+#[derive(Debug)]
+pub struct Accelerometer<N> {
+    interval_s: f64,
+    lag: Option<Lag<N>>,
+    leak: N,
+    leaked_velocity: N,
+    leaked_displacement: N,
+    sensed: N,
+    measured: N,
+    started: bool,
+}
+
+/// a ← E a + A s + B s₊ for τ a' = s − a with s straight from s to s₊.
+#[derive(Debug)]
+struct Lag<N> {
+    tau_s: N,
+    keep: N,
+    before: N,
+    now: N,
+}
+
+/// τ over the interval below which exp(−h/τ) is zero in double precision.
+const NEGLIGIBLE_RATIO: f64 = 1e-3;
+
+impl<N: Number> Lag<N> {
+    fn new(tau_s: N, interval_s: f64) -> Self {
+        let ratio = tau_s * (1.0 / interval_s);
+        let keep = if ratio.value() > NEGLIGIBLE_RATIO {
+            (N::from(-1.0) / ratio).exp()
+        } else {
+            N::from(0.0)
+        };
+        let mean = ratio * (-keep + 1.0);
+        Self {
+            tau_s,
+            keep,
+            before: mean - keep,
+            now: -mean + 1.0,
+        }
+    }
+}
+
+impl<N: Number> Accelerometer<N> {
+    /// At rest; samples are `interval_s` apart, `tau_s` is the lag's time constant if there is one.
+    pub fn new(interval_s: f64, tau_s: Option<N>) -> Self {
+        let zero = N::from(0.0);
+        Self {
+            interval_s,
+            lag: tau_s.map(|tau_s| Lag::new(tau_s, interval_s)),
+            leak: zero,
+            leaked_velocity: zero,
+            leaked_displacement: zero,
+            sensed: zero,
+            measured: zero,
+            started: false,
+        }
+    }
+
+    /// The next sample: true motion and what leaks in \[rad/s²\], to the motion as the sensor has it.
+    pub fn sample(&mut self, motion: Kinematics<N>, leak: Option<N>) -> Kinematics<N> {
+        let mut seen = motion;
+        if let Some(leak) = leak {
+            self.integrate(leak);
+            seen.displacement_rad += self.leaked_displacement;
+            seen.velocity_rad_per_s += self.leaked_velocity;
+            seen.acceleration_rad_per_s2 += leak;
+        }
+        if let Some(lag) = &self.lag {
+            let sensed = seen.acceleration_rad_per_s2;
+            self.measured = lag.keep * self.measured + lag.before * self.sensed + lag.now * sensed;
+            self.sensed = sensed;
+            seen.acceleration_rad_per_s2 = self.measured;
+            seen.velocity_rad_per_s = seen.velocity_rad_per_s - lag.tau_s * self.measured;
+            seen.displacement_rad = seen.displacement_rad - lag.tau_s * seen.velocity_rad_per_s;
+        }
+        self.started = true;
+        seen
+    }
+
+    fn integrate(&mut self, leak: N) {
+        let h = self.interval_s;
+        if self.started {
+            self.leaked_displacement +=
+                self.leaked_velocity * h + (self.leak * 2.0 + leak) * (h * h / 6.0);
+            self.leaked_velocity += (self.leak + leak) * (0.5 * h);
+        }
+        self.leak = leak;
+    }
+}

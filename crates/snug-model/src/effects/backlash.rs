@@ -1,0 +1,55 @@
+//! Play in the grip: the hand's spring and damper act only beyond a gap g, on the deflection d(x) that is left.
+//!
+//! ```text
+//! d(x) = x + ½ (√((x − g)² + s²) − √((x + g)² + s²)),  F = k d + c dd/dt,  s = 0.05 mm
+//! ```
+//!
+//! This is x ∓ g beyond the gap and 0 within, with corners rounded over s (skin), so that the damper does not set in
+//! with a jump and the response can be differentiated. g = 0 is the base model exactly. F has the sign of the base model.
+//! Parameter: gap_m \[m\], 0 to 0.005. Excited by any motion; relatively strongest in weak pulses. In the residual it shows
+//! at the first onset and at every passage through rest. Source: dead zone with contact damping.
+
+use crate::Number;
+use crate::effect::{Deflection, Description, Kind, Law, ParameterSpec, Scope};
+
+/// s, the length over which contact sets in \[m\].
+const SKIN_M: f64 = 5e-5;
+
+pub struct Backlash;
+
+impl Law for Backlash {
+    fn description(&self) -> &'static Description {
+        &Description {
+            name: "backlash",
+            kind: Kind::Mechanical,
+            summary: "The tool moves freely through a gap before the hand's spring and damper act.",
+            equation: "spring and damper act on x beyond +-g",
+            parameters: &[ParameterSpec {
+                name: "gap_m",
+                unit: "m",
+                starts: &[0.0005, 0.002, 0.004],
+                minimum: 0.0,
+                maximum: 0.005,
+                scope: Scope::Shared,
+            }],
+            states: &[],
+            twins: &["co_contraction"],
+            excited_by: "any motion; relatively strongest in weak pulses",
+            shows_as: "misfit at the onset and at every passage through rest, where the tool moves as if free",
+            source: "dead zone, rounded over 0.05 mm",
+        }
+    }
+
+    #[inline(always)]
+    fn deflection<N: Number>(&self, p: &[N], between: Deflection<N>) -> Deflection<N> {
+        let rounding = SKIN_M * SKIN_M;
+        let (above, below) = (between.x_m - p[0], between.x_m + p[0]);
+        let from_above = (above * above + rounding).sqrt();
+        let from_below = (below * below + rounding).sqrt();
+        let slope = (above / from_above - below / from_below) * 0.5 + 1.0;
+        Deflection {
+            x_m: between.x_m + (from_above - from_below) * 0.5,
+            v_m_per_s: between.v_m_per_s * slope,
+        }
+    }
+}

@@ -1,0 +1,67 @@
+//! Hysteresis of skin and soft tissue: +F = k_h z, where z follows x until it saturates at ±z_max.
+//!
+//! ```text
+//! z' = v (1 − (½ sgn(v z) + ½) |z| / z_max)
+//! ```
+//!
+//! Parameters: k_h_n_per_m 0 to 2e4 N/m, z_max_m 1e-4 to 0.02 m; k_h = 0 is the base model. Stiff for small motion, a constant
+//! force k_h z_max for large. Excited by reversals. In the residual a step at every reversal that builds up over z_max.
+//! Source: Bouc (1967) and Wen (1976) with n = 1, β = γ.
+
+use crate::Number;
+use crate::effect::{Description, Instant, Kind, Law, ParameterSpec, Scope};
+
+pub struct BoucWen;
+
+impl Law for BoucWen {
+    fn description(&self) -> &'static Description {
+        &Description {
+            name: "bouc_wen",
+            kind: Kind::Mechanical,
+            summary: "Soft tissue sticks first and then gives way at a constant force, with a loop at every reversal.",
+            equation: "F + k_h z,  dz/dt = v (1 - (sgn(v z)/2 + 1/2) abs(z) / z_max)",
+            parameters: &[ParameterSpec {
+                name: "k_h_n_per_m",
+                unit: "N/m",
+                starts: &[200.0],
+                minimum: 0.0,
+                maximum: 2e4,
+                scope: Scope::Shared,
+            }, ParameterSpec {
+                name: "z_max_m",
+                unit: "m",
+                starts: &[0.0025, 0.0008, 0.008],
+                minimum: 1e-4,
+                maximum: 0.02,
+                scope: Scope::Shared,
+            }],
+            states: &["hysteresis_m"],
+            twins: &["maxwell_branch", "coulomb_friction"],
+            excited_by: "reversals: a window that goes on long enough",
+            shows_as: "misfit that steps at every reversal and builds up over a short way",
+            source: "Bouc 1967, Wen 1976",
+        }
+    }
+
+    #[inline(always)]
+    fn force<N: Number>(&self, p: &[N], _at: &Instant<N>, own: &[N]) -> N {
+        p[0] * own[0]
+    }
+
+    #[inline(always)]
+    fn rates<N: Number>(
+        &self,
+        p: &[N],
+        at: &Instant<N>,
+        own: &[N],
+        _hand_n: N,
+        rates: &mut [N],
+    ) {
+        let (v, z) = (at.v_m_per_s, own[0]);
+        rates[0] = if v.value() * z.value() > 0.0 {
+            v - v * z.abs() / p[1]
+        } else {
+            v
+        };
+    }
+}

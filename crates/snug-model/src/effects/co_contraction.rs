@@ -1,0 +1,54 @@
+//! The operator braces: k becomes k (1 + r s((t − t_on)/t_rise)), s(u) = u² (3 − 2u) from 0 to 1.
+//!
+//! t counts from the onset of the pulse as the input states it. Parameters: rise_ratio −0.9 to 4, onset_s 0 to 0.3 s, rise_s
+//! 0.01 to 0.3 s; r = 0 is the base model. A spring that stiffens while stretched takes energy from the muscle. Excited by
+//! displacement after t_on. In the residual the second half of the motion is quicker than the first.
+//! Source: antagonist co-activation raises joint stiffness (Hogan 1984).
+
+use crate::Number;
+use crate::effect::{Description, Instant, Kind, Law, ParameterSpec, Scope};
+
+pub struct CoContraction;
+
+impl Law for CoContraction {
+    fn description(&self) -> &'static Description {
+        &Description {
+            name: "co_contraction",
+            kind: Kind::Muscular,
+            summary: "The operator tenses the arm during the pulse and becomes stiffer.",
+            equation: "k (1 + r s((t - t_on) / t_rise))",
+            parameters: &[ParameterSpec {
+                name: "rise_ratio",
+                unit: "1",
+                starts: &[0.1],
+                minimum: -0.9,
+                maximum: 4.0,
+                scope: Scope::Shared,
+            }, ParameterSpec {
+                name: "onset_s",
+                unit: "s",
+                starts: &[0.08, 0.04, 0.15, 0.22],
+                minimum: 0.0,
+                maximum: 0.3,
+                scope: Scope::Shared,
+            }, ParameterSpec {
+                name: "rise_s",
+                unit: "s",
+                starts: &[0.05, 0.15],
+                minimum: 0.01,
+                maximum: 0.3,
+                scope: Scope::Shared,
+            }],
+            states: &[],
+            twins: &["cubic_stiffness", "grip_slip"],
+            excited_by: "displacement that lasts beyond the reaction time",
+            shows_as: "late misfit in proportion to the displacement: the way back is quicker than the way out",
+            source: "Hogan 1984, antagonist co-activation",
+        }
+    }
+
+    #[inline(always)]
+    fn stiffening<N: Number>(&self, p: &[N], at: &Instant<N>) -> Option<N> {
+        Some(p[0] * ((-p[1] + at.since_onset_s) / p[2]).smooth_step())
+    }
+}

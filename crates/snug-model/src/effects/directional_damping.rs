@@ -1,0 +1,43 @@
+//! The way back is damped differently: +F = c_r v where v < 0 (rebound), nothing where v ≥ 0.
+//!
+//! Parameter: c_rebound_kg_per_s \[kg/s\], −200 to 300; passive as long as c + c_r ≥ 0. Excited by the rebound after the
+//! peak. In the residual nothing shows until the peak, then a misfit in proportion to the velocity.
+//! Source: muscle resists lengthening and shortening differently (Hill's force–velocity relation).
+
+use crate::Number;
+use crate::effect::{Description, Instant, Kind, Law, ParameterSpec, Scope};
+
+pub struct DirectionalDamping;
+
+impl Law for DirectionalDamping {
+    fn description(&self) -> &'static Description {
+        &Description {
+            name: "directional_damping",
+            kind: Kind::Mechanical,
+            summary: "The hand damps the way back differently from the way out.",
+            equation: "F + c_r v where v < 0",
+            parameters: &[ParameterSpec {
+                name: "c_rebound_kg_per_s",
+                unit: "kg/s",
+                starts: &[0.0],
+                minimum: -200.0,
+                maximum: 300.0,
+                scope: Scope::Shared,
+            }],
+            states: &[],
+            twins: &["quadratic_stiffness"],
+            excited_by: "the rebound after the peak: a window that goes on long enough",
+            shows_as: "misfit that starts at the peak displacement and follows the velocity on the way back only",
+            source: "Hill, force-velocity relation of muscle",
+        }
+    }
+
+    #[inline(always)]
+    fn force<N: Number>(&self, p: &[N], at: &Instant<N>, _own: &[N]) -> N {
+        if at.v_m_per_s.value() < 0.0 {
+            p[0] * at.v_m_per_s
+        } else {
+            N::from(0.0)
+        }
+    }
+}

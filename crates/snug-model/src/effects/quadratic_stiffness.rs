@@ -1,0 +1,39 @@
+//! An asymmetric hand spring: +F = k2 x², stiffer one way (k2 > 0: away from the operator's rest) than the other.
+//!
+//! Parameter: k2_n_per_m2 \[N/m²\], −1e5 to 1e5. Excited by large displacements; its share grows with the amplitude. In the
+//! residual it stands around the peak with one sign on both sides of rest (even harmonics, a shifted mean).
+//! Source: asymmetric restoring force (Nayfeh and Mook, Nonlinear Oscillations, 1979).
+
+use crate::Number;
+use crate::effect::{Description, Instant, Kind, Law, ParameterSpec, Scope};
+
+pub struct QuadraticStiffness;
+
+impl Law for QuadraticStiffness {
+    fn description(&self) -> &'static Description {
+        &Description {
+            name: "quadratic_stiffness",
+            kind: Kind::Mechanical,
+            summary: "The hand's spring is stiffer in one direction than in the other.",
+            equation: "F + k2 x^2",
+            parameters: &[ParameterSpec {
+                name: "k2_n_per_m2",
+                unit: "N/m^2",
+                starts: &[0.0],
+                minimum: -1e5,
+                maximum: 1e5,
+                scope: Scope::Shared,
+            }],
+            states: &[],
+            twins: &["cubic_stiffness", "directional_damping"],
+            excited_by: "large displacements: high target torque, soft grip",
+            shows_as: "misfit around the peak that grows as x^2, with the same sign on both sides of rest",
+            source: "asymmetric spring (Nayfeh and Mook 1979)",
+        }
+    }
+
+    #[inline(always)]
+    fn force<N: Number>(&self, p: &[N], at: &Instant<N>, _own: &[N]) -> N {
+        p[0] * (at.x_m * at.x_m)
+    }
+}

@@ -1,0 +1,50 @@
+//! The nerve answers late: +F = k_r x(t − τ), a stiffness that acts on the displacement a delay ago.
+//!
+//! Parameters: k_r_n_per_m −5000 to 5000 N/m, tau_s 0.02 to 0.12 s; k_r = 0 is the base model. A delayed spring can feed
+//! energy in. Before the window the tool rests at its first displacement. Excited by pulses shorter than τ. In the residual
+//! nothing shows until τ after the motion began, then a shifted copy of the displacement.
+//! Source: short- and long-latency stretch reflexes of the arm, 25–50 ms and 50–100 ms.
+
+use crate::Number;
+use crate::effect::{Delayed, Description, Kind, Law, ParameterSpec, Scope};
+
+pub struct StretchReflex;
+
+impl Law for StretchReflex {
+    fn description(&self) -> &'static Description {
+        &Description {
+            name: "stretch_reflex",
+            kind: Kind::Muscular,
+            summary: "The stretch reflex pulls back in proportion to where the tool was a nerve's delay ago.",
+            equation: "F + k_r x(t - tau)",
+            parameters: &[ParameterSpec {
+                name: "k_r_n_per_m",
+                unit: "N/m",
+                starts: &[100.0],
+                minimum: -5000.0,
+                maximum: 5000.0,
+                scope: Scope::Shared,
+            }, ParameterSpec {
+                name: "tau_s",
+                unit: "s",
+                starts: &[0.06, 0.03, 0.1],
+                minimum: 0.02,
+                maximum: 0.12,
+                scope: Scope::Shared,
+            }],
+            states: &[],
+            twins: &["maxwell_branch"],
+            excited_by: "pulses shorter than the delay, and a window much longer",
+            shows_as: "misfit that starts a fixed 20 to 120 ms after the motion and repeats it",
+            source: "stretch reflex latencies of the arm",
+        }
+    }
+
+    #[inline(always)]
+    fn delayed<N: Number>(&self, p: &[N]) -> Option<Delayed<N>> {
+        Some(Delayed {
+            stiffness_n_per_m: p[0],
+            delay_s: p[1],
+        })
+    }
+}

@@ -1,0 +1,53 @@
+//! The operator pushes back on purpose: +F = F_v s((t − t_on)/t_rise), s(u) = u² (3 − 2u) from 0 to 1.
+//!
+//! t counts from the onset of the pulse as the input states it. Parameters: f_n −50 to 50 N (> 0 pushes against the
+//! displacement), onset_s 0 to 0.3 s, rise_s 0.01 to 0.3 s; F_v = 0 is the base model. Excited by itself. In the residual a
+//! slow, one-sided shift that comes late and stays. Source: voluntary reaction, 100 ms and more after the stimulus.
+
+use crate::Number;
+use crate::effect::{Description, Instant, Kind, Law, ParameterSpec, Scope};
+
+pub struct VoluntaryPush;
+
+impl Law for VoluntaryPush {
+    fn description(&self) -> &'static Description {
+        &Description {
+            name: "voluntary_push",
+            kind: Kind::Muscular,
+            summary: "The operator pushes against the tool on purpose, a reaction time after the onset.",
+            equation: "F + F_v s((t - t_on) / t_rise)",
+            parameters: &[ParameterSpec {
+                name: "f_n",
+                unit: "N",
+                starts: &[2.0],
+                minimum: -50.0,
+                maximum: 50.0,
+                scope: Scope::PerTightening,
+            }, ParameterSpec {
+                name: "onset_s",
+                unit: "s",
+                starts: &[0.08, 0.04, 0.15, 0.22],
+                minimum: 0.0,
+                maximum: 0.3,
+                scope: Scope::Shared,
+            }, ParameterSpec {
+                name: "rise_s",
+                unit: "s",
+                starts: &[0.05, 0.15],
+                minimum: 0.01,
+                maximum: 0.3,
+                scope: Scope::Shared,
+            }],
+            states: &[],
+            twins: &["torque_offset"],
+            excited_by: "nothing: it comes with the person",
+            shows_as: "misfit that is one-sided, comes late and stays",
+            source: "voluntary reaction times",
+        }
+    }
+
+    #[inline(always)]
+    fn force<N: Number>(&self, p: &[N], at: &Instant<N>, _own: &[N]) -> N {
+        p[0] * ((-p[1] + at.since_onset_s) / p[2]).smooth_step()
+    }
+}
