@@ -2,6 +2,7 @@
 
 use crate::campaign::{embedded, run_study, study_on};
 use snug_campaign::{Finding, Severity};
+use snug_model::ParameterSettings;
 use snug_study::{Outcome, Preset, Study, StudyError};
 use std::path::Path;
 use tempfile::TempDir;
@@ -163,6 +164,17 @@ fn settings_that_make_no_sense_are_named() {
     study.validation.ranges = vec!["tset".to_owned()];
     assert!(study.check().unwrap_err().to_string().contains("tset"));
     let mut study = study_on(&embedded(), Preset::Snug);
+    study.record.gap_s = -1.0;
+    assert!(study.check().unwrap_err().is_bad_argument());
+    let mut study = study_on(&embedded(), Preset::Snug);
+    let fixed = ParameterSettings {
+        value: Some(-1.0),
+        fixed: true,
+        ..ParameterSettings::default()
+    };
+    study.model.parameters.insert("mass_kg".to_owned(), fixed);
+    assert!(study.check().unwrap_err().to_string().contains("mass_kg"));
+    let mut study = study_on(&embedded(), Preset::Snug);
     study.preprocess.rig.lever_arm_m = -0.33;
     assert!(
         study
@@ -171,4 +183,31 @@ fn settings_that_make_no_sense_are_named() {
             .to_string()
             .contains("lever_arm_m")
     );
+}
+
+/// Without a spring nothing oscillates: light damping asks nothing, and the default constraints still work.
+#[test]
+fn a_stiffness_fixed_at_zero_can_be_identified() {
+    let mut study = study_on(&embedded(), Preset::Snug);
+    let fixed = ParameterSettings {
+        value: Some(0.0),
+        fixed: true,
+        ..ParameterSettings::default()
+    };
+    study
+        .model
+        .parameters
+        .insert("stiffness_n_per_m".to_owned(), fixed);
+    let (outcome, _out) = run_study(&study).unwrap();
+    let estimates: Vec<_> = outcome
+        .result
+        .tightenings
+        .iter()
+        .filter_map(|t| t.estimate.as_ref())
+        .collect();
+    assert_eq!(estimates.len(), 46);
+    for estimate in estimates {
+        assert_eq!(estimate.value("stiffness_n_per_m"), Some(0.0));
+        assert!(estimate.value("mass_kg").unwrap() > 0.0);
+    }
 }

@@ -6,8 +6,8 @@
 //! Empty rows are segments without a pulse or without a complete window.
 
 use crate::campaign::{embedded, run_study, study_on};
-use snug_campaign::TighteningResult;
-use snug_study::Preset;
+use snug_campaign::{Quantity, TighteningResult};
+use snug_study::{Preset, Study};
 
 const REFERENCE: &str = include_str!("thesis_preset/reference.csv");
 
@@ -87,4 +87,25 @@ fn compare(result: &TighteningResult, expected: &[f64]) -> bool {
         result.selection.rejections
     );
     true
+}
+
+#[test]
+fn naming_the_preset_in_a_study_file_is_the_same_as_asking_for_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("study.ron");
+    std::fs::write(&path, "(preprocess: (preset: Thesis))").unwrap();
+    let mut from_file = Study::read(&path).unwrap();
+    from_file.set_data(&embedded());
+    assert_eq!(from_file, study_on(&embedded(), Preset::Thesis));
+}
+
+#[test]
+fn a_preset_keeps_what_the_study_states_itself() {
+    let mut study = study_on(&embedded(), Preset::Snug);
+    study.identify.fitted_output = Quantity::Velocity;
+    let stated = study.clone();
+    study.set_preset(Preset::Snug);
+    assert_eq!(study, stated);
+    study.set_preset(Preset::Thesis);
+    assert_eq!(study.identify.fitted_output, Quantity::Velocity);
 }

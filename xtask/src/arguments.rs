@@ -99,8 +99,8 @@ pub struct RunOptions {
     #[arg(long)]
     pub quiet: bool,
     /// Threads; without it, one a core. Results do not depend on it.
-    #[arg(long, value_name = "N")]
-    pub threads: Option<usize>,
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
     /// Seed of everything random (permutation tests).
     #[arg(long, value_name = "N")]
     pub seed: Option<u64>,

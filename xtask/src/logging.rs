@@ -3,17 +3,12 @@ use std::io::IsTerminal;
 use tracing_subscriber::EnvFilter;
 
 /// Sends `tracing` to standard error, as text or as JSON lines.
-pub fn start(options: &LogOptions) {
-    let filter = match EnvFilter::try_new(&options.log_level) {
-        Ok(filter) => filter,
-        Err(error) => {
-            eprintln!(
-                "--log-level {}: {error}; using warn instead",
-                options.log_level
-            );
-            EnvFilter::new("warn")
-        }
-    };
+///
+/// # Errors
+/// What is wrong with the filter.
+pub fn start(options: &LogOptions) -> Result<(), String> {
+    let filter = EnvFilter::try_new(&options.log_level)
+        .map_err(|error| format!("--log-level {}: {error}", options.log_level))?;
     let subscriber = tracing_subscriber::fmt()
         .with_env_filter(filter)
         .with_ansi(std::io::stderr().is_terminal())
@@ -22,4 +17,5 @@ pub fn start(options: &LogOptions) {
         LogFormat::Text => subscriber.init(),
         LogFormat::Json => subscriber.json().init(),
     }
+    Ok(())
 }

@@ -44,7 +44,10 @@ mod exit {
 
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
-    logging::start(&arguments.log);
+    if let Err(error) = logging::start(&arguments.log) {
+        eprintln!("{error}");
+        return exit::bad_arguments();
+    }
     match arguments.verb {
         Verb::Run(options) => verbs::run(&options),
         Verb::Effects { name } => verbs::effects(name.as_deref()),

@@ -7,7 +7,8 @@ use snug_model::Model;
 pub enum ConstraintKind {
     /// m > 0, c > 0, k > 0, each as far as it is free.
     Positive,
-    /// Tool and hand–arm together are lightly damped: (c l²)² < 4 k l² (I_n + m l²).
+    /// Tool and hand–arm together are lightly damped: (c l²)² < 4 k l² (I_n + m l²). Asks nothing of a model whose
+    /// stiffness is fixed at 0: without a spring nothing oscillates.
     LightlyDamped,
     /// The motion decays: I_n + m l² > 0, c > 0, k > 0, with m of either sign.
     Stable,
@@ -60,6 +61,7 @@ pub fn convex_set(model: &Model, kinds: &[ConstraintKind]) -> Constraints {
                     }
                 }
             }
+            ConstraintKind::LightlyDamped if parameters[2].fixed && parameters[2].value == 0.0 => {}
             ConstraintKind::LightlyDamped => {
                 let stiffness = affine(2, square, 0.0);
                 let inertia = affine(0, square, rig.known_inertia_kg_m2);

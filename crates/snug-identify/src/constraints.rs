@@ -107,6 +107,12 @@ impl Constraints {
         }
     }
 
+    /// Minimum and maximum of one parameter; infinite where there is none.
+    pub fn bounds_of(&self, parameter: usize) -> (f64, f64) {
+        let bound = &self.bounds[parameter];
+        (bound.minimum, bound.maximum)
+    }
+
     /// Number of parameters.
     pub fn parameter_count(&self) -> usize {
         self.bounds.len()

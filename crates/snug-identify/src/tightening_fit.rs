@@ -2,7 +2,7 @@
 
 use crate::residual_noise::noise_of;
 use crate::{
-    ConstraintKind, Covariance, DenseResidual, Fit, IdentifyError, Settings, Status,
+    ConstraintKind, Constraints, Covariance, DenseResidual, Fit, IdentifyError, Settings, Status,
     TighteningResidual, Whitening, convex_set, solve_from_starts,
 };
 use serde::{Deserialize, Serialize};
@@ -77,7 +77,7 @@ pub fn identify(
     let mut residual = problem.into_inner();
     let noise = noise_of(&mut residual, tightening, input, &fit);
     let covariance = fit.covariance(noise.as_residual_noise());
-    Ok(estimate(model, &fit, &covariance))
+    Ok(estimate(model, &set, &fit, &covariance))
 }
 
 /// Free values of the usual start, then of the further ones.
@@ -90,8 +90,8 @@ fn starts(model: &Model) -> Vec<Vec<f64>> {
         .collect()
 }
 
-/// The fit in the words everyone shares.
-fn estimate(model: &Model, fit: &Fit, covariance: &Covariance) -> Estimate {
+/// The fit in the words everyone shares; intervals end where a parameter's own bounds do.
+fn estimate(model: &Model, set: &Constraints, fit: &Fit, covariance: &Covariance) -> Estimate {
     let free = model.free();
     let parameters = model
         .parameters()
@@ -106,7 +106,11 @@ fn estimate(model: &Model, fit: &Fit, covariance: &Covariance) -> Estimate {
                 standard_error: column.and_then(|column| covariance.standard_errors[column]),
                 interval: column.and_then(|column| {
                     let (low, high) = covariance.interval(column, fit.values[column], 0.95)?;
-                    Some(Interval { low, high })
+                    let (minimum, maximum) = set.bounds_of(column);
+                    Some(Interval {
+                        low: low.max(minimum),
+                        high: high.min(maximum),
+                    })
                 }),
                 fixed: column.is_none(),
             }

@@ -106,9 +106,10 @@ fn double_hit(context: &Context<'_>, window: &Window<'_>, remarks: &mut Remarks)
             );
             remarks.reject("double_hit", Some(Channel::Torque), message);
         } else {
-            let message =
-                format!("a second pulse peaks {apart:+.1} ms from the first, behind the window");
-            remarks.note("second_pulse", Some(Channel::Torque), message);
+            let message = format!(
+                "a second pulse peaks {apart:+.1} ms from the first, behind the window: it is not evaluated"
+            );
+            remarks.lost("second_pulse", Some(Channel::Torque), message);
         }
     }
 }

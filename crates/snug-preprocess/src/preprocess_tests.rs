@@ -266,11 +266,18 @@ fn faults_that_are_mended_or_noted() {
     });
     let force = zeroed.tightening.grip_force_n.unwrap();
     assert!((force.iter().sum::<f64>() / 3000.0).abs() < 0.1);
-    used_with("second_pulse", |r| {
+}
+
+#[test]
+fn a_pulse_behind_the_window_is_lost_and_the_first_one_used() {
+    let (prepared, findings) = spoilt(|r| {
         r.torque_nm[SEGMENT + 18_500..SEGMENT + 18_900]
             .iter_mut()
             .for_each(|t| *t += 20.0);
     });
+    assert_eq!(codes(&findings), ["second_pulse"]);
+    assert_eq!(findings[0].severity, Severity::LeftOut);
+    assert!(prepared.unwrap().rejections().is_empty());
 }
 
 #[test]
@@ -436,7 +443,7 @@ fn hopeless_recordings_name_every_segment() {
         "missing_channel",
         "missing_channel",
         "bad_sample_interval",
-        "constant_channel",
+        "gap",
         "truncated_segment",
     ];
     for (recording, expected) in cases.iter().zip(expected) {

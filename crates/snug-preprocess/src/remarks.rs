@@ -28,6 +28,11 @@ impl Remarks {
         self.push(Severity::Repaired, code, channel, message);
     }
 
+    /// Data beside the tightening that are not used; the tightening itself is.
+    pub(crate) fn lost(&mut self, code: &str, channel: Option<Channel>, message: String) {
+        self.push(Severity::LeftOut, code, channel, message);
+    }
+
     /// A fault that keeps the tightening out of the statistics, although it can still be fitted.
     pub(crate) fn reject(&mut self, code: &str, channel: Option<Channel>, message: String) {
         self.push(Severity::LeftOut, code, channel, message);

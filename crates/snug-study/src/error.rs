@@ -46,6 +46,16 @@ pub enum StudyError {
         /// What is allowed.
         allowed: &'static str,
     },
+    /// A parameter is fixed at a value that the constraints asked for forbid.
+    #[error(
+        "model.parameters.{parameter}: fixed at {value}, but the constraint Positive allows 0 or more only"
+    )]
+    FixedAgainstConstraint {
+        /// The parameter.
+        parameter: String,
+        /// Its fixed value.
+        value: f64,
+    },
     /// The source has no range of that name.
     #[error("validation.ranges: there is no range `{name}` in the source; it has: {}", known.join(", "))]
     UnknownRange {
@@ -99,6 +109,10 @@ impl StudyError {
                 | Self::Syntax { .. }
                 | Self::Setting { .. }
                 | Self::UnknownRange { .. }
+                | Self::FixedAgainstConstraint { .. }
+                | Self::Ingest(IngestError::Setting { .. })
+                | Self::Identify(IdentifyError::Setting { .. })
+                | Self::Record(RecordError::Setting { .. })
                 | Self::Preprocess(_)
                 | Self::Model(_)
         )

@@ -7,8 +7,8 @@ use snug_campaign::{
 };
 use snug_identify::{agreement, identify};
 use snug_model::{
-    Input, Model, damped_frequency_hz, damping_ratio, euler_displacement, inverse_dynamics_force,
-    natural_frequency_hz, spring_damper_force, thesis_damping_ratio,
+    BASE_PARAMETERS, Input, Model, damped_frequency_hz, damping_ratio, euler_displacement,
+    inverse_dynamics_force, natural_frequency_hz, spring_damper_force, thesis_damping_ratio,
 };
 use snug_preprocess::{Prepared, Preset, target_torque_nm};
 
@@ -106,13 +106,12 @@ pub fn without_estimate(study: &Study, recording: &Recording, segment: &Segment)
     }
 }
 
-/// The input as the study says it behaves, and since when the sensor's signal has been integrated.
+/// The input as the study says it behaves, when its pulse begins and since when the sensor's signal has been integrated.
 fn input(study: &Study, tightening: &Tightening) -> Input {
-    let input = Input::new(
-        &tightening.torque_nm,
-        tightening.time_base.interval_s,
-        study.model.intersample,
-    );
+    let interval_s = tightening.time_base.interval_s;
+    let onset_s = tightening.onset.unwrap_or(0) as f64 * interval_s;
+    let input =
+        Input::new(&tightening.torque_nm, interval_s, study.model.intersample).with_onset(onset_s);
     match study.preprocess.preset {
         // The original integrates from the segment's start, where its time is 0.
         Preset::Thesis => input.with_rest_before(tightening.time_base.start_s),
@@ -135,7 +134,7 @@ fn simulated(
     let failed = estimate.status == FitStatus::Failed || values.iter().any(|v| !v.is_finite());
     let traces = (!failed).then(|| traces(model, input, tightening, &values));
     let measures = traces.as_ref().map_or_else(FitMeasures::default, |traces| {
-        measures(study, tightening, traces, &values, unscored)
+        measures(study, tightening, traces, &estimate, unscored)
     });
     let selection = Selection {
         rejections: rejections(&estimate, &measures),
@@ -168,16 +167,17 @@ fn traces(model: &Model, input: &Input, tightening: &Tightening, values: &[f64])
                 inverse_dynamics_force(&tightening.rig, &tightening.torque_nm, acceleration)
             })
     };
+    let euler = euler_displacement(
+        &tightening.rig,
+        values,
+        &tightening.torque_nm,
+        tightening.time_base.interval_s,
+    );
     Traces {
         time_base: tightening.time_base,
         torque_nm: tightening.torque_nm.clone(),
         measured: tightening.motion.clone(),
-        euler_displacement_rad: euler_displacement(
-            &tightening.rig,
-            values,
-            &tightening.torque_nm,
-            tightening.time_base.interval_s,
-        ),
+        euler_displacement_rad: converged(euler, &simulated),
         force_f1_n: spring_damper_force(&tightening.rig, values, &simulated),
         force_f2_n: force(&tightening.motion),
         force_f3_n: force(&simulated),
@@ -186,11 +186,22 @@ fn traces(model: &Model, input: &Input, tightening: &Tightening, values: &[f64])
     }
 }
 
+/// Beyond this multiple of the exact displacement's peak the Euler method has diverged.
+const DIVERGED_RATIO: f64 = 10.0;
+
+/// The Euler displacement, or nothing where the sampling is too coarse for the method and it ran away.
+fn converged(euler: Vec<f64>, simulated: &Motion) -> Vec<f64> {
+    let largest = |samples: &[f64]| samples.iter().fold(0.0_f64, |peak, x| peak.max(x.abs()));
+    let exact = simulated.displacement_rad.as_deref().map_or(0.0, largest);
+    let bounded = euler.iter().all(|x| x.abs() <= DIVERGED_RATIO * exact);
+    if bounded { euler } else { Vec::new() }
+}
+
 fn measures(
     study: &Study,
     tightening: &Tightening,
     traces: &Traces,
-    values: &[f64],
+    estimate: &Estimate,
     unscored: usize,
 ) -> FitMeasures {
     let scored = |samples: &[f64]| samples.get(unscored..).unwrap_or_default().to_vec();
@@ -199,7 +210,11 @@ fn measures(
         Some((scored(measured), scored(traces.simulated.get(quantity)?)))
     };
     let displacement = pair(snug_campaign::Quantity::Displacement);
-    let (m, c, k) = (values[0], values[1], values[2]);
+    let [m, c, k] = std::array::from_fn(|index| estimate.parameters[index].value);
+    let on_bound = |name: &str| {
+        let mut active = estimate.active_constraints.iter();
+        active.any(|active| active.starts_with(name))
+    };
     let rig = &tightening.rig;
     FitMeasures {
         fit_percent: displacement
@@ -215,9 +230,14 @@ fn measures(
             .as_ref()
             .map(|(y, s)| agreement::rms_residual(y, s)),
         euler_accuracy_percent: displacement.as_ref().and_then(|(y, _)| {
+            if traces.euler_displacement_rad.is_empty() {
+                return None;
+            }
             agreement::accuracy_percent(y, &scored(&traces.euler_displacement_rad))
         }),
-        natural_frequency_hz: natural_frequency_hz(m, k),
+        // A mass or stiffness that was stopped by its bound says nothing about a frequency.
+        natural_frequency_hz: natural_frequency_hz(m, k)
+            .filter(|_| !on_bound(BASE_PARAMETERS[0]) && !on_bound(BASE_PARAMETERS[2])),
         damped_frequency_hz: damped_frequency_hz(rig, m, c, k),
         damping_ratio: damping_ratio(rig, m, c, k),
         thesis_damping_ratio: thesis_damping_ratio(study.selection.tool_mass_kg, m, c, k),

@@ -69,7 +69,7 @@ pub fn run(
     let listing = snug_ingest::list(&study.source, &study.source.path)?;
     let files = listing.files;
     create_folder(&settings.out)?;
-    let study_ron = study.to_ron()?;
+    let study_ron = runnable_anywhere(study)?.to_ron()?;
     let study_path = settings.out.join("study.ron");
     write(&study_path, &study_ron)?;
     let pool = pool(settings.threads)?;
@@ -222,6 +222,18 @@ fn parameter_names(result: &CampaignResult) -> Vec<&str> {
 
 fn count(findings: &[Finding], severity: Severity) -> usize {
     findings.iter().filter(|f| f.severity == severity).count()
+}
+
+/// The study with its data's full path, so that its file can be run from wherever it lies.
+fn runnable_anywhere(study: &Study) -> Result<Study, StudyError> {
+    let path = &study.source.path;
+    let full = std::path::absolute(path).map_err(|source| StudyError::Read {
+        path: path.clone(),
+        source,
+    })?;
+    let mut study = study.clone();
+    study.source.path = full;
+    Ok(study)
 }
 
 fn pool(threads: Option<usize>) -> Result<rayon::ThreadPool, StudyError> {

@@ -7,7 +7,8 @@ use snug_preprocess::Preset;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct SelectionSettings {
-    /// Smallest fit of the displacement \[%\]; default 90, the thesis' rule.
+    /// Smallest fit \[%\]; default 90, the thesis' rule. It is the displacement's fit, or, where preset `snug` has no
+    /// measured noise to compare with, the fitted output's.
     pub minimum_fit_percent: f64,
     /// Preset `snug`: a fit below the limit still counts while the residual stays within this multiple of the measured
     /// noise, for then what is left in the displacement is integrated noise and no misfit \[ratio\]; default 1.1.
@@ -68,7 +69,7 @@ impl SelectionSettings {
         estimate: &Estimate,
         measures: &FitMeasures,
     ) -> Vec<Rejection> {
-        let good = measures
+        let mut good = measures
             .fit_percent
             .is_some_and(|percent| percent > self.minimum_fit_percent);
         let mass_is_positive = estimate.value("mass_kg").is_some_and(|mass| mass > 0.0);
@@ -79,6 +80,11 @@ impl SelectionSettings {
                     FitStatus::Converged => {}
                     FitStatus::ConvergedAtConstraint => rejections.push(Rejection::AtConstraint),
                     _ => rejections.push(Rejection::NotIdentified),
+                }
+                if measures.error_over_noise.is_none() {
+                    good = measures
+                        .fit_percent_fitted_output
+                        .is_some_and(|percent| percent > self.minimum_fit_percent);
                 }
                 let noise_limited = measures
                     .error_over_noise

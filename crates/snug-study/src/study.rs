@@ -75,6 +75,8 @@ impl Study {
             })?;
         let folder = path.parent().unwrap_or(Path::new(""));
         study.source.path = folder.join(&study.source.path);
+        // What the file leaves out has the default preset's choices; they are to be those of the preset it names.
+        study.follow(Preset::default(), study.preprocess.preset);
         Ok(study)
     }
 
@@ -102,21 +104,24 @@ impl Study {
         self.source.path = data.to_path_buf();
     }
 
-    /// Puts everything as the preset has it: preparation, fitted output, input behaviour and constraints.
+    /// Changes the preset; fitted output, input behaviour and constraints follow where they are still as the preset that
+    /// is left has them. What the study states otherwise is kept.
     pub fn set_preset(&mut self, preset: Preset) {
+        let left = self.preprocess.preset;
         self.preprocess.preset = preset;
-        match preset {
-            Preset::Snug => {
-                self.identify.fitted_output = Quantity::Acceleration;
-                self.model.intersample = Intersample::Linear;
-                self.identify.constraints =
-                    vec![ConstraintKind::Positive, ConstraintKind::LightlyDamped];
-            }
-            Preset::Thesis => {
-                self.identify.fitted_output = Quantity::Displacement;
-                self.model.intersample = Intersample::ZeroOrder;
-                self.identify.constraints = vec![ConstraintKind::Stable];
-            }
+        self.follow(left, preset);
+    }
+
+    fn follow(&mut self, left: Preset, preset: Preset) {
+        let (was, becomes) = (PresetChoices::of(left), PresetChoices::of(preset));
+        if self.identify.fitted_output == was.fitted_output {
+            self.identify.fitted_output = becomes.fitted_output;
+        }
+        if self.model.intersample == was.intersample {
+            self.model.intersample = becomes.intersample;
+        }
+        if self.identify.constraints == was.constraints {
+            self.identify.constraints = becomes.constraints;
         }
     }
 
@@ -127,6 +132,7 @@ impl Study {
     pub fn check(&self) -> Result<(), StudyError> {
         self.preprocess.check()?;
         self.identify.solver.check()?;
+        self.record.check()?;
         self.selection.check()?;
         self.source.check()?;
         let known = self.source.ranges();
@@ -143,7 +149,19 @@ impl Study {
             lever_arm_m: rig.lever_arm_m,
             known_inertia_kg_m2: 0.0,
         };
-        self.model.model(any)?;
+        let model = self.model.model(any)?;
+        let positive = self
+            .identify
+            .constraints
+            .contains(&ConstraintKind::Positive);
+        for parameter in model.parameters().iter().take(3) {
+            if parameter.fixed && positive && parameter.value < 0.0 {
+                return Err(StudyError::FixedAgainstConstraint {
+                    parameter: parameter.name.clone(),
+                    value: parameter.value,
+                });
+            }
+        }
         Ok(())
     }
 
@@ -155,6 +173,30 @@ impl Study {
             name.to_string_lossy().into_owned()
         } else {
             self.title.clone()
+        }
+    }
+}
+
+/// What a preset decides beyond the preparation.
+struct PresetChoices {
+    fitted_output: Quantity,
+    intersample: Intersample,
+    constraints: Vec<ConstraintKind>,
+}
+
+impl PresetChoices {
+    fn of(preset: Preset) -> Self {
+        match preset {
+            Preset::Snug => Self {
+                fitted_output: Quantity::Acceleration,
+                intersample: Intersample::Linear,
+                constraints: vec![ConstraintKind::Positive, ConstraintKind::LightlyDamped],
+            },
+            Preset::Thesis => Self {
+                fitted_output: Quantity::Displacement,
+                intersample: Intersample::ZeroOrder,
+                constraints: vec![ConstraintKind::Stable],
+            },
         }
     }
 }

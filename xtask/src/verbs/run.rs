@@ -17,7 +17,7 @@ pub fn run(options: &RunOptions) -> ExitCode {
     };
     let settings = RunSettings {
         out: options.out.clone(),
-        threads: options.threads,
+        threads: options.threads.map(usize::from),
     };
     let interrupted = Arc::new(AtomicBool::new(false));
     let flag = Arc::clone(&interrupted);

@@ -8,27 +8,34 @@ const LONGEST_SAMPLES: f64 = 1e9;
 /// The third column of a table of events: a time in s, or the text that is none.
 pub(super) type EventTime = Result<f64, String>;
 
-/// The event times of an N×3 cell of text or numbers, or of an N×3 matrix; `None` when the table is something else.
+/// The event times of an N×3 (or 3×N) cell of text or numbers, or of such a matrix; `None` when the table is something else.
 pub(super) fn times(table: &Value) -> Option<Vec<EventTime>> {
     let &[rows, columns] = table.dims.as_slice() else {
         return None;
     };
-    let third = 2 * rows..3 * rows;
+    // A table lying on its side has its times in the third row.
+    let on_its_side = rows == 3 && columns > 3;
+    let third: Vec<usize> = if on_its_side {
+        (0..columns).map(|column| 3 * column + 2).collect()
+    } else {
+        (2 * rows..3 * rows).collect()
+    };
     if columns < 3 {
         // Without any event the table may be `{}`.
         return (rows * columns == 0 && !matches!(table.content, Content::Unsupported(_)))
             .then(Vec::new);
     }
     match &table.content {
-        Content::Cell(cells) => Some(cells.get(third)?.iter().map(time).collect()),
-        Content::Numeric { .. } => Some(
-            table
-                .to_f64()?
-                .get(third)?
-                .iter()
-                .map(|&time| finite(time).ok_or_else(|| time.to_string()))
-                .collect(),
-        ),
+        Content::Cell(cells) => {
+            let cells: Option<Vec<&Value>> = third.iter().map(|&index| cells.get(index)).collect();
+            Some(cells?.into_iter().map(time).collect())
+        }
+        Content::Numeric { .. } => {
+            let numbers = table.to_f64()?;
+            let times: Option<Vec<f64>> = third.iter().map(|&i| numbers.get(i).copied()).collect();
+            let known = |time: f64| finite(time).ok_or_else(|| time.to_string());
+            Some(times?.into_iter().map(known).collect())
+        }
         _ => None,
     }
 }

@@ -33,6 +33,13 @@ pub(crate) fn prepare(
     let mut signals = Signals::cut(context.recording, segment, remarks)?;
     let source = signals.source_of(context.fitted_output, remarks)?;
     let missing = context.bridge_missing(&mut signals, remarks);
+    let all = 0..signals.len();
+    if missing
+        .iter()
+        .any(|(_, missing)| missing.gaps.first() == Some(&all))
+    {
+        context.refuse_gaps(&missing, &all, &mut signals, remarks)?;
+    }
     context.refuse_constant(source, &signals, remarks)?;
     let spikes = repair_spikes(context, &mut signals, remarks);
     let configured = crate::window::snug(start_s, length_s, context.interval_s);
