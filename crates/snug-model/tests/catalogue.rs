@@ -40,12 +40,11 @@ fn motion(effect: Effect, own: &[f64]) -> Motion {
 fn tolerance(effect: Effect) -> f64 {
     match effect {
         // The torque's slope is taken from neighbouring samples, the acceleration as straight between them.
-        Effect::TorqueLag | Effect::AccelerationLag => 1e-5,
-        Effect::CentripetalCrosstalk | Effect::GravityLeakage => 1e-6,
-        // Contact sets in within 0.05 mm, about two steps of motion.
-        Effect::Backlash => 1e-4,
+        Effect::TorqueLag | Effect::AccelerationLag => 2e-6,
+        // So is what leaks in.
+        Effect::CentripetalCrosstalk | Effect::GravityLeakage => 5e-8,
         // Their rates have a kink where the velocity changes its sign, in the middle of a step.
-        Effect::BoucWen | Effect::DirectionalDamping => 1e-7,
+        Effect::BoucWen | Effect::DirectionalDamping => 5e-8,
         _ => 1e-9,
     }
 }
