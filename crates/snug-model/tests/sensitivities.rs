@@ -154,6 +154,37 @@ fn many_effects_together() {
 }
 
 #[test]
+fn the_order_of_effects_does_not_matter() {
+    let input = Input::new(&pulse(), 5e-4, Intersample::Linear);
+    let respond = |effects: &[Effect]| {
+        let model = Model::new(RIG, effects).expect("a valid rig");
+        let mut values = vec![2.0, 60.0, 1800.0];
+        for &effect in effects {
+            let count = effect.description().parameters.len();
+            values.extend((0..count).map(|index| inner_value(effect, index)));
+        }
+        let mut output = vec![0.0; SAMPLES];
+        model.output(&values, &input, Quantity::Acceleration, &mut output);
+        output
+    };
+    let mut effects = [
+        Effect::Backlash,
+        Effect::SecondMass,
+        Effect::GripSlip,
+        Effect::CoContraction,
+        Effect::TorqueDependentStiffness,
+        Effect::TorqueDelay,
+        Effect::TorqueLag,
+        Effect::AccelerationLag,
+    ];
+    let forward = respond(&effects);
+    effects.reverse();
+    for (a, b) in forward.iter().zip(respond(&effects)) {
+        assert!((a - b).abs() < 1e-10, "{a} against {b}");
+    }
+}
+
+#[test]
 fn an_effect_of_size_zero_is_the_base_model() {
     let input = Input::new(&pulse(), 5e-4, Intersample::Linear);
     let base = Model::new(RIG, &[]).expect("a valid rig");
