@@ -10,6 +10,10 @@ const STRETCHES: usize = 30;
 /// Standard deviations by which the mean square residual must exceed the noise to count as misfit.
 const MISFIT: f64 = 4.0;
 
+/// Mean square of the whitened acceleration residual beyond which a fit of the displacement shows misfit: the parameter
+/// errors that integrated noise causes are visible in the acceleration by themselves, but do not double it.
+const BEYOND_PARAMETER_ERROR: f64 = 2.0;
+
 /// The noise in a residual, owned.
 pub enum OwnedNoise {
     /// White with unit variance.
@@ -87,7 +91,11 @@ fn excess(residual: &mut TighteningResidual<'_>, tightening: &Tightening, fit: &
             Some(error_over_noise(measured, &simulated, noise)?.powi(2))
         })
     };
-    let chance = 1.0 + MISFIT * (2.0 / count).sqrt();
+    let chance = if residual.is_whitened() {
+        1.0 + MISFIT * (2.0 / count).sqrt()
+    } else {
+        BEYOND_PARAMETER_ERROR
+    };
     mean_square
         .filter(|&mean_square| mean_square > chance)
         .unwrap_or(1.0)

@@ -40,7 +40,7 @@ fn main() {
             black_box(fit(problem, &base, &acceleration));
         }
     });
-    let few = &problems[..FITS / 10];
+    let few = &problems[..FITS / 25];
     for effect in Effect::ALL {
         let with = ModelSettings {
             effects: vec![effect.name().to_owned()],
