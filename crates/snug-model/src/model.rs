@@ -63,7 +63,12 @@ impl Model {
             }
             let description = effect.description();
             let first = parameters.len();
-            parameters.extend(description.parameters.iter().map(effect_parameter));
+            for spec in description.parameters {
+                let taken = parameters
+                    .iter()
+                    .any(|parameter| parameter.name == spec.name);
+                parameters.push(effect_parameter(spec, taken.then_some(description.name)));
+            }
             let next = states + description.states.len();
             parts.push(Part {
                 effect,
@@ -415,9 +420,13 @@ fn base_parameters() -> Vec<Parameter> {
         .collect()
 }
 
-fn effect_parameter(spec: &ParameterSpec) -> Parameter {
+/// A parameter whose name another effect already has is called after its own effect: `torque_lag_tau_s`.
+fn effect_parameter(spec: &ParameterSpec, qualified_by: Option<&str>) -> Parameter {
     Parameter {
-        name: spec.name.to_owned(),
+        name: match qualified_by {
+            Some(effect) => format!("{effect}_{}", spec.name),
+            None => spec.name.to_owned(),
+        },
         unit: spec.unit.to_owned(),
         value: spec.starts[0],
         minimum: spec.minimum,

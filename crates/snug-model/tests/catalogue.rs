@@ -89,3 +89,13 @@ fn each_effect_shows_as_scipy_says() {
     }
     assert!(failures.is_empty(), "{}", failures.join("\n"));
 }
+
+#[test]
+fn two_effects_with_a_parameter_of_one_name_stay_apart() {
+    let model = Model::new(RIG, &[Effect::MaxwellBranch, Effect::TorqueLag]).expect("a valid rig");
+    let names: Vec<&str> = model.parameters()[3..]
+        .iter()
+        .map(|p| p.name.as_str())
+        .collect();
+    assert_eq!(names, ["k_m_n_per_m", "tau_s", "torque_lag_tau_s"]);
+}
