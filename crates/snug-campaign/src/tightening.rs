@@ -131,6 +131,10 @@ pub struct FitMeasures {
     pub euler_accuracy_percent: Option<f64>,
     /// √(k/m) / 2π of the hand–arm \[Hz\].
     pub natural_frequency_hz: Option<f64>,
+    /// Lower end of its 95 % interval \[Hz\].
+    pub natural_frequency_low_hz: Option<f64>,
+    /// Upper end of its 95 % interval \[Hz\].
+    pub natural_frequency_high_hz: Option<f64>,
     /// Damped frequency of tool and hand–arm together \[Hz\]; `None` when overdamped.
     pub damped_frequency_hz: Option<f64>,
     /// ζ of tool and hand–arm together: c l² / (2 √(k l² (I_n + m l²))).

@@ -90,6 +90,18 @@ const MEASURES: &[Field] = &[
         "Natural frequency of the hand and arm",
     ),
     field(
+        "natural_frequency_low_hz",
+        Kind::Double,
+        "Hz",
+        "Natural frequency: lower end of the 95 % interval",
+    ),
+    field(
+        "natural_frequency_high_hz",
+        Kind::Double,
+        "Hz",
+        "Natural frequency: upper end of the 95 % interval",
+    ),
+    field(
         "damped_frequency_hz",
         Kind::Double,
         "Hz",

@@ -29,7 +29,13 @@ const BASE_PARAMETERS: [&str; 3] = ["mass_kg", "damping_kg_per_s", "stiffness_n_
 type Measure = (&'static str, fn(&FitMeasures) -> Option<f64>);
 
 /// Measures that follow the parameters.
-const MEASURES: [Measure; 10] = [
+const MEASURES: [Measure; 12] = [
+    ("natural_frequency_hz_low", |measures| {
+        measures.natural_frequency_low_hz
+    }),
+    ("natural_frequency_hz_high", |measures| {
+        measures.natural_frequency_high_hz
+    }),
     ("fit_percent_fitted_output", |measures| {
         measures.fit_percent_fitted_output
     }),

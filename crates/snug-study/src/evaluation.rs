@@ -8,7 +8,8 @@ use snug_campaign::{
 use snug_identify::{agreement, identify};
 use snug_model::{
     BASE_PARAMETERS, Input, Model, damped_frequency_hz, damping_ratio, euler_displacement,
-    inverse_dynamics_force, natural_frequency_hz, spring_damper_force, thesis_damping_ratio,
+    inverse_dynamics_force, natural_frequency_hz, natural_frequency_standard_error_hz,
+    spring_damper_force, thesis_damping_ratio,
 };
 use snug_preprocess::{Prepared, Preset, target_torque_nm};
 
@@ -216,6 +217,10 @@ fn measures(
         active.any(|active| active.starts_with(name))
     };
     let rig = &tightening.rig;
+    // A mass or stiffness that was stopped by its bound says nothing about a frequency.
+    let frequency_hz = natural_frequency_hz(m, k)
+        .filter(|_| !on_bound(BASE_PARAMETERS[0]) && !on_bound(BASE_PARAMETERS[2]));
+    let half_width_hz = frequency_hz.and_then(|_| frequency_half_width_hz(estimate));
     FitMeasures {
         fit_percent: displacement
             .as_ref()
@@ -235,9 +240,9 @@ fn measures(
             }
             agreement::accuracy_percent(y, &scored(&traces.euler_displacement_rad))
         }),
-        // A mass or stiffness that was stopped by its bound says nothing about a frequency.
-        natural_frequency_hz: natural_frequency_hz(m, k)
-            .filter(|_| !on_bound(BASE_PARAMETERS[0]) && !on_bound(BASE_PARAMETERS[2])),
+        natural_frequency_hz: frequency_hz,
+        natural_frequency_low_hz: frequency_hz.zip(half_width_hz).map(|(f, h)| f - h),
+        natural_frequency_high_hz: frequency_hz.zip(half_width_hz).map(|(f, h)| f + h),
         damped_frequency_hz: damped_frequency_hz(rig, m, c, k),
         damping_ratio: damping_ratio(rig, m, c, k),
         thesis_damping_ratio: thesis_damping_ratio(study.selection.tool_mass_kg, m, c, k),
@@ -246,6 +251,27 @@ fn measures(
         peak_force_f3_n: peak(&traces.force_f3_n),
         peak_grip_force_n: traces.grip_force_n.as_deref().and_then(peak),
     }
+}
+
+/// Half the width of the natural frequency's 95 % interval, from the joint covariance of m and k; 0 for what is fixed.
+fn frequency_half_width_hz(estimate: &Estimate) -> Option<f64> {
+    const NORMAL_95: f64 = 1.959_963_984_540_054;
+    let [m, _, k] = std::array::from_fn(|index| estimate.parameters[index].value);
+    estimate.parameters[0]
+        .interval
+        .or(estimate.parameters[2].interval)?;
+    let free: Vec<usize> = (0..estimate.parameters.len())
+        .filter(|&index| !estimate.parameters[index].fixed)
+        .collect();
+    let covariance = |a: usize, b: usize| {
+        let place = |wanted: usize| free.iter().position(|&index| index == wanted);
+        match (place(a), place(b)) {
+            (Some(row), Some(column)) => estimate.covariance[row * free.len() + column],
+            _ => 0.0,
+        }
+    };
+    let (mass, stiffness, both) = (covariance(0, 0), covariance(2, 2), covariance(0, 2));
+    Some(NORMAL_95 * natural_frequency_standard_error_hz(m, k, mass, stiffness, both)?)
 }
 
 /// max |F|.

@@ -228,8 +228,19 @@ fn facts(tightening: &TighteningResult, result: &CampaignResult) -> Vec<[String;
         ]);
     }
     let measures = &tightening.measures;
+    if let Some(frequency) = measures.natural_frequency_hz {
+        let ends = measures
+            .natural_frequency_low_hz
+            .zip(measures.natural_frequency_high_hz);
+        facts.push([
+            "natural frequency fₙ".into(),
+            format!("{} Hz", significant(frequency, 4)),
+            ends.map_or_else(String::new, |(low, high)| {
+                format!("[{}, {}]", significant(low, 4), significant(high, 4))
+            }),
+        ]);
+    }
     for (name, value, unit) in [
-        ("natural frequency fₙ", measures.natural_frequency_hz, "Hz"),
         (
             "damped frequency with the tool",
             measures.damped_frequency_hz,

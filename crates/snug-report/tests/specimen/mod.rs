@@ -204,6 +204,8 @@ fn measures(oscillator: &Oscillator, traces: &Traces, index: usize, good: bool) 
         natural_frequency_hz: identified.then(|| {
             (oscillator.stiffness_n_per_m / oscillator.mass_kg).sqrt() / std::f64::consts::TAU
         }),
+        natural_frequency_low_hz: identified.then_some(4.9),
+        natural_frequency_high_hz: identified.then_some(5.3),
         damped_frequency_hz: Some(3.1),
         damping_ratio: Some(0.36),
         thesis_damping_ratio: Some(0.5),
