@@ -101,17 +101,6 @@ impl Model {
         &self.assembly.rig
     }
 
-    /// The same model for a rig with other constants.
-    ///
-    /// # Errors
-    /// [`ModelError::Rig`] as for [`Model::new`].
-    pub fn on(&self, rig: Rig) -> Result<Self, ModelError> {
-        check_rig(&rig)?;
-        let mut model = self.clone();
-        model.assembly.rig = rig;
-        Ok(model)
-    }
-
     /// All parameters: m, c, k, then the effects'.
     pub fn parameters(&self) -> &[Parameter] {
         &self.parameters
