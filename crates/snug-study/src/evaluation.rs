@@ -5,11 +5,10 @@ use snug_campaign::{
     Estimate, FitMeasures, FitStatus, Motion, Recording, Rejection, Segment, Selection, Tightening,
     TighteningId, TighteningResult, Traces,
 };
-use snug_identify::{agreement, identify};
+use snug_identify::{agreement, identify, natural_frequency_half_width_hz};
 use snug_model::{
     BASE_PARAMETERS, Input, Model, damped_frequency_hz, damping_ratio, euler_displacement,
-    inverse_dynamics_force, natural_frequency_hz, natural_frequency_standard_error_hz,
-    spring_damper_force, thesis_damping_ratio,
+    inverse_dynamics_force, natural_frequency_hz, spring_damper_force, thesis_damping_ratio,
 };
 use snug_preprocess::{Prepared, Preset, target_torque_nm};
 
@@ -220,7 +219,7 @@ fn measures(
     // A mass or stiffness that was stopped by its bound says nothing about a frequency.
     let frequency_hz = natural_frequency_hz(m, k)
         .filter(|_| !on_bound(BASE_PARAMETERS[0]) && !on_bound(BASE_PARAMETERS[2]));
-    let half_width_hz = frequency_hz.and_then(|_| frequency_half_width_hz(estimate));
+    let half_width_hz = frequency_hz.and_then(|_| natural_frequency_half_width_hz(estimate));
     FitMeasures {
         fit_percent: displacement
             .as_ref()
@@ -251,27 +250,6 @@ fn measures(
         peak_force_f3_n: peak(&traces.force_f3_n),
         peak_grip_force_n: traces.grip_force_n.as_deref().and_then(peak),
     }
-}
-
-/// Half the width of the natural frequency's 95 % interval, from the joint covariance of m and k; 0 for what is fixed.
-fn frequency_half_width_hz(estimate: &Estimate) -> Option<f64> {
-    const NORMAL_95: f64 = 1.959_963_984_540_054;
-    let [m, _, k] = std::array::from_fn(|index| estimate.parameters[index].value);
-    estimate.parameters[0]
-        .interval
-        .or(estimate.parameters[2].interval)?;
-    let free: Vec<usize> = (0..estimate.parameters.len())
-        .filter(|&index| !estimate.parameters[index].fixed)
-        .collect();
-    let covariance = |a: usize, b: usize| {
-        let place = |wanted: usize| free.iter().position(|&index| index == wanted);
-        match (place(a), place(b)) {
-            (Some(row), Some(column)) => estimate.covariance[row * free.len() + column],
-            _ => 0.0,
-        }
-    };
-    let (mass, stiffness, both) = (covariance(0, 0), covariance(2, 2), covariance(0, 2));
-    Some(NORMAL_95 * natural_frequency_standard_error_hz(m, k, mass, stiffness, both)?)
 }
 
 /// max |F|.
