@@ -12,12 +12,22 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("snug-preprocess", &["snug-campaign"]),
     ("snug-model", &["snug-campaign"]),
     ("snug-identify", &["snug-campaign", "snug-model"]),
+    (
+        "snug-diagnose",
+        &[
+            "snug-campaign",
+            "snug-identify",
+            "snug-model",
+            "snug-statistics",
+        ],
+    ),
     ("snug-report", &["snug-campaign"]),
     ("snug-synthetic", &["snug-campaign"]),
     (
         "snug-study",
         &[
             "snug-campaign",
+            "snug-diagnose",
             "snug-identify",
             "snug-ingest",
             "snug-model",

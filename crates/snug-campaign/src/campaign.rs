@@ -1,4 +1,4 @@
-use crate::{Finding, Interval, Rejection, TighteningId, TighteningResult, Traces};
+use crate::{Diagnosis, Finding, Interval, Rejection, TighteningId, TighteningResult, Traces};
 use serde::{Deserialize, Serialize};
 
 /// How many tightenings were rejected for one reason.
@@ -131,4 +131,6 @@ pub struct CampaignResult {
     pub findings: Vec<Finding>,
     /// Signals of a bounded number of tightenings: index into `tightenings`, signals.
     pub examples: Vec<(usize, Traces)>,
+    /// What is missing in the model; `None` when nobody asked.
+    pub diagnosis: Option<Diagnosis>,
 }

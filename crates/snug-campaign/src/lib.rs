@@ -16,9 +16,12 @@
 //! ```
 
 mod campaign;
+mod comparison;
 mod conditions;
+mod diagnosis;
 mod estimate;
 mod finding;
+mod location;
 mod noise;
 mod parameter;
 mod recording;
@@ -30,9 +33,15 @@ pub use campaign::{
     CampaignResult, ConditionSummary, EffectSize, Moments, PresetSummary, QuantitySummary,
     RejectionCount, TestRow,
 };
+pub use comparison::{Comparison, Misfit, TighteningMisfit};
 pub use conditions::Conditions;
+pub use diagnosis::{
+    AddedEffect, CorrectedEffect, Detectability, Diagnosis, EffectParameter, Experiment,
+    NegativeControl, NoiseStatement, RankedEffect, Removal, Rung, Showcase, UnlistedTerm, Verdict,
+};
 pub use estimate::{Estimate, FitStatus, Identifiability, Interval, ParameterEstimate};
 pub use finding::{Finding, Severity};
+pub use location::{Aspect, Drift, ForceCurve, ForceMap, Location, Share};
 pub use noise::{NoiseFloor, NoiseSource};
 pub use parameter::{Parameter, ParameterSource};
 pub use recording::{Motion, Recording, Segment};

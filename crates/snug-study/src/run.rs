@@ -182,6 +182,7 @@ impl Collected {
             tightenings: self.tightenings,
             findings: self.findings,
             examples: self.examples.into_kept(),
+            diagnosis: None,
         }
     }
 }

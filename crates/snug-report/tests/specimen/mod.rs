@@ -39,6 +39,7 @@ pub fn campaign(count: usize) -> CampaignResult {
         findings: findings(),
         tightenings,
         examples,
+        diagnosis: None,
     }
 }
 
@@ -46,6 +47,7 @@ pub fn campaign(count: usize) -> CampaignResult {
 pub fn empty() -> CampaignResult {
     CampaignResult {
         examples: vec![],
+        diagnosis: None,
         ..campaign(0)
     }
 }

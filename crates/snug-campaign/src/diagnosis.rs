@@ -1,0 +1,287 @@
+//! What was found out about the model itself: where it fails, which effect is missing, and how the error falls.
+
+use crate::{Comparison, Drift, Location, TighteningId, Traces};
+use serde::{Deserialize, Serialize};
+
+/// What the campaign says about the model.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Verdict {
+    /// Nothing beyond the model is supported.
+    Adequate,
+    /// The ranking's first effect is supported by the data and not yet in the model.
+    MissingEffect,
+    /// Repeatable misfit remains that no effect of the catalogue explains.
+    UnlistedEffect,
+    /// Too little data to say.
+    Undecided,
+}
+
+impl Verdict {
+    /// Stable snake-case name, as in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Adequate => "adequate",
+            Self::MissingEffect => "missing_effect",
+            Self::UnlistedEffect => "unlisted_effect",
+            Self::Undecided => "undecided",
+        }
+    }
+}
+
+/// A parameter of an effect, estimated from all tightenings together.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct EffectParameter {
+    /// Name with unit suffix.
+    pub name: String,
+    /// Unit as people write it.
+    pub unit: String,
+    /// Estimate; of a parameter that every tightening has of its own, the mean.
+    pub value: f64,
+    /// Lower end of its 95 % interval.
+    pub low: Option<f64>,
+    /// Upper end of its 95 % interval.
+    pub high: Option<f64>,
+    /// Standard error; `None` where the estimate lies on a bound.
+    pub standard_error: Option<f64>,
+    /// True when every tightening has its own.
+    pub per_tightening: bool,
+    /// Standard deviation between tightenings, of a parameter that every tightening has of its own.
+    pub spread: Option<f64>,
+    /// Smallest plausible value.
+    pub minimum: f64,
+    /// Largest plausible value.
+    pub maximum: f64,
+}
+
+/// An effect as a candidate for what the model lacks.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct RankedEffect {
+    /// Name in the catalogue, or of the study's custom effect.
+    pub effect: String,
+    /// `mechanical`, `muscular`, `measurement`, `trend` or `custom`.
+    pub kind: String,
+    /// True for a term that is in no catalogue and was tried to describe what is left.
+    pub unlisted: bool,
+    /// Its size, refitted to all tightenings.
+    pub parameters: Vec<EffectParameter>,
+    /// T = Σ s_i / √Σ s_i² over tightenings, before any refit.
+    pub score: f64,
+    /// Share of all-effect sign flips whose largest T reaches this one.
+    pub p_family: f64,
+    /// Share of the misfit that it removes in tightenings that took no part in fixing it; negative when it does harm.
+    pub heldout_gain: f64,
+    /// Standard error of that share over tightenings.
+    pub heldout_gain_error: f64,
+    /// Error over noise with it, all tightenings pooled.
+    pub error_over_noise: Option<f64>,
+    /// Standard deviations by which the first of the ranking explains more, over tightenings; 0 for the first.
+    pub behind_first: f64,
+    /// Cosine of its projected signature with that of the ranking's first.
+    pub likeness: Option<f64>,
+    /// Effects that these data cannot tell from it.
+    pub twins: Vec<String>,
+    /// Whether its size is physically plausible: no estimate lies on a bound of its range.
+    pub plausible: bool,
+    /// What it is, how it shows in these data, what to check at the bench: sentences for a tool engineer.
+    pub explanation: Vec<String>,
+}
+
+/// An effect in the model, with the evidence for it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct AddedEffect {
+    /// Its name.
+    pub effect: String,
+    /// `mechanical`, `muscular`, `measurement`, `trend` or `custom`.
+    pub kind: String,
+    /// The expression of a custom effect.
+    pub expression: Option<String>,
+    /// Effects that these data cannot tell from it.
+    pub twins: Vec<String>,
+    /// Its size.
+    pub parameters: Vec<EffectParameter>,
+    /// Family-wise p at the rung where it was added; `None` when the study already had it.
+    pub p_family: Option<f64>,
+    /// Share of the misfit at that rung that it removed in held-out tightenings.
+    pub heldout_gain: Option<f64>,
+    /// Loss of fit when it alone is removed from the final model: growth of the pooled squared error over noise.
+    pub needed: Option<f64>,
+    /// Sentences for a tool engineer.
+    pub explanation: Vec<String>,
+}
+
+/// An effect that preparation measured in the quiet part and took out before the fit.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct CorrectedEffect {
+    /// Name in the catalogue.
+    pub effect: String,
+    /// Share of tightenings in which it is significant.
+    pub share: f64,
+    /// Its typical (root-mean-square) size.
+    pub size: f64,
+    /// Unit of the size.
+    pub unit: String,
+}
+
+/// One rung of the error ladder: a model and what it leaves.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Rung {
+    /// Effects in the model.
+    pub effects: Vec<String>,
+    /// Pooled root mean square of the whitened residual; `None` when the noise is not known.
+    pub error_over_noise: Option<f64>,
+    /// The same in tightenings that took no part in fixing the effects' sizes.
+    pub heldout_error_over_noise: Option<f64>,
+    /// The same with whole target torques held out; `None` with fewer than two.
+    pub heldout_target_error_over_noise: Option<f64>,
+    /// The same with whole participants held out; `None` with fewer than two.
+    pub heldout_participant_error_over_noise: Option<f64>,
+    /// Root-mean-square residual of the fitted output, in its unit.
+    pub rms_fitted_output: f64,
+    /// Root-mean-square residual of the displacement \[rad\].
+    pub rms_displacement_rad: Option<f64>,
+    /// Median over tightenings of the displacement's fit \[%\].
+    pub fit_percent_median: Option<f64>,
+    /// Share of tightenings that the study's preset selects.
+    pub selected_fraction: f64,
+}
+
+/// The noise that errors are compared with.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct NoiseStatement {
+    /// `pre_roll`, `repeats`, `declared` or `residual`.
+    pub source: String,
+    /// Its standard deviation in the acceleration \[rad/s²\]; `None` when the acceleration is not what is compared.
+    pub acceleration_rad_per_s2: Option<f64>,
+}
+
+/// How large an effect would have to be to be seen in these data.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Detectability {
+    /// The effect.
+    pub effect: String,
+    /// The parameter whose size is meant.
+    pub parameter: String,
+    /// Its unit.
+    pub unit: String,
+    /// Absent or smaller than this (95 % power at the family-wise level).
+    pub smallest_detectable: Option<f64>,
+    /// The largest plausible size, to compare with.
+    pub largest_plausible: f64,
+    /// In words.
+    pub statement: String,
+}
+
+/// The ranking on data that hide nothing: simulated from the accepted model with noise like the measured.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct NegativeControl {
+    /// Campaigns simulated.
+    pub campaigns: usize,
+    /// Of them those in which the ranking called an effect supported.
+    pub false_alarms: usize,
+    /// The rate that was meant.
+    pub nominal_rate: f64,
+    /// Wilson 95 % interval of the rate reached, low end.
+    pub rate_low: f64,
+    /// Wilson 95 % interval of the rate reached, high end.
+    pub rate_high: f64,
+}
+
+/// The simplest term that describes what no effect of the catalogue explains.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct UnlistedTerm {
+    /// Expression of a custom effect, for example `p*x^2*v`.
+    pub expression: String,
+    /// RON to paste into the study's `model.custom` list.
+    pub ron: String,
+    /// Share of the remaining misfit that it removes in held-out tightenings.
+    pub heldout_gain: f64,
+    /// In words.
+    pub statement: String,
+}
+
+/// An experiment that would tell twins apart.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Experiment {
+    /// The effects it separates.
+    pub between: Vec<String>,
+    /// Conditions of the tightenings to make, in words.
+    pub conditions: String,
+    /// How many of them; `None` when none of the tried conditions separates them.
+    pub tightenings: Option<usize>,
+    /// Smallest refitted distance over noise per tightening under these conditions.
+    pub distance_per_tightening: f64,
+    /// In words.
+    pub statement: String,
+}
+
+/// What became of a term that was tried to be removed.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Removal {
+    /// The effect.
+    pub effect: String,
+    /// Whether it was removed.
+    pub removed: bool,
+    /// In words.
+    pub statement: String,
+}
+
+/// One tightening before and after: the study's own model and the final one on the same measurement.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Showcase {
+    /// Which one: where the study's own model fails most.
+    pub id: TighteningId,
+    /// Signals with the study's own model.
+    pub before: Traces,
+    /// Signals with the final model.
+    pub after: Traces,
+}
+
+/// Model against measurement, as far as a verb looked.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Diagnosis {
+    /// `compare`, `diagnose`, `add` or `improve`.
+    pub verb: String,
+    /// The verdict.
+    pub verdict: Verdict,
+    /// The verdict in one sentence.
+    pub headline: String,
+    /// Why, in plain words.
+    pub reasons: Vec<String>,
+    /// Why the climb stopped; `None` for verbs that do not climb.
+    pub stopped: Option<String>,
+    /// Tightenings that took part.
+    pub tightenings: usize,
+    /// What errors are compared with.
+    pub noise: NoiseStatement,
+    /// The quantity compared, for example `acceleration`.
+    pub compared_output: String,
+    /// Effects in the final model.
+    pub added: Vec<AddedEffect>,
+    /// Effects taken out by preparation.
+    pub corrected: Vec<CorrectedEffect>,
+    /// The ladder, the study's own model first.
+    pub ladder: Vec<Rung>,
+    /// Candidates for what the final model still lacks (`diagnose`: what the study's model lacks), best first.
+    pub ranking: Vec<RankedEffect>,
+    /// Attempts to do without an added term.
+    pub removals: Vec<Removal>,
+    /// Model against measurement per tightening and pooled, of the study's own model.
+    pub comparison: Comparison,
+    /// Where the study's own model fails.
+    pub location: Location,
+    /// Where the final model fails; `None` when it is the study's own.
+    pub final_location: Option<Location>,
+    /// Drift of fitted m, c, k of the study's own model.
+    pub drift: Vec<Drift>,
+    /// How large effects not found would have to be.
+    pub detectability: Vec<Detectability>,
+    /// The negative control; `None` where nothing was ranked.
+    pub control: Option<NegativeControl>,
+    /// The simplest term for what is unlisted.
+    pub unlisted: Option<UnlistedTerm>,
+    /// What would tell the winner from its twins.
+    pub experiment: Option<Experiment>,
+    /// One tightening before and after; `None` when the model did not change.
+    pub showcase: Option<Showcase>,
+}

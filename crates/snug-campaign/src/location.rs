@@ -1,0 +1,92 @@
+//! Where a model fails: the words for it.
+
+use crate::Interval;
+use serde::{Deserialize, Serialize};
+
+/// Mean squared misfit in one part of the data (a stretch of time, a band of frequency, a condition).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Share {
+    /// What part: `rise`, `0.02..0.04 s`, `QS`, …
+    pub part: String,
+    /// Lower edge where the part is a range.
+    pub from: Option<f64>,
+    /// Upper edge where the part is a range.
+    pub to: Option<f64>,
+    /// Root-mean-square error there over the noise there (over the measurement's noise-free expectation, where the noise
+    /// is not known: over the pooled rms).
+    pub error_over_noise: f64,
+    /// 95 % bootstrap interval over tightenings.
+    pub interval: Option<Interval>,
+    /// Share of the campaign's whole excess over the noise that lies there.
+    pub share_of_excess: f64,
+    /// Samples that fall there.
+    pub samples: usize,
+}
+
+/// The misfit along one way of looking.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Aspect {
+    /// `time_since_onset_s`, `phase`, `frequency_hz`, `amplitude_rad`, `participant`, `strategy`, `joint`,
+    /// `pace_per_min`, `target_torque_nm`.
+    pub aspect: String,
+    /// Its parts in order.
+    pub parts: Vec<Share>,
+}
+
+/// The missing force over one coordinate, with a bootstrap band over tightenings.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct ForceCurve {
+    /// Bin centres.
+    pub at: Vec<f64>,
+    /// Mean missing force \[N\].
+    pub force_n: Vec<f64>,
+    /// Lower edge of the 95 % band \[N\].
+    pub low_n: Vec<f64>,
+    /// Upper edge of the 95 % band \[N\].
+    pub high_n: Vec<f64>,
+}
+
+/// The missing force over displacement and velocity.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct ForceMap {
+    /// Bin centres of the grip displacement x \[m\].
+    pub x_m: Vec<f64>,
+    /// Bin centres of the grip velocity v \[m/s\].
+    pub v_m_per_s: Vec<f64>,
+    /// Mean missing force \[N\], row-major (x, v); `None` where no sample fell.
+    pub force_n: Vec<Option<f64>>,
+    /// Half width of its 95 % bootstrap band \[N\].
+    pub half_width_n: Vec<Option<f64>>,
+}
+
+/// Where a model fails.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct Location {
+    /// The misfit over time, phase, frequency, amplitude and conditions.
+    pub aspects: Vec<Aspect>,
+    /// The force that would have to be added, over time since onset \[s\].
+    pub force_over_time: ForceCurve,
+    /// The same over displacement and velocity.
+    pub force_map: ForceMap,
+    /// Share of the squared misfit that the other tightenings' mean residual predicts, 0 to 1.
+    pub repeatable_share: Option<f64>,
+    /// What stands out, in plain words.
+    pub remarks: Vec<String>,
+}
+
+/// Dependence of one fitted parameter on something it should not depend on.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Drift {
+    /// `mass_kg`, `damping_kg_per_s` or `stiffness_n_per_m`.
+    pub parameter: String,
+    /// `peak_angle_rad`, `target_torque_nm`, `pulse_length_s`, `trial_number`, `peak_velocity_rad_per_s`.
+    pub against: String,
+    /// Relative change of the parameter over the range seen \[%\], within participants.
+    pub change_percent: f64,
+    /// 95 % interval of that change \[%\].
+    pub interval_percent: Option<Interval>,
+    /// p of the slope, within participants.
+    pub p: Option<f64>,
+    /// p adjusted over all drifts (Benjamini and Hochberg).
+    pub p_adjusted: Option<f64>,
+}
