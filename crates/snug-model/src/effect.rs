@@ -12,6 +12,8 @@ pub enum Kind {
     Measurement,
     /// Change from tightening to tightening.
     Trend,
+    /// A law that the study wrote itself.
+    Custom,
 }
 
 /// Over what an effect's parameter is constant.
@@ -77,6 +79,8 @@ pub struct Instant<N> {
     pub v_m_per_s: N,
     /// Time since the pulse began, as the input states it \[s\].
     pub since_onset_s: f64,
+    /// Lever arm l \[m\].
+    pub lever_arm_m: f64,
 }
 
 /// How far the hand's spring is stretched and how fast its damper moves.
@@ -139,7 +143,7 @@ pub struct Kinematics<N> {
 ///
 /// ```text
 /// F = limit(k (1 + Σ stiffening) d + c dd/dt + Σ force + Σ delayed)     d = deflection(x − Σ support)
-/// T = y(t − Σ delay) + Σ lag · y'(t − Σ delay) − Σ offset               y: logged torque
+/// T = y(t − Σ delay) + Σ lag · y'(t − Σ delay) − Σ offset + Σ torque    y: logged torque
 /// a = measure(lagged(α + Σ leak, Σ acceleration lag))
 /// ```
 pub trait Law {
@@ -202,6 +206,17 @@ pub trait Law {
         None
     }
 
+    /// Added to the torque that acts \[Nm\]; `at` holds that torque without such additions.
+    #[inline(always)]
+    fn torque<N: Number>(&self, _p: &[N], _at: &Instant<N>) -> Option<N> {
+        None
+    }
+
+    /// True when it overrides [`Law::torque`]; others are not asked at every step.
+    fn adds_torque(&self) -> bool {
+        false
+    }
+
     /// Initial angle \[rad\] and angular velocity \[rad/s\].
     #[inline(always)]
     fn initial<N: Number>(&self, _p: &[N]) -> (N, N) {
@@ -209,8 +224,10 @@ pub trait Law {
     }
 
     /// What else the accelerometer senses \[rad/s²\]; the velocity and displacement integrated from it follow.
+    ///
+    /// `at` is the instant of the true motion `motion`.
     #[inline(always)]
-    fn leak<N: Number>(&self, _p: &[N], _motion: &Kinematics<N>) -> Option<N> {
+    fn leak<N: Number>(&self, _p: &[N], _at: &Instant<N>, _motion: &Kinematics<N>) -> Option<N> {
         None
     }
 

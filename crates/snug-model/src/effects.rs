@@ -1,6 +1,7 @@
 //! The catalogue: one file per effect, one line each in the list below.
 
 use crate::Number;
+use crate::custom::CustomEffect;
 use crate::effect::{Deflection, Delayed, Description, Instant, Kinematics, Law, LoggedTorque};
 
 /// Declares the effects' modules and an enum over them that forwards every hook of [`Law`].
@@ -8,71 +9,128 @@ macro_rules! catalogue {
     ($($module:ident :: $Effect:ident),+ $(,)?) => {
         $(mod $module;)+
 
-        /// One effect of the catalogue.
+        /// One effect of the catalogue, or one that a study wrote itself.
         #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
         pub enum Effect {
             $(#[doc = concat!("See `effects/", stringify!($module), ".rs`.")] $Effect,)+
+            /// A law of the study's own, see [`CustomEffect`].
+            Custom(&'static CustomEffect),
         }
 
         impl Effect {
-            /// Every effect, in the catalogue's order.
+            /// Every effect of the catalogue, in its order.
             pub const ALL: &[Self] = &[$(Self::$Effect,)+];
         }
 
         impl Law for Effect {
             fn description(&self) -> &'static Description {
-                match self { $(Self::$Effect => $module::$Effect.description(),)+ }
+                match self {
+                    $(Self::$Effect => $module::$Effect.description(),)+
+                    Self::Custom(law) => law.description(),
+                }
             }
             #[inline(always)]
             fn force<N: Number>(&self, p: &[N], at: &Instant<N>, own: &[N]) -> N {
-                match self { $(Self::$Effect => $module::$Effect.force(p, at, own),)+ }
+                match self {
+                    $(Self::$Effect => $module::$Effect.force(p, at, own),)+
+                    Self::Custom(law) => law.force(p, at, own),
+                }
             }
             #[inline(always)]
             fn rates<N: Number>(&self, p: &[N], at: &Instant<N>, own: &[N], hand_n: N, rates: &mut [N]) {
-                match self { $(Self::$Effect => $module::$Effect.rates(p, at, own, hand_n, rates),)+ }
+                match self {
+                    $(Self::$Effect => $module::$Effect.rates(p, at, own, hand_n, rates),)+
+                    Self::Custom(law) => law.rates(p, at, own, hand_n, rates),
+                }
             }
             #[inline(always)]
             fn support<N: Number>(&self, p: &[N], own: &[N]) -> Option<Deflection<N>> {
-                match self { $(Self::$Effect => $module::$Effect.support(p, own),)+ }
+                match self {
+                    $(Self::$Effect => $module::$Effect.support(p, own),)+
+                    Self::Custom(law) => law.support(p, own),
+                }
             }
             #[inline(always)]
             fn deflection<N: Number>(&self, p: &[N], between: Deflection<N>) -> Deflection<N> {
-                match self { $(Self::$Effect => $module::$Effect.deflection(p, between),)+ }
+                match self {
+                    $(Self::$Effect => $module::$Effect.deflection(p, between),)+
+                    Self::Custom(law) => law.deflection(p, between),
+                }
             }
             #[inline(always)]
             fn stiffening<N: Number>(&self, p: &[N], at: &Instant<N>) -> Option<N> {
-                match self { $(Self::$Effect => $module::$Effect.stiffening(p, at),)+ }
+                match self {
+                    $(Self::$Effect => $module::$Effect.stiffening(p, at),)+
+                    Self::Custom(law) => law.stiffening(p, at),
+                }
             }
             #[inline(always)]
             fn limit<N: Number>(&self, p: &[N], force_n: N) -> N {
-                match self { $(Self::$Effect => $module::$Effect.limit(p, force_n),)+ }
+                match self {
+                    $(Self::$Effect => $module::$Effect.limit(p, force_n),)+
+                    Self::Custom(law) => law.limit(p, force_n),
+                }
             }
             #[inline(always)]
             fn delayed<N: Number>(&self, p: &[N]) -> Option<Delayed<N>> {
-                match self { $(Self::$Effect => $module::$Effect.delayed(p),)+ }
+                match self {
+                    $(Self::$Effect => $module::$Effect.delayed(p),)+
+                    Self::Custom(law) => law.delayed(p),
+                }
             }
             #[inline(always)]
             fn logged_torque<N: Number>(&self, p: &[N]) -> Option<LoggedTorque<N>> {
-                match self { $(Self::$Effect => $module::$Effect.logged_torque(p),)+ }
+                match self {
+                    $(Self::$Effect => $module::$Effect.logged_torque(p),)+
+                    Self::Custom(law) => law.logged_torque(p),
+                }
+            }
+            #[inline(always)]
+            fn torque<N: Number>(&self, p: &[N], at: &Instant<N>) -> Option<N> {
+                match self {
+                    $(Self::$Effect => $module::$Effect.torque(p, at),)+
+                    Self::Custom(law) => law.torque(p, at),
+                }
             }
             #[inline(always)]
             fn initial<N: Number>(&self, p: &[N]) -> (N, N) {
-                match self { $(Self::$Effect => $module::$Effect.initial(p),)+ }
+                match self {
+                    $(Self::$Effect => $module::$Effect.initial(p),)+
+                    Self::Custom(law) => law.initial(p),
+                }
             }
             #[inline(always)]
-            fn leak<N: Number>(&self, p: &[N], motion: &Kinematics<N>) -> Option<N> {
-                match self { $(Self::$Effect => $module::$Effect.leak(p, motion),)+ }
+            fn leak<N: Number>(&self, p: &[N], at: &Instant<N>, motion: &Kinematics<N>) -> Option<N> {
+                match self {
+                    $(Self::$Effect => $module::$Effect.leak(p, at, motion),)+
+                    Self::Custom(law) => law.leak(p, at, motion),
+                }
             }
             #[inline(always)]
             fn acceleration_lag_s<N: Number>(&self, p: &[N]) -> Option<N> {
-                match self { $(Self::$Effect => $module::$Effect.acceleration_lag_s(p),)+ }
+                match self {
+                    $(Self::$Effect => $module::$Effect.acceleration_lag_s(p),)+
+                    Self::Custom(law) => law.acceleration_lag_s(p),
+                }
             }
             #[inline(always)]
             fn measure<N: Number>(&self, p: &[N], since_rest_s: f64, motion: Kinematics<N>) -> Kinematics<N> {
-                match self { $(Self::$Effect => $module::$Effect.measure(p, since_rest_s, motion),)+ }
+                match self {
+                    $(Self::$Effect => $module::$Effect.measure(p, since_rest_s, motion),)+
+                    Self::Custom(law) => law.measure(p, since_rest_s, motion),
+                }
+            }
+            fn adds_torque(&self) -> bool {
+                match self {
+                    $(Self::$Effect => $module::$Effect.adds_torque(),)+
+                    Self::Custom(law) => law.adds_torque(),
+                }
             }
             fn measurement_only(&self) -> bool {
-                match self { $(Self::$Effect => $module::$Effect.measurement_only(),)+ }
+                match self {
+                    $(Self::$Effect => $module::$Effect.measurement_only(),)+
+                    Self::Custom(law) => law.measurement_only(),
+                }
             }
         }
     };

@@ -19,12 +19,12 @@ pub enum ModelError {
         /// Its name.
         effect: &'static str,
     },
-    /// The catalogue has no effect of that name.
-    #[error("there is no effect `{name}`; the catalogue has: {}", known.join(", "))]
+    /// Neither the catalogue nor the study has an effect of that name.
+    #[error("there is no effect `{name}`; there are: {}", known.join(", "))]
     UnknownEffect {
         /// The name.
         name: String,
-        /// Every name of the catalogue.
+        /// Every name of the study's custom effects and of the catalogue.
         known: Vec<&'static str>,
     },
     /// The model has no parameter of that name.
@@ -46,6 +46,76 @@ pub enum ModelError {
         minimum: f64,
         /// Its largest allowed value.
         maximum: f64,
+    },
+    /// A custom effect's name cannot be used.
+    #[error("custom effect: the name `{name}` {problem}")]
+    CustomName {
+        /// The name.
+        name: String,
+        /// What is wrong with it.
+        problem: &'static str,
+    },
+    /// A custom effect's parameter cannot be used.
+    #[error("custom effect `{effect}`: the parameter `{parameter}` {problem}")]
+    CustomParameter {
+        /// The effect.
+        effect: String,
+        /// Its parameter.
+        parameter: String,
+        /// What is wrong with it.
+        problem: &'static str,
+    },
+    /// A custom effect's parameter starts outside its range, or the range is the wrong way round.
+    #[error(
+        "custom effect `{effect}`: the parameter `{parameter}` starts at {start}; it must be finite and within {minimum} to {maximum}, the smaller first"
+    )]
+    CustomRange {
+        /// The effect.
+        effect: String,
+        /// Its parameter.
+        parameter: String,
+        /// Its starting value.
+        start: f64,
+        /// Its smallest value.
+        minimum: f64,
+        /// Its largest value.
+        maximum: f64,
+    },
+    /// A custom effect's expression cannot be read.
+    #[error(
+        "custom effect `{effect}`: in the expression `{expression}`, at character {position}, found {found}; allowed is {allowed}"
+    )]
+    Expression {
+        /// The effect.
+        effect: String,
+        /// Its expression.
+        expression: String,
+        /// Character at which it fails, counted from 1.
+        position: usize,
+        /// What stands there.
+        found: String,
+        /// What may stand there.
+        allowed: String,
+    },
+    /// A custom effect's expression has no value where a tightening passes.
+    #[error(
+        "custom effect `{effect}`: the expression `{expression}` is {value} at x = {x_m} m, v = {v_m_per_s} m/s, T = {torque_nm} Nm, t = {since_onset_s} s with its parameters at their starting values; it must be a finite number"
+    )]
+    ExpressionValue {
+        /// The effect.
+        effect: String,
+        /// Its expression.
+        expression: String,
+        /// What comes out.
+        value: f64,
+        /// Displacement \[m\].
+        x_m: f64,
+        /// Velocity \[m/s\].
+        v_m_per_s: f64,
+        /// Torque \[Nm\].
+        torque_nm: f64,
+        /// Time since onset \[s\].
+        since_onset_s: f64,
     },
     /// More effects than a simulation carries.
     #[error(

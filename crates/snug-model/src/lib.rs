@@ -1,13 +1,17 @@
 #![doc = include_str!("../README.md")]
 
 mod accelerometer;
+mod acting_torque;
 mod band_limited;
+mod custom;
+mod custom_settings;
 mod dual;
 mod effect;
 mod effects;
 mod error;
 mod euler;
 mod exponential;
+mod expression;
 mod forces;
 mod history;
 mod input;
@@ -20,6 +24,8 @@ mod runge_kutta;
 mod sensors;
 mod settings;
 
+pub use custom::CustomEffect;
+pub use custom_settings::{CustomEffectSettings, CustomParameterSettings, Place};
 pub use dual::Dual;
 pub use effect::{
     Deflection, Delayed, Description, Instant, Kind, Kinematics, Law, LoggedTorque, ParameterSpec,

@@ -56,7 +56,7 @@ impl Model {
         let mut parts: Vec<Part> = Vec::new();
         let mut states = 2;
         for &effect in effects {
-            if parts.iter().any(|part| part.effect == effect) {
+            if parts.iter().any(|part| part.effect.name() == effect.name()) {
                 return Err(ModelError::DuplicateEffect {
                     effect: effect.name(),
                 });

@@ -32,10 +32,10 @@ pub trait Number:
         let slope = if value == 0.0 { 0.0 } else { value.signum() };
         self.chain(value.abs(), slope)
     }
-    /// Square root of a positive number.
+    /// Square root; the infinite slope at 0 is taken as 0.
     fn sqrt(self) -> Self {
         let root = self.value().sqrt();
-        self.chain(root, 0.5 / root)
+        self.chain(root, if root == 0.0 { 0.0 } else { 0.5 / root })
     }
     /// Exponential function.
     fn exp(self) -> Self {
@@ -46,6 +46,66 @@ pub trait Number:
     fn sin(self) -> Self {
         let (sine, cosine) = self.value().sin_cos();
         self.chain(sine, cosine)
+    }
+    /// Cosine of an angle \[rad\].
+    fn cos(self) -> Self {
+        let (sine, cosine) = self.value().sin_cos();
+        self.chain(cosine, -sine)
+    }
+    /// Tangent of an angle \[rad\].
+    fn tan(self) -> Self {
+        let tangent = self.value().tan();
+        self.chain(tangent, 1.0 + tangent * tangent)
+    }
+    /// Angle \[rad\] whose tangent this is.
+    fn atan(self) -> Self {
+        let value = self.value();
+        self.chain(value.atan(), 1.0 / (1.0 + value * value))
+    }
+    /// Natural logarithm.
+    fn log(self) -> Self {
+        let value = self.value();
+        self.chain(value.ln(), 1.0 / value)
+    }
+    /// −1, 0 or 1; the slope is taken as 0 everywhere.
+    fn sign(self) -> Self {
+        let value = self.value();
+        self.chain(if value == 0.0 { 0.0 } else { value.signum() }, 0.0)
+    }
+    /// 1 above 0, else 0; the slope is taken as 0 everywhere.
+    fn step(self) -> Self {
+        self.chain(f64::from(u8::from(self.value() > 0.0)), 0.0)
+    }
+    /// This number to a whole power.
+    fn power(self, exponent: i32) -> Self {
+        let value = self.value();
+        let (below, whole) = match exponent {
+            2 => (value, value * value),
+            3 => (value * value, value * value * value),
+            _ => (value.powi(exponent - 1), value.powi(exponent)),
+        };
+        self.chain(whole, f64::from(exponent) * below)
+    }
+    /// This number, not negative, to a real power; an infinite slope at 0 is taken as 0.
+    fn real_power(self, exponent: f64) -> Self {
+        let value = self.value();
+        let slope = exponent * value.powf(exponent - 1.0);
+        let slope = if value == 0.0 && slope.is_infinite() {
+            0.0
+        } else {
+            slope
+        };
+        self.chain(value.powf(exponent), slope)
+    }
+    /// This number, not negative, to the power of another.
+    fn power_of(self, exponent: Self) -> Self {
+        let power = self.real_power(exponent.value());
+        let by_exponent = if power.value() == 0.0 {
+            0.0
+        } else {
+            power.value() * self.value().ln()
+        };
+        power + exponent.chain(0.0, by_exponent)
     }
     /// u² (3 − 2u) between 0 and 1; 0 before and 1 after.
     fn smooth_step(self) -> Self {

@@ -1,4 +1,5 @@
-use crate::effect::{Deflection, Delayed, Instant, Kinematics, Law, LoggedTorque};
+use crate::acting_torque::{ActingTorque, with_added_torque};
+use crate::effect::{Deflection, Delayed, Instant, Kinematics, Law};
 use crate::history::History;
 use crate::model::{Assembly, Part};
 use crate::{Input, Number};
@@ -15,7 +16,9 @@ pub struct Plant<'a, N> {
     mobility: N,
     /// −l / (I_n + m l²).
     lever_mobility: N,
-    logged_torque: Option<LoggedTorque<N>>,
+    acting_torque: ActingTorque<'a, N>,
+    /// Whether an effect adds to the torque.
+    adds_torque: bool,
     delayed: Vec<Delayed<N>>,
     /// Kept only where a delayed law looks back.
     history: History<N>,
@@ -45,14 +48,8 @@ impl<'a, N: Number> Plant<'a, N> {
             stiffness_n_per_m: p[2],
             mobility,
             lever_mobility: mobility * -lever,
-            logged_torque: parts
-                .iter()
-                .filter_map(|part| part.effect.logged_torque(own(part)))
-                .reduce(|sum, more| LoggedTorque {
-                    delay_s: sum.delay_s + more.delay_s,
-                    lag_s: sum.lag_s + more.lag_s,
-                    offset_nm: sum.offset_nm + more.offset_nm,
-                }),
+            acting_torque: ActingTorque::new(parts, p, input),
+            adds_torque: parts.iter().any(|part| part.effect.adds_torque()),
             delayed: parts
                 .iter()
                 .filter_map(|part| part.effect.delayed(own(part)))
@@ -75,14 +72,7 @@ impl<'a, N: Number> Plant<'a, N> {
     /// Torque that acts at a grid point \[Nm\].
     #[inline(always)]
     pub fn acting_torque(&self, point: usize) -> N {
-        let Some(logged) = &self.logged_torque else {
-            return N::from(self.input.grid()[point]);
-        };
-        let then_s = point as f64 * self.input.grid_interval_s() - logged.delay_s.value();
-        let (torque, slope) = self.input.at(then_s);
-        let (rate, change) = self.input.slope_at(then_s);
-        logged.delay_s.chain(torque, -slope) + logged.lag_s * logged.delay_s.chain(rate, -change)
-            - logged.offset_nm
+        self.acting_torque.at(point)
     }
 
     /// Notes the motion at the next grid point, for laws that look back.
@@ -147,11 +137,17 @@ impl<'a, N: Number> Plant<'a, N> {
 
     #[inline(always)]
     fn instant(&self, drive: &Drive<N>, state: &[N]) -> Instant<N> {
-        Instant {
+        let at = Instant {
             torque_nm: drive.torque_nm,
             x_m: state[0] * self.lever_arm_m,
             v_m_per_s: state[1] * self.lever_arm_m,
             since_onset_s: drive.since_onset_s,
+            lever_arm_m: self.lever_arm_m,
+        };
+        if self.adds_torque {
+            with_added_torque(self.parts, self.p, at)
+        } else {
+            at
         }
     }
 

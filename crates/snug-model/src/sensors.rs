@@ -1,5 +1,6 @@
 use crate::accelerometer::Accelerometer;
-use crate::effect::{Kinematics, Law};
+use crate::acting_torque::{ActingTorque, with_added_torque};
+use crate::effect::{Instant, Kinematics, Law};
 use crate::model::{Assembly, Part};
 use crate::{Input, Number};
 
@@ -8,6 +9,8 @@ pub struct Sensors<'a, N> {
     parts: &'a [Part],
     p: &'a [N],
     input: &'a Input,
+    lever_arm_m: f64,
+    acting_torque: ActingTorque<'a, N>,
     /// Absent when no effect of the assembly needs it.
     accelerometer: Option<Accelerometer<N>>,
 }
@@ -24,10 +27,12 @@ impl<'a, N: Number> Sensors<'a, N> {
             parts: assembly.parts(),
             p,
             input,
+            lever_arm_m: assembly.rig().lever_arm_m,
+            acting_torque: ActingTorque::new(assembly.parts(), p, input),
             accelerometer: None,
         };
         let lag = sensors.total(|effect, p| effect.acceleration_lag_s(p));
-        if lag.is_some() || sensors.leak(&still).is_some() {
+        if lag.is_some() || sensors.leak(0, &still).is_some() {
             let interval_s = input.since_rest_s(1) - input.since_rest_s(0);
             sensors.accelerometer = Some(Accelerometer::new(interval_s, lag));
         }
@@ -39,7 +44,7 @@ impl<'a, N: Number> Sensors<'a, N> {
     pub fn sample(&mut self, index: usize, motion: Kinematics<N>) -> Kinematics<N> {
         let mut seen = motion;
         if self.accelerometer.is_some() {
-            let leak = self.leak(&motion);
+            let leak = self.leak(index, &motion);
             if let Some(accelerometer) = &mut self.accelerometer {
                 seen = accelerometer.sample(motion, leak);
             }
@@ -51,8 +56,22 @@ impl<'a, N: Number> Sensors<'a, N> {
         })
     }
 
-    fn leak(&self, motion: &Kinematics<N>) -> Option<N> {
-        self.total(|effect, p| effect.leak(p, motion))
+    fn leak(&self, index: usize, motion: &Kinematics<N>) -> Option<N> {
+        let at = self.instant(index, motion);
+        self.total(|effect, p| effect.leak(p, &at, motion))
+    }
+
+    /// The instant of sample `index`, at which the true motion is `motion`.
+    fn instant(&self, index: usize, motion: &Kinematics<N>) -> Instant<N> {
+        let point = index * self.input.substeps();
+        let at = Instant {
+            torque_nm: self.acting_torque.at(point),
+            x_m: motion.displacement_rad * self.lever_arm_m,
+            v_m_per_s: motion.velocity_rad_per_s * self.lever_arm_m,
+            since_onset_s: point as f64 * self.input.grid_interval_s() - self.input.onset_s(),
+            lever_arm_m: self.lever_arm_m,
+        };
+        with_added_torque(self.parts, self.p, at)
     }
 
     /// The sum of what the effects add to the same place, if any adds to it.

@@ -1,4 +1,4 @@
-use crate::{Effect, Model, ModelError};
+use crate::{CustomEffect, CustomEffectSettings, Effect, Model, ModelError};
 use serde::{Deserialize, Serialize};
 use snug_campaign::{Intersample, ParameterSource, Rig};
 use std::collections::BTreeMap;
@@ -7,8 +7,10 @@ use std::collections::BTreeMap;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct ModelSettings {
-    /// Effects added to the base model, by name; default none.
+    /// Effects added to the base model, by name, from the catalogue or from `custom`; default none.
     pub effects: Vec<String>,
+    /// Laws that this study writes itself; they are in the model only where `effects` name them. Default none.
+    pub custom: Vec<CustomEffectSettings>,
     /// What the input does between samples: `ZeroOrder`, `Linear` or `BandLimited`; default `Linear`.
     pub intersample: Intersample,
     /// Changes to single parameters, by name, for example `{"mass_kg": (value: 1.0, fixed: true)}`.
@@ -33,6 +35,7 @@ impl Default for ModelSettings {
     fn default() -> Self {
         Self {
             effects: Vec::new(),
+            custom: Vec::new(),
             intersample: Intersample::Linear,
             parameters: BTreeMap::new(),
         }
@@ -44,23 +47,56 @@ impl ModelSettings {
     ///
     /// # Errors
     /// [`ModelError::UnknownEffect`], [`ModelError::UnknownParameter`] and [`ModelError::ParameterRange`] name what the
-    /// settings got wrong and what is allowed; otherwise as [`Model::new`].
+    /// settings got wrong and what is allowed; otherwise as [`Model::new`] and [`ModelSettings::custom_effects`].
     pub fn model(&self, rig: Rig) -> Result<Model, ModelError> {
+        let custom = self.custom_effects()?;
         let effects = self
             .effects
             .iter()
-            .map(|name| {
-                Effect::named(name).ok_or_else(|| ModelError::UnknownEffect {
-                    name: name.clone(),
-                    known: Effect::ALL.iter().map(|effect| effect.name()).collect(),
-                })
-            })
+            .map(|name| named(name, &custom))
             .collect::<Result<Vec<_>, _>>()?;
         let mut model = Model::new(rig, &effects)?;
         for (name, settings) in &self.parameters {
             settings.apply(name, &mut model)?;
         }
         Ok(model)
+    }
+
+    /// The effect that this study calls `name`: one of its own or of the catalogue.
+    ///
+    /// # Errors
+    /// [`ModelError::UnknownEffect`] when there is none; otherwise as [`ModelSettings::custom_effects`].
+    pub fn effect(&self, name: &str) -> Result<Effect, ModelError> {
+        named(name, &self.custom_effects()?)
+    }
+
+    /// The study's own effects, whether the model has them or not.
+    ///
+    /// # Errors
+    /// [`ModelError::DuplicateEffect`] when two have one name; otherwise as [`CustomEffect::intern`].
+    pub fn custom_effects(&self) -> Result<Vec<Effect>, ModelError> {
+        let mut effects: Vec<Effect> = Vec::new();
+        for settings in &self.custom {
+            let effect = CustomEffect::intern(settings)?;
+            if effects.iter().any(|known| known.name() == effect.name()) {
+                return Err(ModelError::DuplicateEffect {
+                    effect: effect.name(),
+                });
+            }
+            effects.push(effect);
+        }
+        Ok(effects)
+    }
+}
+
+fn named(name: &str, custom: &[Effect]) -> Result<Effect, ModelError> {
+    let known = custom.iter().chain(Effect::ALL);
+    match known.clone().find(|effect| effect.name() == name) {
+        Some(effect) => Ok(*effect),
+        None => Err(ModelError::UnknownEffect {
+            name: name.to_owned(),
+            known: known.map(Effect::name).collect(),
+        }),
     }
 }
 

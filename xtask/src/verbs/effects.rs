@@ -65,5 +65,6 @@ fn kind(kind: Kind) -> &'static str {
         Kind::Muscular => "muscular",
         Kind::Measurement => "measurement",
         Kind::Trend => "trend",
+        Kind::Custom => "custom",
     }
 }

@@ -5,7 +5,7 @@
 //! Source: transverse sensitivity and mounting of the accelerometer.
 
 use crate::Number;
-use crate::effect::{Description, Kind, Kinematics, Law, ParameterSpec, Scope};
+use crate::effect::{Description, Instant, Kind, Kinematics, Law, ParameterSpec, Scope};
 
 pub struct CentripetalCrosstalk;
 
@@ -33,7 +33,7 @@ impl Law for CentripetalCrosstalk {
     }
 
     #[inline(always)]
-    fn leak<N: Number>(&self, p: &[N], motion: &Kinematics<N>) -> Option<N> {
+    fn leak<N: Number>(&self, p: &[N], _at: &Instant<N>, motion: &Kinematics<N>) -> Option<N> {
         Some(p[0] * (motion.velocity_rad_per_s * motion.velocity_rad_per_s))
     }
 

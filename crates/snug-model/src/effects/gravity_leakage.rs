@@ -5,7 +5,7 @@
 //! changed stiffness that no force explains. Source: static sensitivity of accelerometers.
 
 use crate::Number;
-use crate::effect::{Description, Kind, Kinematics, Law, ParameterSpec, Scope};
+use crate::effect::{Description, Instant, Kind, Kinematics, Law, ParameterSpec, Scope};
 
 pub struct GravityLeakage;
 
@@ -33,7 +33,7 @@ impl Law for GravityLeakage {
     }
 
     #[inline(always)]
-    fn leak<N: Number>(&self, p: &[N], motion: &Kinematics<N>) -> Option<N> {
+    fn leak<N: Number>(&self, p: &[N], _at: &Instant<N>, motion: &Kinematics<N>) -> Option<N> {
         Some(p[0] * motion.displacement_rad.sin())
     }
 
