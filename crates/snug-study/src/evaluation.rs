@@ -107,7 +107,7 @@ pub fn without_estimate(study: &Study, recording: &Recording, segment: &Segment)
 }
 
 /// The input as the study says it behaves, when its pulse begins and since when the sensor's signal has been integrated.
-fn input(study: &Study, tightening: &Tightening) -> Input {
+pub fn input(study: &Study, tightening: &Tightening) -> Input {
     let interval_s = tightening.time_base.interval_s;
     let onset_s = tightening.onset.unwrap_or(0) as f64 * interval_s;
     let input =

@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 mod error;
+mod cases;
 mod evaluation;
 mod examples;
 mod file_evaluation;
@@ -16,3 +17,5 @@ pub use run::{Outcome, RunSettings, run};
 pub use selection::SelectionSettings;
 pub use snug_preprocess::Preset;
 pub use study::{Study, ValidationSettings};
+#[doc(hidden)]
+pub use cases::cases;

@@ -22,7 +22,7 @@ impl Law for VoluntaryPush {
                 starts: &[2.0],
                 minimum: -50.0,
                 maximum: 50.0,
-                scope: Scope::PerTightening,
+                scope: Scope::Shared,
             }, ParameterSpec {
                 name: "onset_s",
                 unit: "s",

@@ -1,0 +1,54 @@
+use snug_campaign::{Quantity, Tightening};
+use snug_identify::{ConstraintKind, Whitening};
+use snug_model::{Effect, Input, Model};
+
+use crate::DiagnoseError;
+
+/// One tightening as the diagnosis sees it: measurement, input and the study's own model for its rig.
+#[derive(Debug, Clone)]
+pub struct Case {
+    /// The measurement.
+    pub tightening: Tightening,
+    /// The study's own model, with everything the study says about its parameters.
+    pub model: Model,
+    /// The input as the study says it behaves.
+    pub input: Input,
+    /// The output that is compared.
+    pub quantity: Quantity,
+    /// Samples at the window's start that count for nothing.
+    pub unscored: usize,
+    /// What must hold of m, c, k.
+    pub constraints: Vec<ConstraintKind>,
+}
+
+impl Case {
+    /// The measured output that is compared.
+    pub(crate) fn measured(&self) -> &[f64] {
+        self.tightening.motion.get(self.quantity).unwrap_or(&[])
+    }
+
+    /// The filter that whitens the measured noise, where it is of the compared output.
+    pub(crate) fn whitening(&self) -> Option<Whitening> {
+        let noise = self.tightening.noise.as_ref()?;
+        (noise.quantity == self.quantity)
+            .then(|| Whitening::new(noise))
+            .flatten()
+    }
+
+    /// Whether anything can be compared.
+    pub fn is_comparable(&self) -> bool {
+        self.measured().len() > self.unscored + 100
+    }
+
+    /// The study's own model with other effects after its own; what the study says of shared parameters stays.
+    pub(crate) fn model_with(&self, effects: &[Effect]) -> Result<Model, DiagnoseError> {
+        let mut model = Model::new(*self.model.rig(), effects)?;
+        for parameter in model.parameters_mut() {
+            let own = self.model.parameters();
+            if let Some(said) = own.iter().find(|own| own.name == parameter.name) {
+                *parameter = said.clone();
+            }
+        }
+        Ok(model)
+    }
+}

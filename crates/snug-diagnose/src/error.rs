@@ -1,0 +1,22 @@
+use snug_identify::IdentifyError;
+use snug_model::ModelError;
+use thiserror::Error;
+
+/// Why a diagnosis could not be made.
+#[derive(Debug, Error)]
+pub enum DiagnoseError {
+    /// No tightening can be compared with a simulation.
+    #[error("none of the {tightenings} tightenings can be compared with the model: {reason}")]
+    NothingToCompare {
+        /// Tightenings that were offered.
+        tightenings: usize,
+        /// Why not.
+        reason: &'static str,
+    },
+    /// The model refuses the effects it is asked to carry.
+    #[error(transparent)]
+    Model(#[from] ModelError),
+    /// A fit could not begin.
+    #[error(transparent)]
+    Identify(#[from] IdentifyError),
+}

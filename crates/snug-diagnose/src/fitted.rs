@@ -1,0 +1,229 @@
+//! A hypothesis after its fit: sizes, errors, and what it is worth in data that took no part.
+
+use crate::dense::{Square, dot};
+use crate::hypothesis::Hypothesis;
+use crate::units::Units;
+use crate::DiagnoseError;
+use snug_identify::PooledFit;
+use snug_model::Effect;
+
+/// What a unit says about the parameters around the optimum: squared residual, gradient and curvature.
+#[derive(Debug, Clone)]
+pub(crate) struct Block {
+    /// Σ r² over the unit.
+    pub squares: f64,
+    /// Number of residuals.
+    pub count: usize,
+    /// Jᵀr; over the shared parameters where the unit is a whole tightening, else over own and shared.
+    gradient: Vec<f64>,
+    /// JᵀJ likewise.
+    curvature: Square,
+}
+
+/// A fitted hypothesis.
+#[derive(Debug, Clone)]
+pub(crate) struct Fitted {
+    pub effects: Vec<Effect>,
+    own_names: Vec<String>,
+    shared_names: Vec<String>,
+    pub own: Vec<Vec<f64>>,
+    pub shared: Vec<f64>,
+    pub converged: bool,
+    /// Unit by unit, tightening by tightening.
+    pub blocks: Vec<Block>,
+    /// Which tightening a unit belongs to.
+    pub members: Vec<usize>,
+    units: Units,
+    /// Per tightening curvature over own and shared (only where units are stretches).
+    member_curvature: Vec<Square>,
+    /// Per tightening projected curvature and gradient over the shared parameters.
+    profiles: Vec<(Square, Vec<f64>)>,
+    /// Parameters that every tightening has of its own, beyond the base model's.
+    pub own_effect_count: usize,
+    pub linearizations: usize,
+}
+
+impl Fitted {
+    pub fn new(
+        hypothesis: &mut Hypothesis<'_>,
+        fit: PooledFit,
+        units: &Units,
+    ) -> Result<Self, DiagnoseError> {
+        let p = hypothesis.shared.len();
+        let profiles = fit
+            .profiles
+            .iter()
+            .map(|profile| (Square::new(p, profile.curvature.clone()), profile.gradient.clone()))
+            .collect();
+        let mut fitted = Self {
+            effects: hypothesis.effects.clone(),
+            own_names: hypothesis.names(&hypothesis.own),
+            shared_names: hypothesis.names(&hypothesis.shared),
+            converged: fit.converged,
+            blocks: Vec::new(),
+            members: Vec::new(),
+            units: *units,
+            member_curvature: Vec::new(),
+            profiles,
+            own_effect_count: hypothesis.own.iter().filter(|&&index| index >= 3).count(),
+            linearizations: fit.work.linearizations,
+            own: fit.own,
+            shared: fit.shared,
+        };
+        fitted.work_out_blocks(hypothesis, &fit.profiles);
+        Ok(fitted)
+    }
+
+    fn work_out_blocks(
+        &mut self,
+        hypothesis: &mut Hypothesis<'_>,
+        profiles: &[snug_identify::Profile],
+    ) {
+        let order: Vec<usize> = match self.units.are_whole() {
+            true => Vec::new(),
+            false => [hypothesis.own.as_slice(), &hypothesis.shared].concat(),
+        };
+        for member in 0..self.own.len() {
+            if self.units.are_whole() {
+                let (curvature, gradient) = self.profiles[member].clone();
+                self.blocks.push(Block {
+                    squares: 2.0 * profiles[member].cost,
+                    count: hypothesis.residual_count(member),
+                    gradient,
+                    curvature,
+                });
+                self.members.push(member);
+                continue;
+            }
+            let values = hypothesis.values(member, &self.own[member], &self.shared);
+            let (residual, jacobian) = hypothesis.weighted(member, &values, &order);
+            let count = residual.len();
+            let mut whole = Square::zero(order.len());
+            for range in self.units.ranges(count) {
+                let r = &residual[range.clone()];
+                let column = |index: usize| &jacobian[index * count..][range.clone()];
+                let mut curvature = Square::zero(order.len());
+                for i in 0..order.len() {
+                    for j in 0..order.len() {
+                        curvature.set(i, j, dot(column(i), column(j)));
+                    }
+                }
+                whole.add(&curvature);
+                self.blocks.push(Block {
+                    squares: dot(r, r),
+                    count: r.len(),
+                    gradient: (0..order.len()).map(|i| dot(column(i), r)).collect(),
+                    curvature,
+                });
+                self.members.push(member);
+            }
+            self.member_curvature.push(whole);
+        }
+    }
+
+    /// Σ r² over everything.
+    pub fn squares(&self) -> f64 {
+        self.blocks.iter().map(|block| block.squares).sum()
+    }
+
+    /// Number of residuals.
+    pub fn count(&self) -> usize {
+        self.blocks.iter().map(|block| block.count).sum()
+    }
+
+    /// Root mean square of the weighted residual, parameters of each tightening accounted for.
+    pub fn error(&self) -> f64 {
+        let lost = self.own.len() * self.own_names.len() + self.shared.len();
+        (self.squares() / (self.count() - lost.min(self.count() - 1)) as f64).sqrt()
+    }
+
+    pub fn own_named(&self, member: usize) -> Vec<(String, f64)> {
+        self.own_names.iter().cloned().zip(self.own[member].iter().copied()).collect()
+    }
+
+    pub fn shared_named(&self) -> Vec<(String, f64)> {
+        self.shared_names.iter().cloned().zip(self.shared.iter().copied()).collect()
+    }
+
+    /// Names of the shared parameters.
+    pub fn shared_names(&self) -> &[String] {
+        &self.shared_names
+    }
+
+    /// Names of each tightening's own parameters.
+    pub fn own_names(&self) -> &[String] {
+        &self.own_names
+    }
+
+    /// Projected curvature over the shared parameters, all tightenings together.
+    pub fn shared_curvature(&self) -> Square {
+        let mut sum = Square::zero(self.shared.len());
+        for (curvature, _) in &self.profiles {
+            sum.add(curvature);
+        }
+        sum
+    }
+
+    /// Projected curvature and gradient of each tightening over the shared parameters.
+    pub fn profiles(&self) -> &[(Square, Vec<f64>)] {
+        &self.profiles
+    }
+
+    /// Σ r² of each unit as predicted for sizes that were fixed without its group: δ = (S − S_g)⁻¹ g_g, then
+    /// r² + 2 gᵀδ + δᵀSδ. `group_of` names the group of a unit; each tightening's own parameters follow, and pay for it.
+    pub fn heldout(&self, group_of: &dyn Fn(usize) -> usize) -> Vec<f64> {
+        let scale = self.squares() / self.count().max(1) as f64;
+        let groups: std::collections::BTreeSet<usize> = (0..self.blocks.len()).map(group_of).collect();
+        let mut squares: Vec<f64> = vec![0.0; self.blocks.len()];
+        for group in groups {
+            let units: Vec<usize> = (0..self.blocks.len()).filter(|&u| group_of(u) == group).collect();
+            if self.units.are_whole() {
+                self.hold_out(&units, self.shared_curvature(), &mut squares);
+            } else {
+                self.hold_out_stretches(&units, &mut squares);
+            }
+        }
+        if self.units.are_whole() {
+            let pays = 2.0 * self.own_effect_count as f64 * scale;
+            squares.iter_mut().for_each(|value| *value += pays);
+        }
+        squares
+    }
+
+    fn hold_out(&self, units: &[usize], total: Square, squares: &mut [f64]) {
+        let mut rest = total;
+        let mut gradient = vec![0.0; rest.size()];
+        for &unit in units {
+            rest.subtract(&self.blocks[unit].curvature);
+            for (sum, g) in gradient.iter_mut().zip(&self.blocks[unit].gradient) {
+                *sum += g;
+            }
+        }
+        let shift = rest.solve_scaled(&gradient);
+        for &unit in units {
+            let block = &self.blocks[unit];
+            squares[unit] = block.squares
+                + shift.as_ref().map_or(0.0, |shift| {
+                    2.0 * dot(&block.gradient, shift) + block.curvature.quadratic(shift)
+                });
+        }
+    }
+
+    /// Own parameters are fixed by the other stretches of the same tightening, the shared ones by everything else.
+    fn hold_out_stretches(&self, units: &[usize], squares: &mut [f64]) {
+        let mut by_member: std::collections::BTreeMap<usize, Vec<usize>> = Default::default();
+        for &unit in units {
+            by_member.entry(self.members[unit]).or_default().push(unit);
+        }
+        for (member, own_units) in by_member {
+            let mut total = self.member_curvature[member].clone();
+            let first_shared = total.size() - self.shared.len();
+            for (other, (curvature, _)) in self.profiles.iter().enumerate() {
+                if other != member {
+                    total.add_at(first_shared, curvature);
+                }
+            }
+            self.hold_out(&own_units, total, squares);
+        }
+    }
+}

@@ -1,0 +1,302 @@
+//! A set of effects as one statement about all tightenings: each its own m, c, k, the effects' sizes shared.
+
+use crate::case::Case;
+use crate::fitted::Fitted;
+use crate::units::Units;
+use crate::DiagnoseError;
+use snug_identify::{
+    Constraints, EvaluationError, Linearization, PooledResidual, PooledSettings, Whitening,
+    convex_set, solve_pooled,
+};
+use snug_model::{BASE_PARAMETERS, Effect, Law, Model, Scope};
+
+/// A set of effects, ready to be fitted to all tightenings together.
+pub(crate) struct Hypothesis<'a> {
+    pub cases: &'a [Case],
+    pub effects: Vec<Effect>,
+    pub models: Vec<Model>,
+    whitenings: Vec<Option<Whitening>>,
+    /// Indices (into the model's parameters) of what every tightening has of its own.
+    pub own: Vec<usize>,
+    /// Indices of what all share.
+    pub shared: Vec<usize>,
+    own_sets: Vec<Constraints>,
+    shared_set: Constraints,
+    room: Room,
+}
+
+/// Buffers of one evaluation.
+#[derive(Default)]
+struct Room {
+    output: Vec<f64>,
+    sensitivity: Vec<f64>,
+    residual: Vec<f64>,
+    jacobian: Vec<f64>,
+}
+
+/// Where a pooled fit begins.
+#[derive(Debug, Clone)]
+pub(crate) struct Start {
+    pub own: Vec<Vec<f64>>,
+    pub shared: Vec<f64>,
+}
+
+impl<'a> Hypothesis<'a> {
+    /// The study's base model with exactly these effects.
+    pub fn new(cases: &'a [Case], effects: &[Effect]) -> Result<Self, DiagnoseError> {
+        let models = cases
+            .iter()
+            .map(|case| case.model_with(effects))
+            .collect::<Result<Vec<_>, _>>()?;
+        let first = &models[0];
+        let mut own: Vec<usize> = (0..BASE_PARAMETERS.len()).collect();
+        let mut shared = Vec::new();
+        let mut index = BASE_PARAMETERS.len();
+        for effect in effects {
+            for spec in effect.description().parameters {
+                match spec.scope {
+                    Scope::Shared => shared.push(index),
+                    Scope::PerTightening => own.push(index),
+                }
+                index += 1;
+            }
+        }
+        own.retain(|&index| !first.parameters()[index].fixed);
+        shared.retain(|&index| !first.parameters()[index].fixed);
+        let mut shared_set = Constraints::new(shared.len());
+        for (column, &index) in shared.iter().enumerate() {
+            let parameter = &first.parameters()[index];
+            shared_set.bound(
+                column,
+                parameter.minimum,
+                parameter.maximum,
+                &parameter.name,
+            );
+        }
+        let own_sets = models
+            .iter()
+            .zip(cases)
+            .map(|(model, case)| {
+                let mut alone = model.clone();
+                for &index in &shared {
+                    alone.parameters_mut()[index].fixed = true;
+                }
+                convex_set(&alone, &case.constraints)
+            })
+            .collect();
+        Ok(Self {
+            whitenings: cases.iter().map(Case::whitening).collect(),
+            cases,
+            effects: effects.to_vec(),
+            models,
+            own,
+            shared,
+            own_sets,
+            shared_set,
+            room: Room::default(),
+        })
+    }
+
+    /// Where the parameters begin by themselves: the study's values, the effects' usual starts.
+    pub fn usual_start(&self) -> Start {
+        let pick = |model: &Model, indices: &[usize]| -> Vec<f64> {
+            indices
+                .iter()
+                .map(|&index| model.parameters()[index].value)
+                .collect()
+        };
+        Start {
+            own: self.models.iter().map(|m| pick(m, &self.own)).collect(),
+            shared: pick(&self.models[0], &self.shared),
+        }
+    }
+
+    /// Where `fitted`, a fit of some of these effects, ended; the others begin by themselves.
+    pub fn start_from(&self, fitted: &Fitted) -> Start {
+        let mut start = self.usual_start();
+        let take = |indices: &[usize], values: &mut [f64], from: &[(String, f64)]| {
+            for (&index, value) in indices.iter().zip(values) {
+                let name = &self.models[0].parameters()[index].name;
+                if let Some((_, found)) = from.iter().find(|(known, _)| known == name) {
+                    *value = *found;
+                }
+            }
+        };
+        for (member, values) in start.own.iter_mut().enumerate() {
+            take(&self.own, values, &fitted.own_named(member));
+        }
+        take(&self.shared, &mut start.shared, &fitted.shared_named());
+        start
+    }
+
+    /// Names of parameters by index.
+    pub fn names(&self, indices: &[usize]) -> Vec<String> {
+        let parameters = self.models[0].parameters();
+        indices
+            .iter()
+            .map(|&index| parameters[index].name.clone())
+            .collect()
+    }
+
+    /// All parameters of one member's model.
+    pub fn values(&self, member: usize, own: &[f64], shared: &[f64]) -> Vec<f64> {
+        let mut values: Vec<f64> = self.models[member]
+            .parameters()
+            .iter()
+            .map(|parameter| parameter.value)
+            .collect();
+        for (&index, &value) in self.own.iter().zip(own) {
+            values[index] = value;
+        }
+        for (&index, &value) in self.shared.iter().zip(shared) {
+            values[index] = value;
+        }
+        values
+    }
+
+    /// Fits from one start.
+    pub fn fit(&mut self, start: &Start, settings: &PooledSettings) -> Result<PooledEnd, DiagnoseError> {
+        let (own_sets, shared_set) = (self.own_sets.clone(), self.shared_set.clone());
+        let fit = solve_pooled(
+            self,
+            &start.own,
+            &own_sets,
+            &start.shared,
+            &shared_set,
+            settings,
+        )?;
+        Ok(PooledEnd { fit })
+    }
+
+    /// The fit with what follows from it.
+    pub fn finish(&mut self, end: PooledEnd, units: &Units) -> Result<Fitted, DiagnoseError> {
+        Fitted::new(self, end.fit, units)
+    }
+
+    /// Weighted residual and, for the parameters in `order`, weighted Jacobian (column-major) of one member.
+    pub fn weighted(
+        &mut self,
+        member: usize,
+        values: &[f64],
+        order: &[usize],
+    ) -> (&mut [f64], &mut [f64]) {
+        let case = &self.cases[member];
+        let measured = case.measured();
+        let (samples, columns) = (measured.len(), order.len());
+        let room = &mut self.room;
+        room.output.resize(samples, 0.0);
+        room.sensitivity.resize(samples * columns, 0.0);
+        self.models[member].sensitivities(
+            values,
+            order,
+            &case.input,
+            case.quantity,
+            &mut room.output,
+            &mut room.sensitivity[..samples * columns],
+        );
+        for (simulated, measured) in room.output.iter_mut().zip(measured) {
+            *simulated = measured - *simulated;
+        }
+        let whitening = self.whitenings[member].as_ref();
+        let scored = scored(case, whitening);
+        room.residual.resize(scored, 0.0);
+        room.jacobian.resize(scored * columns, 0.0);
+        weigh(whitening, &room.output[case.unscored..], &mut room.residual[..scored]);
+        for (column, weighted) in room.sensitivity[..samples * columns]
+            .chunks_exact(samples)
+            .zip(room.jacobian.chunks_exact_mut(scored))
+        {
+            weigh(whitening, &column[case.unscored..], weighted);
+            for value in weighted {
+                *value = -*value;
+            }
+        }
+        (
+            &mut room.residual[..scored],
+            &mut room.jacobian[..scored * columns],
+        )
+    }
+
+    /// The compared output of one member.
+    pub fn output(&self, member: usize, values: &[f64]) -> Vec<f64> {
+        let case = &self.cases[member];
+        let mut output = vec![0.0; case.measured().len()];
+        self.models[member].output(values, &case.input, case.quantity, &mut output);
+        output
+    }
+
+    /// Its derivative to one parameter.
+    pub fn derivative(&self, member: usize, values: &[f64], parameter: usize) -> Vec<f64> {
+        let case = &self.cases[member];
+        let samples = case.measured().len();
+        let (mut output, mut derivative) = (vec![0.0; samples], vec![0.0; samples]);
+        self.models[member].sensitivities(
+            values,
+            &[parameter],
+            &case.input,
+            case.quantity,
+            &mut output,
+            &mut derivative,
+        );
+        derivative
+    }
+
+    /// Number of weighted residuals of one member.
+    pub fn residual_count(&self, member: usize) -> usize {
+        scored(&self.cases[member], self.whitenings[member].as_ref())
+    }
+
+    /// Whitens a signal of one member's length.
+    pub fn weigh_signal(&self, member: usize, signal: &[f64]) -> Vec<f64> {
+        let case = &self.cases[member];
+        let whitening = self.whitenings[member].as_ref();
+        let mut weighted = vec![0.0; scored(case, whitening)];
+        weigh(whitening, &signal[case.unscored..], &mut weighted);
+        weighted
+    }
+}
+
+/// A pooled fit that nothing was worked out of yet.
+pub(crate) struct PooledEnd {
+    pub fit: snug_identify::PooledFit,
+}
+
+/// Number of weighted residuals of a case.
+fn scored(case: &Case, whitening: Option<&Whitening>) -> usize {
+    let lost = whitening.map_or(0, Whitening::order);
+    (case.measured().len() - case.unscored).saturating_sub(lost)
+}
+
+fn weigh(whitening: Option<&Whitening>, signal: &[f64], weighted: &mut [f64]) {
+    match whitening {
+        Some(whitening) => whitening.apply(signal, weighted),
+        None => weighted.copy_from_slice(signal),
+    }
+}
+
+impl PooledResidual for Hypothesis<'_> {
+    fn member_count(&self) -> usize {
+        self.cases.len()
+    }
+
+    fn own_count(&self) -> usize {
+        self.own.len()
+    }
+
+    fn shared_count(&self) -> usize {
+        self.shared.len()
+    }
+
+    fn linearize(
+        &mut self,
+        member: usize,
+        parameters: &[f64],
+        linearization: &mut Linearization,
+    ) -> Result<(), EvaluationError> {
+        let (own, shared) = parameters.split_at(self.own.len());
+        let values = self.values(member, own, shared);
+        let order = [self.own.as_slice(), &self.shared].concat();
+        let (residual, jacobian) = self.weighted(member, &values, &order);
+        linearization.set_jacobian(residual, jacobian)
+    }
+}

@@ -1,0 +1,26 @@
+use serde::{Deserialize, Serialize};
+
+/// How the missing effect is looked for.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct DiagnoseSettings {
+    /// Sign flips of whole tightenings behind a family-wise p; default 1999.
+    pub sign_flips: usize,
+    /// Largest family-wise p at which an effect counts as supported; default 0.05.
+    pub level: f64,
+    /// Starts from which each effect is refitted; default 2.
+    pub starts: usize,
+    /// Seed of everything random; default 0.
+    pub seed: u64,
+}
+
+impl Default for DiagnoseSettings {
+    fn default() -> Self {
+        Self {
+            sign_flips: 1999,
+            level: 0.05,
+            starts: 2,
+            seed: 0,
+        }
+    }
+}
