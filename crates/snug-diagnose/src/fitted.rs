@@ -34,6 +34,8 @@ pub(crate) struct Fitted {
     /// Which tightening a unit belongs to.
     pub members: Vec<usize>,
     units: Units,
+    /// Whether residuals are in units of a measured noise.
+    pub is_weighted: bool,
     /// Per tightening curvature over own and shared (only where units are stretches).
     member_curvature: Vec<Square>,
     /// Per tightening projected curvature and gradient over the shared parameters.
@@ -63,6 +65,7 @@ impl Fitted {
             blocks: Vec::new(),
             members: Vec::new(),
             units: *units,
+            is_weighted: hypothesis.is_weighted(),
             member_curvature: Vec::new(),
             profiles,
             own_effect_count: hypothesis.own.iter().filter(|&&index| index >= 3).count(),
@@ -121,9 +124,34 @@ impl Fitted {
         }
     }
 
+    /// At most `most` tightenings that differ in how badly they fit, the worst among them.
+    pub fn spread(&self, most: usize) -> Vec<usize> {
+        let mut order: Vec<usize> = (0..self.own.len()).collect();
+        let squares = |member: usize| -> f64 {
+            let units = self.members.iter().zip(&self.blocks);
+            units.filter(|(m, _)| **m == member).map(|(_, b)| b.squares).sum()
+        };
+        order.sort_by(|&a, &b| squares(b).total_cmp(&squares(a)));
+        let step = order.len().div_ceil(most).max(1);
+        order.into_iter().step_by(step).collect()
+    }
+
+    /// The same sizes for some of the tightenings only, as a place to begin.
+    pub fn only(&self, members: &[usize]) -> Self {
+        Self {
+            own: members.iter().map(|&member| self.own[member].clone()).collect(),
+            ..self.clone()
+        }
+    }
+
     /// Σ r² over everything.
     pub fn squares(&self) -> f64 {
         self.blocks.iter().map(|block| block.squares).sum()
+    }
+
+    /// Mean squared weighted residual: 1 where only noise is left.
+    pub fn scale(&self) -> f64 {
+        self.squares() / self.count().max(1) as f64
     }
 
     /// Number of residuals.
@@ -172,7 +200,7 @@ impl Fitted {
     /// Σ r² of each unit as predicted for sizes that were fixed without its group: δ = (S − S_g)⁻¹ g_g, then
     /// r² + 2 gᵀδ + δᵀSδ. `group_of` names the group of a unit; each tightening's own parameters follow, and pay for it.
     pub fn heldout(&self, group_of: &dyn Fn(usize) -> usize) -> Vec<f64> {
-        let scale = self.squares() / self.count().max(1) as f64;
+        let scale = self.scale();
         let groups: std::collections::BTreeSet<usize> = (0..self.blocks.len()).map(group_of).collect();
         let mut squares: Vec<f64> = vec![0.0; self.blocks.len()];
         for group in groups {

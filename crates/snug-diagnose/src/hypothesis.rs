@@ -97,6 +97,11 @@ impl<'a> Hypothesis<'a> {
         })
     }
 
+    /// Whether all residuals are in units of a measured noise.
+    pub fn is_weighted(&self) -> bool {
+        self.whitenings.iter().all(Option::is_some)
+    }
+
     /// Where the parameters begin by themselves: the study's values, the effects' usual starts.
     pub fn usual_start(&self) -> Start {
         let pick = |model: &Model, indices: &[usize]| -> Vec<f64> {

@@ -2,8 +2,10 @@
 //! Where a model fails, which physical effect is missing, and how sure that is.
 
 mod case;
+mod climb;
 mod dense;
 mod error;
+mod evidence;
 mod family;
 mod fitted;
 mod hypothesis;
@@ -12,6 +14,7 @@ mod ranking;
 mod score;
 mod settings;
 mod units;
+mod unlisted;
 
 pub use case::Case;
 pub use error::DiagnoseError;
@@ -23,18 +26,14 @@ pub fn scratch(cases: &[Case]) -> Result<(), DiagnoseError> {
     let units = units::Units::of(cases);
     let settings = DiagnoseSettings::default();
     let t = std::time::Instant::now();
-    let mut current = ranking::fit_effects(cases, &[], None, units)?;
-    println!("base {:.5} {:?} lin {}", current.error(), t.elapsed(), current.linearizations);
-    for _ in 0..std::env::var("RUNGS").map_or(2, |r| r.parse().unwrap_or(2)) {
-        let all: Vec<_> = snug_model::Effect::ALL.iter().copied().filter(|e| !current.effects.contains(e) && e.name() != "output_offset").collect();
-        let ranking = ranking::rank(cases, &current, &all, units, &settings)?;
-        println!("rank {:?} misfit {:.0}", t.elapsed(), current.squares() - current.count() as f64);
-        for c in ranking.candidates.iter().take(9) {
-            println!("{:28} T {:6.2} p {:.4} gain {:10.1} ± {:7.1} err {:.4} conv {} lin {} {:?}", c.effect.name(), c.score, c.p_family, c.gain(), c.gain_error(), c.fitted.error(), c.fitted.converged, c.fitted.linearizations, c.fitted.shared_named());
-        }
-        let best = &ranking.candidates[0];
-        if best.gain() < 5e-3 * current.squares() { break; }
-        current = best.fitted.clone();
+    let climb = climb::climb(cases, &[], &[], units, &settings, &|text| println!("{text}"))?;
+    println!("time {:?} stop {:?}", t.elapsed(), climb.stopped);
+    for (i, r) in climb.rungs.iter().enumerate() {
+        println!("  rung {:?} err {:.4} {:?}", r.effects.iter().map(|e| e.name()).collect::<Vec<_>>(), r.error(), r.shared_named());
+        if i > 0 { let a = &climb.additions[i-1]; println!("     p {:.4} gain {:.3} twins {:?}", a.p_family, a.heldout_gain, a.twins.iter().map(|e| e.name()).collect::<Vec<_>>()); }
+    }
+    for c in climb.ranking.candidates.iter().take(4) {
+        println!("{:28} T {:6.2} p {:.4} gain {:10.1} ± {:7.1} err {:.4} conv {} lin {} {:?}", c.effect.name(), c.score, c.p_family, c.gain(), c.gain_error(), c.fitted.error(), c.fitted.converged, c.fitted.linearizations, c.fitted.shared_named());
     }
     Ok(())
 }

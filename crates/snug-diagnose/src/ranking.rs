@@ -2,6 +2,7 @@
 
 use crate::DiagnoseError;
 use crate::family::Family;
+use crate::evidence::{clearness, spread_of_sum};
 use crate::fitted::Fitted;
 use crate::hypothesis::{Hypothesis, Start};
 use crate::score::{Column, Scorer};
@@ -29,24 +30,26 @@ impl Candidate {
         self.gains.iter().sum()
     }
 
+    /// Standard deviations by which that sum exceeds 0.
+    pub fn clearness(&self) -> f64 {
+        clearness(&self.gains, self.fitted.scale())
+    }
+
+    /// Standard deviations by which it explains more than `other`.
+    pub fn ahead_of(&self, other: &Self) -> f64 {
+        let pairs = self.gains.iter().zip(&other.gains);
+        let differences: Vec<f64> = pairs.map(|(own, other)| own - other).collect();
+        clearness(&differences, self.fitted.scale())
+    }
+
     /// Its standard error over units.
     pub fn gain_error(&self) -> f64 {
         spread_of_sum(&self.gains)
     }
 }
 
-/// Standard error of Σ x over independent units.
-pub(crate) fn spread_of_sum(values: &[f64]) -> f64 {
-    let n = values.len() as f64;
-    if n < 2.0 {
-        return f64::INFINITY;
-    }
-    let mean = values.iter().sum::<f64>() / n;
-    let squares: f64 = values.iter().map(|x| (x - mean).powi(2)).sum();
-    (squares * n / (n - 1.0)).sqrt()
-}
-
-/// The fitted model and its candidates, best first.
+/// The candidates, best first.
+#[derive(Debug, Clone, Default)]
 pub(crate) struct Ranking {
     pub candidates: Vec<Candidate>,
 }
@@ -100,12 +103,12 @@ pub(crate) fn rank(
 }
 
 /// What held-out units lose in squared residual.
-fn gains(heldout: &[f64], fitted: &Fitted) -> Vec<f64> {
+pub(crate) fn gains(heldout: &[f64], fitted: &Fitted) -> Vec<f64> {
     let with = fitted.heldout(&|unit| unit);
     heldout.iter().zip(with).map(|(before, after)| before - after).collect()
 }
 
-/// Refits one effect from its most promising starts; the lowest cost wins.
+/// Refits one effect from its most promising starts, first roughly on a few tightenings; the lowest cost wins.
 fn refit(
     cases: &[Case],
     current: &Fitted,
@@ -116,8 +119,10 @@ fn refit(
 ) -> Result<Fitted, DiagnoseError> {
     let mut effects = current.effects.clone();
     effects.push(effect);
-    let mut hypothesis = Hypothesis::new(cases, &effects)?;
-    let mut own: Vec<&Column> = columns.iter().filter(|column| column.effect == effect).collect();
+    let mut own: Vec<&Column> = columns
+        .iter()
+        .filter(|column| column.effect == effect)
+        .collect();
     own.sort_by(|a, b| b.predicted_gain().total_cmp(&a.predicted_gain()));
     let mut starts: Vec<&[f64]> = Vec::new();
     for column in own {
@@ -125,27 +130,46 @@ fn refit(
             starts.push(&column.start);
         }
     }
-    let rough = PooledSettings {
-        max_iterations: 25,
-        cost_tolerance: 1e-5,
+    let mut hypothesis = Hypothesis::new(cases, &effects)?;
+    let shared = match starts.as_slice() {
+        [only] => with_effect(&hypothesis, current, effect, only).shared,
+        several => rough(cases, current, effect, &effects, several)?,
     };
-    let mut best: Option<crate::hypothesis::PooledEnd> = None;
+    let mut start = hypothesis.start_from(current);
+    start.shared = shared;
+    let end = hypothesis.fit(&start, &PooledSettings::default())?;
+    hypothesis.finish(end, &units)
+}
+
+/// Tightenings on which starts are tried.
+const FEW: usize = 8;
+
+/// The shared parameters to which the best of several starts leads on a few tightenings.
+fn rough(
+    cases: &[Case],
+    current: &Fitted,
+    effect: Effect,
+    effects: &[Effect],
+    starts: &[&[f64]],
+) -> Result<Vec<f64>, DiagnoseError> {
+    let few = current.spread(FEW);
+    let some: Vec<Case> = few.iter().map(|&index| cases[index].clone()).collect();
+    let mut hypothesis = Hypothesis::new(&some, effects)?;
+    let settings = PooledSettings {
+        max_iterations: 20,
+        cost_tolerance: 1e-4,
+    };
+    let mut best: Option<snug_identify::PooledFit> = None;
     for values in starts {
-        let start = with_effect(&hypothesis, current, effect, values);
-        let end = hypothesis.fit(&start, &rough)?;
-        if best.as_ref().is_none_or(|best| end.fit.cost() < best.fit.cost()) {
-            best = Some(end);
+        let mut start = with_effect(&hypothesis, &current.only(&few), effect, values);
+        start.own.truncate(some.len());
+        let end = hypothesis.fit(&start, &settings)?;
+        if best.as_ref().is_none_or(|best| end.fit.cost() < best.cost()) {
+            best = Some(end.fit);
         }
     }
-    let Some(best) = best else {
-        return Err(snug_identify::IdentifyError::NoStart.into());
-    };
-    let from = Start {
-        own: best.fit.own,
-        shared: best.fit.shared,
-    };
-    let end = hypothesis.fit(&from, &PooledSettings::default())?;
-    hypothesis.finish(end, &units)
+    best.map(|best| best.shared)
+        .ok_or_else(|| snug_identify::IdentifyError::NoStart.into())
 }
 
 /// The current fit with one effect's parameters at `values`.
