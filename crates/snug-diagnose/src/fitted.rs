@@ -192,6 +192,23 @@ impl Fitted {
         sum
     }
 
+    /// Curvature and the gradient of each unit, whose last entries belong to the shared parameters. Stretches of one
+    /// tightening speak of its own parameters, too.
+    pub fn shared_evidence(&self) -> (Square, Vec<Vec<f64>>) {
+        let gradients = |scale: &dyn Fn(usize) -> bool| -> Vec<Vec<f64>> {
+            let units = (0..self.blocks.len()).filter(|&unit| scale(unit));
+            units.map(|unit| self.blocks[unit].gradient.clone()).collect()
+        };
+        match self.member_curvature.first() {
+            Some(whole) if self.own.len() == 1 => (whole.clone(), gradients(&|_| true)),
+            _ if self.units.are_whole() => (self.shared_curvature(), gradients(&|_| true)),
+            _ => {
+                let profiles = self.profiles.iter().map(|(_, gradient)| gradient.clone());
+                (self.shared_curvature(), profiles.collect())
+            }
+        }
+    }
+
     /// Projected curvature and gradient of each tightening over the shared parameters.
     pub fn profiles(&self) -> &[(Square, Vec<f64>)] {
         &self.profiles
