@@ -1,0 +1,146 @@
+//! The misfit over frequency.
+//!
+//! P_k = |Σ_t h_t w_t e^{−2πi k t / n}|² / Σ h², whose expectation is 1 at every frequency when w is white noise of unit
+//! variance. The window h rises and falls as a cosine over 5 % of the samples at each end (Tukey), so that a residual that
+//! does not end where it began leaks no false high frequencies; a longer fall would hide the rise of the pulse.
+
+use super::aspect::{Part, Sum, View};
+use super::grid::{round_up, tidy};
+use super::residual::Residuals;
+use rayon::prelude::*;
+use realfft::{RealFftPlanner, RealToComplex};
+use std::collections::BTreeMap;
+use std::f64::consts::PI;
+use std::sync::Arc;
+
+/// Share of the samples over which the window rises, and again falls.
+const TAPER: f64 = 0.05;
+/// A band this many frequencies wide is the narrowest.
+const NARROWEST: f64 = 1.5;
+
+/// Bands that end at 1, 2, 5 times powers of ten, from the longest tightening's resolution to half the sampling rate.
+pub fn view(residuals: &Residuals<'_>) -> Option<View> {
+    let interval_s = |index: usize| residuals.all[index].seen.tightening.time_base.interval_s;
+    let every = 0..residuals.all.len();
+    let longest_s = every
+        .clone()
+        .map(|index| residuals.all[index].values.len() as f64 * interval_s(index))
+        .reduce(f64::max)?;
+    let highest_hz = every
+        .map(|index| 0.5 / interval_s(index))
+        .reduce(f64::max)?;
+    let edges = edges_hz(NARROWEST / longest_s, highest_hz);
+    let mut planner = RealFftPlanner::new();
+    let mut plans: BTreeMap<usize, Arc<dyn RealToComplex<f64>>> = BTreeMap::new();
+    for one in &residuals.all {
+        let length = one.values.len();
+        plans
+            .entry(length)
+            .or_insert_with(|| planner.plan_fft_forward(length));
+    }
+    let sums = residuals
+        .all
+        .par_iter()
+        .map(|one| {
+            let plan = &plans[&one.values.len()];
+            let step_hz =
+                1.0 / (one.values.len() as f64 * one.seen.tightening.time_base.interval_s);
+            band_sums(&periodogram(&one.values, plan.as_ref()), step_hz, &edges)
+        })
+        .collect();
+    let parts = edges
+        .windows(2)
+        .map(|edge| Part {
+            name: format!("{}..{} Hz", edge[0], edge[1]),
+            from: Some(edge[0]),
+            to: Some(edge[1]),
+        })
+        .collect();
+    Some(View {
+        aspect: "frequency_hz",
+        parts,
+        sums,
+    })
+}
+
+fn edges_hz(narrowest_hz: f64, highest_hz: f64) -> Vec<f64> {
+    let mut edges = vec![0.0];
+    let mut next = round_up(narrowest_hz);
+    while next < highest_hz * (1.0 - 1e-9) {
+        edges.push(tidy(next));
+        next = round_up(next * 1.01);
+    }
+    edges.push(tidy(highest_hz));
+    edges
+}
+
+/// P_k for k = 0 … n/2.
+fn periodogram(values: &[f64], plan: &dyn RealToComplex<f64>) -> Vec<f64> {
+    let window = window(values.len());
+    let power: f64 = window.iter().map(|h| h * h).sum();
+    let mut input: Vec<f64> = values.iter().zip(&window).map(|(w, h)| w * h).collect();
+    let mut spectrum = plan.make_output_vec();
+    plan.process(&mut input, &mut spectrum)
+        .expect("buffers of the plan's own lengths");
+    spectrum.iter().map(|x| x.norm_sqr() / power).collect()
+}
+
+fn window(length: usize) -> Vec<f64> {
+    let ramp = (TAPER * length as f64).max(1.0);
+    (0..length)
+        .map(|index| {
+            let from_edge = (index.min(length - 1 - index) as f64 + 0.5) / ramp;
+            0.5 * (1.0 - (PI * from_edge.min(1.0)).cos())
+        })
+        .collect()
+}
+
+/// Frequencies between the ends stand for their negative twin as well.
+fn band_sums(power: &[f64], step_hz: f64, edges: &[f64]) -> Vec<Sum> {
+    let mut sums = vec![Sum::default(); edges.len() - 1];
+    for (index, power) in power.iter().enumerate() {
+        let frequency_hz = index as f64 * step_hz;
+        let band = edges[1..edges.len() - 1].partition_point(|edge| *edge <= frequency_hz);
+        let twice = if index == 0 { 1.0 } else { 2.0 };
+        sums[band].square += twice * power;
+        sums[band].count += twice;
+    }
+    sums
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A whole number of cycles: its power lies in its band but for what the window's edges spread, n/2 · A² in total.
+    #[test]
+    fn a_sine_lies_in_its_band() {
+        let (n, interval_s) = (3000, 1e-4);
+        let values: Vec<f64> = (0..n)
+            .map(|t| 3.0 * (2.0 * PI * 70.0 * f64::from(t) * interval_s).sin())
+            .collect();
+        let plan = RealFftPlanner::new().plan_fft_forward(values.len());
+        let edges = edges_hz(5.0, 5000.0);
+        assert_eq!(edges[..4], [0.0, 5.0, 10.0, 20.0]);
+        let sums = band_sums(&periodogram(&values, plan.as_ref()), 1.0 / 0.3, &edges);
+        let total: f64 = sums.iter().map(|sum| sum.square).sum();
+        assert!((total / (4.5 * 3000.0) - 1.0).abs() < 0.01, "{total}");
+        let band = edges.iter().position(|edge| *edge == 50.0);
+        let here = band.map_or(0.0, |band| sums[band].square);
+        assert!(here / total > 0.99, "{here} of {total}");
+    }
+
+    /// The end of a ramp is no signal at high frequencies: the next bands fall at 60 dB a decade and more.
+    #[test]
+    fn a_ramp_leaks_nothing_upwards() {
+        let values: Vec<f64> = (0..3000).map(|t| f64::from(t) / 3000.0).collect();
+        let plan = RealFftPlanner::new().plan_fft_forward(values.len());
+        let sums = band_sums(
+            &periodogram(&values, plan.as_ref()),
+            1.0 / 0.3,
+            &edges_hz(5.0, 5000.0),
+        );
+        let mean = |sum: &Sum| sum.square / sum.count;
+        assert!(mean(&sums[0]) / mean(&sums[7]) > 1e7);
+    }
+}

@@ -1,0 +1,60 @@
+//! The misfit over the time since the pulse began.
+
+use super::aspect::{Part, View, sums};
+use super::grid::{Grid, round_up};
+use super::residual::Residuals;
+use rayon::prelude::*;
+
+/// Width of a bin \[s\].
+const WIDTH_S: f64 = 0.02;
+/// Longer windows get wider bins.
+const MOST_BINS: f64 = 40.0;
+
+/// Earliest and latest time since the onset that any tightening has \[s\].
+pub fn range_s(residuals: &Residuals<'_>) -> Option<(f64, f64)> {
+    residuals
+        .all
+        .iter()
+        .filter(|one| residuals.is_timed(one))
+        .map(|one| {
+            let samples = one.samples();
+            (one.time_s(samples.start), one.time_s(samples.end - 1))
+        })
+        .reduce(|(low, high), (from, to)| (low.min(from), high.max(to)))
+}
+
+/// Bins of 20 ms, the time before the onset included; wider where there would be more than 40.
+pub fn view(residuals: &Residuals<'_>) -> Option<View> {
+    let (low, high) = range_s(residuals)?;
+    let width = if (high - low) / WIDTH_S <= MOST_BINS {
+        WIDTH_S
+    } else {
+        round_up((high - low) / MOST_BINS)
+    };
+    let grid = Grid::of_width(low, high, width);
+    let parts = (0..grid.bins)
+        .map(|bin| {
+            let (from, to) = grid.edges(bin);
+            Part {
+                name: format!("{from}..{to} s"),
+                from: Some(from),
+                to: Some(to),
+            }
+        })
+        .collect();
+    let sums = residuals
+        .all
+        .par_iter()
+        .map(|one| {
+            let timed = residuals.is_timed(one);
+            sums(one, grid.bins, |index| {
+                grid.bin(one.time_s(index)).filter(|_| timed)
+            })
+        })
+        .collect();
+    Some(View {
+        aspect: "time_since_onset_s",
+        parts,
+        sums,
+    })
+}
