@@ -25,19 +25,19 @@ struct View {
 
 const VIEWS: [View; 3] = [
     View {
-        class: "c-f1",
+        class: "c-purple",
         offset: -0.1,
         words: "tightenings held out",
         read: |rung| rung.heldout_error_over_noise,
     },
     View {
-        class: "c-f2",
+        class: "c-amber",
         offset: -0.22,
         words: "target torques held out",
         read: |rung| rung.heldout_target_error_over_noise,
     },
     View {
-        class: "c-f3",
+        class: "c-rejected",
         offset: -0.34,
         words: "participants held out",
         read: |rung| rung.heldout_participant_error_over_noise,
@@ -139,7 +139,7 @@ fn error_figure(rungs: &[Rung], names: &[String]) -> Markup {
     let smallest = values().filter(|value| *value > 0.0).fold(1.0, f64::min);
     let mut marks = vec![
         Mark::Bars {
-            class: "c-band",
+            class: "c-faint",
             bars: bars(
                 rungs,
                 smallest.min(0.96),
@@ -156,7 +156,7 @@ fn error_figure(rungs: &[Rung], names: &[String]) -> Markup {
         },
     ];
     let mut entries = vec![
-        ("c-band", "all tightenings"),
+        ("c-faint", "all tightenings"),
         ("c-floor", "nothing but noise"),
     ];
     for view in &VIEWS {
@@ -187,7 +187,7 @@ fn error_figure(rungs: &[Rung], names: &[String]) -> Markup {
     }
     let figure = Figure {
         description: "Error over noise of each model of the ladder".into(),
-        width: 640.0,
+        width: 520.0,
         height: height(rungs),
         x: Axis::logarithmic(
             "error over noise [× noise]",
@@ -227,7 +227,7 @@ fn rms_figure(rungs: &[Rung], names: &[String], unit: &str) -> Markup {
         .fold(0.0, f64::max);
     let figure = Figure {
         description: "Residual of each model of the ladder".into(),
-        width: 640.0,
+        width: 520.0,
         height: height(rungs),
         x: Axis::linear(
             format!("root mean square of the residual [{unit}]"),
@@ -268,7 +268,7 @@ fn table(rungs: &[Rung], names: &[String], unit: &str) -> Markup {
     let unknown = "the noise is not known";
     let apart = "fewer than two groups to hold out, or the noise is not known";
     html! {
-        div.scroll { table {
+        div.scroll { table.rungs {
             caption { "The ladder in numbers. Error over noise has no unit: it is a multiple of the measurement noise." }
             thead {
                 tr {

@@ -151,11 +151,11 @@ fn entry(candidate: &RankedEffect, result: &CampaignResult) -> Markup {
         details.candidate {
             summary {
                 span.name.strong[supported(candidate)] { (effect_name(&candidate.effect)) }
-                @if candidate.unlisted { " " span.tag.unlisted { "in no catalogue" } }
                 " " span.gain { (share_with_error(candidate.heldout_gain, candidate.heldout_gain_error)) }
                 " " span.chance { "p " (p_value(Some(candidate.p_family))) }
                 " " span.sizes { (sizes(&candidate.parameters, result)) }
                 @if !candidate.twins.is_empty() { " " span.tag.twins { "not to be told from " (effect_names(&candidate.twins)) } }
+                @if candidate.unlisted { " " span.tag.unlisted { "in no catalogue" } }
                 @if !candidate.plausible { " " span.tag.implausible { "size not plausible" } }
             }
             (evidence(candidate))

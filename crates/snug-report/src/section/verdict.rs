@@ -43,7 +43,7 @@ fn word(verdict: Verdict) -> &'static str {
 fn added(effect: &AddedEffect, result: &CampaignResult) -> Markup {
     html! {
         div.effect {
-            h4 { (effect_name(&effect.effect)) " " span.kind { (effect.kind) } }
+            h4 { (effect_name(&effect.effect)) " " span.nature { (effect.kind) } }
             @if let Some(expression) = &effect.expression { p { code { (expression) } } }
             p.sizes { (sizes(&effect.parameters, result)) }
             @if let Some(gain) = effect.heldout_gain {

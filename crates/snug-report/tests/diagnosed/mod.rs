@@ -33,6 +33,7 @@ pub fn improve() -> CampaignResult {
         }],
         showcase: Some(showcase),
         final_location: Some(location::after()),
+        experiment: None,
         ..diagnosis(&result)
     });
     result

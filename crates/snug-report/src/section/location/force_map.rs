@@ -63,6 +63,7 @@ pub fn figure(map: &ForceMap) -> Markup {
             None => layers.push((class, vec![bar])),
         }
     }
+    let used: Vec<&str> = layers.iter().map(|(class, _)| *class).collect();
     let ends = |values: &[f64], factor: f64, room: f64| {
         let low = values.iter().copied().fold(f64::INFINITY, f64::min);
         let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
@@ -83,7 +84,7 @@ pub fn figure(map: &ForceMap) -> Markup {
     };
     captioned(
         "Over displacement and velocity",
-        html! { (drawing.svg()) (key(step, largest)) },
+        html! { (drawing.svg()) (key(step, &used)) },
         Some(
             "Grey: the 95 % band is wider than the force, so nothing is proven there. White: no sample.",
         ),
@@ -110,25 +111,32 @@ fn spacing(centres: &[f64]) -> f64 {
     }
 }
 
-fn key(step: f64, largest: f64) -> Markup {
-    if largest == 0.0 {
-        return legend(&[(UNSURE, "band wider than the force")]);
-    }
-    let edge = |strength: usize| significant(step * strength as f64, 2);
-    let mut entries: Vec<(&str, String)> = Vec::new();
-    for strength in (0..4).rev() {
-        entries.push((
+/// What the colours mean, of those that are used.
+fn key(step: f64, used: &[&str]) -> Markup {
+    let edge = |strength: usize| match strength {
+        0 => "0".to_owned(),
+        _ => significant(step * strength as f64, 2),
+    };
+    let pulls = (0..4).rev().map(|strength| {
+        let near = if strength == 0 {
+            "0".into()
+        } else {
+            format!("−{}", edge(strength))
+        };
+        (
             PULLS[strength],
-            format!("−{} to −{} N", edge(strength + 1), edge(strength)),
-        ));
-    }
-    entries.push((UNSURE, "not sure".into()));
-    for (strength, class) in PUSHES.iter().enumerate() {
-        entries.push((
-            class,
-            format!("{} to {} N", edge(strength), edge(strength + 1)),
-        ));
-    }
+            format!("−{} to {near} N", edge(strength + 1)),
+        )
+    });
+    let pushes = (0..4).map(|strength| {
+        let text = format!("{} to {} N", edge(strength), edge(strength + 1));
+        (PUSHES[strength], text)
+    });
+    let entries: Vec<(&str, String)> = pulls
+        .chain([(UNSURE, "not sure".to_owned())])
+        .chain(pushes)
+        .filter(|(class, _)| used.contains(class))
+        .collect();
     let entries: Vec<(&str, &str)> = entries
         .iter()
         .map(|(class, text)| (*class, text.as_str()))
