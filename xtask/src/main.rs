@@ -8,6 +8,7 @@
 )]
 
 mod arguments;
+mod diagnosis_summary;
 mod logging;
 mod progress;
 mod summary;

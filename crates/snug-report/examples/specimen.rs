@@ -1,18 +1,24 @@
 //! Writes the report of an invented campaign into the folder given as argument (`specimen` without one).
-//! A second argument is the number of tightenings.
+//! A second argument is the number of tightenings, or `diagnose`, `improve` or `unlisted` for one with a diagnosis.
 
 #[path = "../tests/specimen/mod.rs"]
 mod specimen;
+
+#[path = "../tests/diagnosed/mod.rs"]
+mod diagnosed;
 
 use std::path::PathBuf;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut arguments = std::env::args().skip(1);
     let folder = PathBuf::from(arguments.next().unwrap_or_else(|| "specimen".into()));
-    let count = arguments.next().map_or(Ok(24), |text| text.parse())?;
-    let result = match count {
-        0 => specimen::empty(),
-        count => specimen::campaign(count),
+    let result = match arguments.next().as_deref() {
+        None => specimen::campaign(24),
+        Some("0") => specimen::empty(),
+        Some("diagnose") => diagnosed::diagnose(),
+        Some("improve") => diagnosed::improve(),
+        Some("unlisted") => diagnosed::unlisted(),
+        Some(count) => specimen::campaign(count.parse()?),
     };
     snug_report::write(&folder, &result)?;
     Ok(())

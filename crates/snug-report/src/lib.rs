@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 mod decimation;
+mod effect_words;
 mod error;
 mod figure;
 mod findings_json;
@@ -13,19 +14,21 @@ mod section;
 mod statistics_json;
 mod tightenings_csv;
 mod traces_json;
+mod verdict_json;
 
 pub use error::ReportError;
 pub use findings_json::findings_json;
 pub use page::html;
 pub use statistics_json::statistics_json;
 pub use tightenings_csv::tightenings_csv;
+pub use verdict_json::verdict_json;
 
 use snug_campaign::CampaignResult;
 use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Writes `report.html`, `tightenings.csv`, `statistics.json` and `findings.json` into `folder`, which is made when it
-/// is not there. Files of these names are replaced.
+/// is not there, and `verdict.json` when the result has a diagnosis. Files of these names are replaced.
 ///
 /// Returns the paths written, in that order.
 ///
@@ -36,12 +39,15 @@ pub fn write(folder: &Path, result: &CampaignResult) -> Result<Vec<PathBuf>, Rep
         path: folder.to_path_buf(),
         source,
     })?;
-    let files = [
+    let mut files = vec![
         ("report.html", html(result)),
         ("tightenings.csv", tightenings_csv(result)),
         ("statistics.json", statistics_json(result)),
         ("findings.json", findings_json(result)),
     ];
+    if let Some(diagnosis) = &result.diagnosis {
+        files.push(("verdict.json", verdict_json(diagnosis)));
+    }
     let mut written = Vec::with_capacity(files.len());
     for (name, content) in files {
         let path = folder.join(name);

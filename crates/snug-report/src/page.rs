@@ -1,12 +1,13 @@
 //! `report.html`: the page around the sections.
 
-use crate::section::SECTIONS;
+use crate::section::{Rendered, rendered};
 use maud::{DOCTYPE, Markup, PreEscaped, html as markup};
 use snug_campaign::CampaignResult;
 
 const STYLE: &str = concat!(
     include_str!("assets/page.css"),
-    include_str!("assets/figures.css")
+    include_str!("assets/figures.css"),
+    include_str!("assets/diagnosis.css")
 );
 const SCRIPT: &str = concat!(
     "'use strict';\n",
@@ -21,6 +22,7 @@ const SCRIPT: &str = concat!(
 /// Text from the campaign is escaped; the page works without JavaScript, which only adds stepping, zoom, values under
 /// the cursor, sorting and filtering.
 pub fn html(result: &CampaignResult) -> String {
+    let sections = rendered(result);
     let page = markup! {
         (DOCTYPE)
         html lang="en" {
@@ -35,16 +37,16 @@ pub fn html(result: &CampaignResult) -> String {
             }
             body {
                 a.skip href="#overview" { "Skip to the results" }
-                (contents())
+                (contents(&sections))
                 main {
                     header.top {
                         p.kind { "Snug report" }
                         h1 { (result.title) }
                     }
-                    @for section in SECTIONS {
+                    @for section in &sections {
                         section id=(section.anchor) aria-labelledby=(format!("{}-title", section.anchor)) {
                             h2 id=(format!("{}-title", section.anchor)) { (section.title) }
-                            ((section.render)(result))
+                            (section.content)
                         }
                     }
                 }
@@ -55,10 +57,10 @@ pub fn html(result: &CampaignResult) -> String {
     page.into_string()
 }
 
-fn contents() -> Markup {
+fn contents(sections: &[Rendered]) -> Markup {
     markup! {
         nav.contents aria-label="Sections" {
-            ol { @for section in SECTIONS { li { a href=(format!("#{}", section.anchor)) { (section.short_title) } } } }
+            ol { @for section in sections { li { a href=(format!("#{}", section.anchor)) { (section.short_title) } } } }
         }
     }
 }

@@ -1,6 +1,6 @@
 use crate::arguments::{PresetName, RunOptions};
 use crate::progress::Progress;
-use crate::{exit, summary, workspace};
+use crate::{diagnosis_summary, exit, summary, workspace};
 use snug_study::{Preset, RunSettings, Study, StudyError};
 use std::process::ExitCode;
 use std::sync::Arc;
@@ -36,6 +36,9 @@ pub fn run(options: &RunOptions) -> ExitCode {
         Ok(outcome) => {
             if !options.quiet {
                 print!("{}", summary::of_run(&outcome));
+                if let Some(diagnosis) = &outcome.result.diagnosis {
+                    diagnosis_summary::print(diagnosis, "");
+                }
             }
             let evaluated = outcome
                 .result

@@ -101,7 +101,7 @@ class Panel {
     const { list: rows, power } = ticks(this.low, this.top, 5), { list: columns } = ticks(...this.viewer.range(), this.width < 400 ? 4 : 6);
     this.left = 32 + 6.4 * Math.max(...rows.map(row => row[1].length));
     const { width, height, left } = this, bottom = height - 40, right = width - 10, middle = (8 + bottom) / 2;
-    const id = 'clip-' + this.viewer.panels.indexOf(this);
+    const id = 'clip-' + this.viewer.name + this.viewer.panels.indexOf(this);
     let inside = '';
     if (band) inside += `<g class="bars c-band"><rect x="${left}" y="${this.py(band)}" width="${right - left}" height="${this.py(-band) - this.py(band)}"/></g>`;
     const grid = columns.map(([at]) => `M${this.px(at)} 8V${bottom}`).concat(rows.map(([at]) => `M${left} ${this.py(at)}H${right}`));

@@ -1,4 +1,4 @@
-// The table of tightenings: sorted by a column's head, filtered by words and outcome.
+// Tables: sorted by a column's head and, where their section has a filter, filtered by words and outcome.
 document.querySelectorAll('[data-sortable]').forEach(table => {
   const body = table.tBodies[0], heads = [...table.tHead.rows[0].cells];
   const order = new Intl.Collator('en', { numeric: true });
@@ -26,7 +26,9 @@ document.querySelectorAll('[data-sortable]').forEach(table => {
       body.append(...rows.map(row => row[1]));
     });
   });
-  const filter = document.querySelector('[data-filter]'), outcome = document.querySelector('[data-outcome]');
+  const section = table.closest('section');
+  const filter = section.querySelector('[data-filter]'), outcome = section.querySelector('[data-outcome]');
+  if (!filter) return;
   const texts = new Map([...body.rows].map(row => [row, row.textContent.toLowerCase()]));
   const apply = () => {
     const words = filter.value.toLowerCase().split(/\s+/).filter(Boolean);
@@ -36,7 +38,7 @@ document.querySelectorAll('[data-sortable]').forEach(table => {
       row.hidden = !keep;
       count += keep;
     }
-    document.querySelector('[data-shown]').textContent = `${count} of ${body.rows.length} shown`;
+    section.querySelector('[data-shown]').textContent = `${count} of ${body.rows.length} shown`;
   };
   filter.addEventListener('input', apply);
   outcome.addEventListener('change', apply);

@@ -1,10 +1,11 @@
-// The tightening viewer: one tightening at a time, all panels under one cursor and one zoom.
+// A viewer: one tightening at a time, all panels under one cursor and one zoom. Where there is nothing to choose from,
+// the chooser and the facts beside the panels are missing.
 class Viewer {
   constructor(root, data) {
-    Object.assign(this, { root, data, number: 0, view: null, cursor: null });
+    Object.assign(this, { root, data, name: root.dataset.viewer, number: 0, view: null, cursor: null });
     this.choice = root.querySelector('[data-choice]');
     this.panels = [...root.querySelectorAll('[data-panel]')].map((host, i) => new Panel(host, data.panels[i], this));
-    this.choice.addEventListener('change', () => this.choose(Number(this.choice.value)));
+    this.choice?.addEventListener('change', () => this.choose(Number(this.choice.value)));
     root.querySelectorAll('[data-step]').forEach(button => button.addEventListener('click', () => this.step(Number(button.dataset.step))));
     root.addEventListener('keydown', event => this.key(event));
     let width = 0;
@@ -20,7 +21,12 @@ class Viewer {
     const example = this.data.examples[number];
     let sample = 0;
     this.times = example.steps.map(step => (sample += step) * example.step);
-    this.choice.value = String(number);
+    if (this.choice) this.describe(example);
+    this.draw();
+  }
+
+  describe(example) {
+    this.choice.value = String(this.number);
     this.root.querySelector('[data-current]').textContent = example.heading;
     this.root.querySelector('[data-note]').textContent = example.note;
     this.root.querySelector('[data-facts]').replaceChildren(...example.facts.map(texts => {
@@ -33,7 +39,6 @@ class Viewer {
       });
       return row;
     }));
-    this.draw();
   }
 
   step(by) {
@@ -91,11 +96,10 @@ class Viewer {
 }
 
 document.documentElement.classList.add('script');
-const viewerRoot = document.querySelector('[data-viewer]');
-if (viewerRoot) {
-  const viewer = new Viewer(viewerRoot, JSON.parse(document.getElementById('viewer-data').textContent));
-  document.querySelectorAll('[data-example]').forEach(link =>
-    link.addEventListener('click', () => viewer.choose(Number(link.dataset.example))));
-  // A printed page shows the panels at the paper's width.
-  addEventListener('beforeprint', () => viewer.draw());
-}
+const viewers = [...document.querySelectorAll('[data-viewer]')].map(root =>
+  new Viewer(root, JSON.parse(document.getElementById(root.dataset.viewer || 'viewer-data').textContent)));
+const chooser = viewers.find(viewer => viewer.choice);
+document.querySelectorAll('[data-example]').forEach(link =>
+  link.addEventListener('click', () => chooser.choose(Number(link.dataset.example))));
+// A printed page shows the panels at the paper's width.
+addEventListener('beforeprint', () => viewers.forEach(viewer => viewer.draw()));

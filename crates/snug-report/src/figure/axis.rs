@@ -1,4 +1,4 @@
-use crate::number::{fixed, superscript};
+use crate::number::{fixed, short, superscript};
 
 /// A mark on an axis with its text.
 #[derive(Debug, Clone, PartialEq)]
@@ -18,6 +18,7 @@ pub struct Axis {
     pub label: String,
     low: f64,
     high: f64,
+    logarithmic: bool,
     ticks: Vec<Tick>,
 }
 
@@ -29,7 +30,27 @@ impl Axis {
             label: scaled_label(label.into(), common_power(low, high)),
             low,
             high,
+            logarithmic: false,
             ticks: round_ticks(low, high, count),
+        }
+    }
+
+    /// A logarithmic scale from `low` to `high`, both above zero, with ticks at 1, 2, 5 times powers of ten, or at round
+    /// numbers where it is less than a factor of four wide.
+    pub fn logarithmic(label: impl Into<String>, low: f64, high: f64) -> Self {
+        let low = if low > 0.0 { low } else { 1e-3 };
+        let high = if high > 1.02 * low { high } else { 1.02 * low };
+        let ticks = if high / low < 4.0 {
+            round_ticks(low, high, 5)
+        } else {
+            decade_ticks(low, high)
+        };
+        Self {
+            label: label.into(),
+            low,
+            high,
+            logarithmic: true,
+            ticks,
         }
     }
 
@@ -58,12 +79,17 @@ impl Axis {
             label: String::new(),
             low: 0.5 - rows.len().max(1) as f64,
             high: 0.5,
+            logarithmic: false,
             ticks,
         }
     }
 
     /// Where a value lies, 0 at the low and 1 at the high end.
     pub fn position(&self, value: f64) -> f64 {
+        if self.logarithmic {
+            // What a logarithmic scale cannot hold stands at its low end.
+            return (value.max(self.low) / self.low).ln() / (self.high / self.low).ln();
+        }
         (value - self.low) / (self.high - self.low)
     }
 
@@ -168,9 +194,37 @@ fn round_ticks(low: f64, high: f64, count: usize) -> Vec<Tick> {
         .collect()
 }
 
+fn decade_ticks(low: f64, high: f64) -> Vec<Tick> {
+    let wide = high / low > 2000.0;
+    let first = low.log10().floor() as i32;
+    let last = high.log10().ceil() as i32;
+    (first..=last)
+        .flat_map(|power| [1.0, 2.0, 5.0].map(|factor| (power, factor)))
+        .filter(|(_, factor)| !wide || *factor == 1.0)
+        .map(|(power, factor)| factor * 10f64.powi(power))
+        .filter(|at| (low * (1.0 - 1e-9)..=high * (1.0 + 1e-9)).contains(at))
+        .map(|at| Tick {
+            at,
+            text: short(at),
+            heading: false,
+        })
+        .collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_logarithmic_axis_spaces_equal_factors_equally() {
+        let axis = Axis::logarithmic("error", 1.0, 100.0);
+        assert_eq!(texts(&axis), ["1", "2", "5", "10", "20", "50", "100"]);
+        assert!((axis.position(10.0) - 0.5).abs() < 1e-12);
+        assert_eq!(axis.position(0.0), 0.0);
+        let narrow = Axis::logarithmic("error", 0.95, 1.2);
+        assert!(texts(&narrow).contains(&"1.00"));
+        assert!(Axis::logarithmic("", f64::NAN, f64::NAN).ticks().len() < 9);
+    }
 
     fn texts(axis: &Axis) -> Vec<&str> {
         axis.ticks().iter().map(|tick| tick.text.as_str()).collect()

@@ -38,6 +38,15 @@ pub enum Mark {
         /// Points in order; `None` breaks the line.
         points: Vec<Option<(f64, f64)>>,
     },
+    /// The area between two lines.
+    Band {
+        /// Style class.
+        class: &'static str,
+        /// Lower edge, from left to right.
+        low: Vec<(f64, f64)>,
+        /// Upper edge, from left to right.
+        high: Vec<(f64, f64)>,
+    },
     /// Points.
     Dots {
         /// Style class.
@@ -66,6 +75,9 @@ impl Mark {
         match self {
             Self::Line { class, points } => html! {
                 path.line.(class) d=(line_path(points, frame)) {}
+            },
+            Self::Band { class, low, high } => html! {
+                path.area.(class) d=(area_path(low, high, frame)) {}
             },
             Self::Dots { class, dots } => html! {
                 g.dots.(class) {
@@ -104,6 +116,19 @@ fn line_path(points: &[Option<(f64, f64)>], frame: &Frame) -> String {
         broken = false;
     }
     path
+}
+
+/// Along the upper edge and back along the lower one.
+fn area_path(low: &[(f64, f64)], high: &[(f64, f64)], frame: &Frame) -> String {
+    let around: Vec<Option<(f64, f64)>> = high
+        .iter()
+        .chain(low.iter().rev())
+        .filter(|(x, y)| finite(&[*x, *y]))
+        .copied()
+        .map(Some)
+        .collect();
+    let path = line_path(&around, frame);
+    if path.is_empty() { path } else { path + "Z" }
 }
 
 fn segment_path(segments: &[Segment], frame: &Frame) -> String {

@@ -1,0 +1,126 @@
+//! Effects, their sizes and the evidence for them, in words for people who know nutrunners and not statistics.
+
+use crate::number::{fixed, missing, rounded, significant};
+use crate::quantity;
+use maud::{Markup, html};
+use snug_campaign::{CampaignResult, EffectParameter, Interval};
+
+/// Family-wise p below which an effect is supported.
+pub const LEVEL: f64 = 0.05;
+
+/// `cubic_stiffness` as `cubic stiffness`; an expression stays as it is.
+pub fn effect_name(name: &str) -> String {
+    if name.contains(['*', '^', '(', '+', '/']) {
+        name.into()
+    } else {
+        name.replace('_', " ")
+    }
+}
+
+/// Names as a sentence lists them.
+pub fn effect_names(names: &[String]) -> String {
+    let names: Vec<String> = names.iter().map(|name| effect_name(name)).collect();
+    names.join(", ")
+}
+
+/// `N/m^3` as `N/m³`; nothing for a pure number.
+pub fn unit_text(unit: &str) -> String {
+    if unit == "1" {
+        return String::new();
+    }
+    let raised = [("^2", "²"), ("^3", "³"), ("^4", "⁴"), ("^5", "⁵")];
+    raised.iter().fold(unit.to_owned(), |text, (plain, mark)| {
+        text.replace(plain, mark)
+    })
+}
+
+/// Value, interval and unit of an effect's parameter.
+pub fn size(parameter: &EffectParameter) -> Markup {
+    if !parameter.value.is_finite() {
+        return missing("the size could not be estimated");
+    }
+    let interval = parameter
+        .low
+        .zip(parameter.high)
+        .map(|(low, high)| Interval { low, high });
+    let shown = rounded(parameter.value, interval);
+    let unit = unit_text(&parameter.unit);
+    html! {
+        span.amount { (shown.value) @if !unit.is_empty() { "\u{a0}" (unit) } }
+        @match shown.interval {
+            Some(interval) => { " " span.interval { (interval) @if !unit.is_empty() { "\u{a0}" (unit) } } }
+            None => { " " span.interval title="on the edge of its range, or not determined by the data" { "no interval" } }
+        }
+        @if parameter.per_tightening {
+            " " span.interval {
+                "on average; every tightening has its own"
+                @if let Some(spread) = parameter.spread { ", spread " (significant(spread, 2)) "\u{a0}" (unit) }
+            }
+        }
+    }
+}
+
+/// Every parameter with its name and size.
+pub fn sizes(parameters: &[EffectParameter], result: &CampaignResult) -> Markup {
+    html! {
+        @for parameter in parameters {
+            span.size { (quantity::name(&parameter.name, result).words) " " (size(parameter)) }
+        }
+    }
+}
+
+/// How often chance alone would do as well: `once in 1000 cases`.
+pub fn by_chance(p: f64) -> String {
+    if !p.is_finite() {
+        return "it is not known how often chance would do as well".into();
+    }
+    if p >= 0.1 {
+        return format!(
+            "chance alone does as well in {} of 100 cases",
+            fixed(100.0 * p, 0)
+        );
+    }
+    format!(
+        "chance alone does as well in 1 of {} cases",
+        fixed((1.0 / p.max(1e-6)).round(), 0)
+    )
+}
+
+/// A share 0..1 with its standard error, in percent without decimals.
+pub fn share_with_error(share: f64, error: f64) -> String {
+    format!(
+        "{}\u{a0}±\u{a0}{}\u{a0}%",
+        fixed(100.0 * share, 0),
+        fixed(100.0 * error, 0)
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn units_are_raised_and_pure_numbers_have_none() {
+        assert_eq!(unit_text("N s^2/m^2"), "N s²/m²");
+        assert_eq!(unit_text("1"), "");
+    }
+
+    #[test]
+    fn chance_is_said_in_cases() {
+        assert_eq!(
+            by_chance(0.001),
+            "chance alone does as well in 1 of 1000 cases"
+        );
+        assert_eq!(
+            by_chance(0.43),
+            "chance alone does as well in 43 of 100 cases"
+        );
+        assert!(by_chance(f64::NAN).contains("not known"));
+    }
+
+    #[test]
+    fn expressions_keep_their_signs() {
+        assert_eq!(effect_name("cubic_stiffness"), "cubic stiffness");
+        assert_eq!(effect_name("p_1*x^2*v"), "p_1*x^2*v");
+    }
+}

@@ -1,0 +1,113 @@
+use super::DiagnosisSection;
+use crate::effect_words::unit_text;
+use crate::number::{drawn, plain, significant};
+use crate::quantity;
+use maud::{Markup, html};
+use snug_campaign::{CampaignResult, Comparison, Diagnosis, Misfit, TighteningMisfit};
+
+/// Model against measurement, pooled and tightening by tightening.
+pub const SECTION: DiagnosisSection = DiagnosisSection {
+    anchor: "comparison",
+    short_title: "Comparison",
+    title: "Model against measurement",
+    render,
+};
+
+/// Rows of the table of tightenings; `verdict.json` holds all.
+const MOST_ROWS: usize = 400;
+
+fn render(diagnosis: &Diagnosis, _: &CampaignResult) -> Option<Markup> {
+    let comparison = &diagnosis.comparison;
+    if comparison.pooled.is_empty() && comparison.tightenings.is_empty() {
+        return None;
+    }
+    Some(html! {
+        p { "How far the study's own model is from the measurement: the error in units (root mean square and largest), in percent \
+            of the signal, and as a multiple of the noise where the noise is known. Force means F2 − F3, the force from the \
+            measured less that from the simulated acceleration." }
+        @if !comparison.pooled.is_empty() { (pooled(comparison)) }
+        @if !comparison.tightenings.is_empty() { (each(comparison)) }
+    })
+}
+
+fn pooled(comparison: &Comparison) -> Markup {
+    html! {
+        div.scroll { table {
+            caption { "All tightenings together" }
+            thead { tr {
+                th scope="col" { "quantity" }
+                @for heading in ["rms error", "largest error", "error [% of the signal]", "fit [%]", "error over noise [×]"] { th scope="col" { (heading) } }
+            } }
+            tbody { @for misfit in &comparison.pooled { tr {
+                th scope="row" { (quantity::capitalised(&misfit.quantity)) }
+                td { (with_unit(misfit.rms, misfit)) }
+                td { (with_unit(misfit.largest, misfit)) }
+                td { (plain(misfit.relative_percent, 3, "the measurement is zero")) }
+                td { (plain(misfit.fit_percent, 4, "the measurement does not vary")) }
+                td { (plain(misfit.over_noise, 4, "the noise of this quantity is not known")) }
+            } } }
+        } }
+    }
+}
+
+fn with_unit(value: f64, misfit: &Misfit) -> Markup {
+    html! {
+        (plain(Some(value), 3, "not finite"))
+        @if value.is_finite() { "\u{a0}" (unit_text(&misfit.unit)) }
+    }
+}
+
+fn each(comparison: &Comparison) -> Markup {
+    let count = comparison.tightenings.len();
+    // The columns follow the pooled quantities, or the first tightening's.
+    let columns = if comparison.pooled.is_empty() {
+        &comparison.tightenings[0].misfits
+    } else {
+        &comparison.pooled
+    };
+    html! {
+        details {
+            summary {
+                "Each tightening, worst first"
+                @if count > MOST_ROWS { " (the worst " (MOST_ROWS) " of " (count) "; verdict.json holds all)" }
+            }
+            div.scroll.tall tabindex="0" { table.sortable data-sortable="" {
+                thead { tr {
+                    th.words scope="col" { "tightening" }
+                    @for column in columns {
+                        th scope="col" { (column.quantity) " rms [" (unit_text(&column.unit)) "]" }
+                        th scope="col" { (column.quantity) " fit [%]" }
+                        @if column.over_noise.is_some() { th scope="col" { (column.quantity) " error over noise [×]" } }
+                    }
+                } }
+                tbody { @for tightening in comparison.tightenings.iter().take(MOST_ROWS) { (row(tightening, columns)) } }
+            } }
+        }
+    }
+}
+
+fn row(tightening: &TighteningMisfit, columns: &[Misfit]) -> Markup {
+    html! { tr {
+        th scope="row" { (tightening.id) }
+        @for column in columns {
+            @let misfit = tightening.misfits.iter().find(|misfit| misfit.quantity == column.quantity);
+            (number(misfit.map(|misfit| misfit.rms), 3))
+            (number(misfit.and_then(|misfit| misfit.fit_percent), 4))
+            @if column.over_noise.is_some() { (number(misfit.and_then(|misfit| misfit.over_noise), 4)) }
+        }
+    } }
+}
+
+fn number(value: Option<f64>, digits: i32) -> Markup {
+    let key = value
+        .and_then(|value| drawn(value, 6))
+        .map(|value| value.to_string());
+    html! {
+        td data-v=[key] {
+            @match value.filter(|value| value.is_finite()) {
+                Some(value) => (significant(value, digits)),
+                None => (plain(None, digits, "could not be compared")),
+            }
+        }
+    }
+}

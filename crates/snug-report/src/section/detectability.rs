@@ -1,0 +1,72 @@
+use super::DiagnosisSection;
+use crate::effect_words::{effect_name, unit_text};
+use crate::number::{missing, percent, percent_interval, significant};
+use crate::quantity;
+use maud::{Markup, html};
+use snug_campaign::{CampaignResult, Detectability, Diagnosis, Interval, NegativeControl};
+
+/// What would have been found, and how often something is found where nothing is.
+pub const SECTION: DiagnosisSection = DiagnosisSection {
+    anchor: "detectability",
+    short_title: "How sure",
+    title: "How far to trust this",
+    render,
+};
+
+fn render(diagnosis: &Diagnosis, result: &CampaignResult) -> Option<Markup> {
+    if diagnosis.control.is_none() && diagnosis.detectability.is_empty() {
+        return None;
+    }
+    Some(html! {
+        @if let Some(control) = &diagnosis.control { (false_alarms(control)) }
+        @if !diagnosis.detectability.is_empty() { (absent(&diagnosis.detectability, result)) }
+    })
+}
+
+fn false_alarms(control: &NegativeControl) -> Markup {
+    let rate = control.false_alarms as f64 / control.campaigns.max(1) as f64;
+    let interval = Interval {
+        low: control.rate_low,
+        high: control.rate_high,
+    };
+    html! {
+        h3 { "False alarms" }
+        p { "Campaigns were simulated from the accepted model with noise like the measured, so that nothing was missing in them, \
+            and ranked in the same way. An effect was called missing in " strong { (control.false_alarms) " of " (control.campaigns) }
+            ": " (percent(rate)) ", 95 % interval " (percent_interval(interval)) ". Meant were " (percent(control.nominal_rate)) "." }
+        @if control.rate_low > control.nominal_rate {
+            p.attention { "That is more than meant: read the verdict with care." }
+        }
+    }
+}
+
+fn absent(list: &[Detectability], result: &CampaignResult) -> Markup {
+    html! {
+        h3 { "What was not found is absent or smaller than this" }
+        p { "Each effect was put into these data to see from which size on it would be found 95 times in 100. Beside it stands the \
+            largest size that is physically plausible: where the first is much smaller, the effect can be ruled out for practical purposes." }
+        div.scroll { table.prose {
+            thead { tr {
+                th scope="col" { "effect" }
+                th scope="col" { "absent or smaller than" }
+                th scope="col" { "largest plausible" }
+                th.words scope="col" { "in words" }
+            } }
+            tbody { @for row in list { tr {
+                th scope="row" { (effect_name(&row.effect)) " " span.interval { (quantity::name(&row.parameter, result).words) } }
+                td {
+                    @match row.smallest_detectable.filter(|size| size.is_finite()) {
+                        Some(size) => (amount(size, &row.unit)),
+                        None => (missing("no plausible size would be found in these data")),
+                    }
+                }
+                td { (amount(row.largest_plausible, &row.unit)) }
+                td.words { (row.statement) }
+            } } }
+        } }
+    }
+}
+
+fn amount(size: f64, unit: &str) -> Markup {
+    html! { span.amount { (significant(size, 3)) "\u{a0}" (unit_text(unit)) } }
+}

@@ -1,0 +1,300 @@
+use super::DiagnosisSection;
+use crate::effect_words::{effect_name, unit_text};
+use crate::figure::{Axis, Bar, Dot, Figure, Mark, Segment, captioned, legend};
+use crate::number::{percent, plain, significant};
+use maud::{Markup, html};
+use snug_campaign::{CampaignResult, Diagnosis, Rung};
+
+/// How the error falls, effect by effect.
+pub const SECTION: DiagnosisSection = DiagnosisSection {
+    anchor: "ladder",
+    short_title: "Error ladder",
+    title: "How the error falls",
+    render,
+};
+
+const ROW: f64 = 46.0;
+
+/// A way of holding data out: its colour, its place in the row, its words, its number.
+struct View {
+    class: &'static str,
+    offset: f64,
+    words: &'static str,
+    read: fn(&Rung) -> Option<f64>,
+}
+
+const VIEWS: [View; 3] = [
+    View {
+        class: "c-purple",
+        offset: -0.1,
+        words: "tightenings held out",
+        read: |rung| rung.heldout_error_over_noise,
+    },
+    View {
+        class: "c-amber",
+        offset: -0.22,
+        words: "target torques held out",
+        read: |rung| rung.heldout_target_error_over_noise,
+    },
+    View {
+        class: "c-rejected",
+        offset: -0.34,
+        words: "participants held out",
+        read: |rung| rung.heldout_participant_error_over_noise,
+    },
+];
+
+fn render(diagnosis: &Diagnosis, _: &CampaignResult) -> Option<Markup> {
+    let rungs = &diagnosis.ladder;
+    if rungs.is_empty() {
+        return None;
+    }
+    let names = names(rungs);
+    let known = rungs.iter().any(|rung| rung.error_over_noise.is_some());
+    let unit = output_unit(diagnosis);
+    let error = if known {
+        error_figure(rungs, &names)
+    } else {
+        rms_figure(rungs, &names, &unit)
+    };
+    Some(html! {
+        @if known {
+            p { "Each row is one model. The bar is what it leaves, as a multiple of the measurement noise: at 1.0, the thick line, \
+                nothing but noise is left. The dots are the same in data that took no part in fixing the effects' sizes: \
+                if they stay near the bar's end, the effect is a law and not an accident of these data." }
+        } @else {
+            p { "Each row is one model. The bar is what it leaves; how much of that is noise is not known." }
+        }
+        div.figures.ladder {
+            (error)
+            (selected_figure(rungs, &names))
+        }
+        (table(rungs, &names, &unit))
+    })
+}
+
+fn output_unit(diagnosis: &Diagnosis) -> String {
+    let compared =
+        |misfit: &&snug_campaign::Misfit| diagnosis.compared_output.contains(&misfit.quantity);
+    diagnosis
+        .comparison
+        .pooled
+        .iter()
+        .find(compared)
+        .map_or_else(|| "output's unit".into(), |misfit| unit_text(&misfit.unit))
+}
+
+/// What each rung changes against the one before.
+fn names(rungs: &[Rung]) -> Vec<String> {
+    let mut before: &[String] = &[];
+    let mut names = Vec::new();
+    for (place, rung) in rungs.iter().enumerate() {
+        let gained = rung.effects.iter().filter(|e| !before.contains(e));
+        let lost = before.iter().filter(|e| !rung.effects.contains(e));
+        let steps: Vec<String> = gained
+            .map(|effect| format!("+ {}", effect_name(effect)))
+            .chain(lost.map(|effect| format!("− {}", effect_name(effect))))
+            .collect();
+        names.push(match (steps.is_empty(), place) {
+            (true, 0) => "mass, damper, spring".into(),
+            (true, _) => "the same model".into(),
+            (false, _) => steps.join(" "),
+        });
+        before = &rung.effects;
+    }
+    names
+}
+
+fn rows(names: &[String]) -> Axis {
+    let rows: Vec<(String, bool)> = names
+        .iter()
+        .map(|name| {
+            let short: String = name.chars().take(30).collect();
+            let cut = if short.len() < name.len() { "…" } else { "" };
+            (short + cut, false)
+        })
+        .collect();
+    Axis::rows(&rows)
+}
+
+fn height(rungs: &[Rung]) -> f64 {
+    62.0 + ROW * rungs.len().max(2) as f64
+}
+
+fn error_figure(rungs: &[Rung], names: &[String]) -> Markup {
+    let read: [fn(&Rung) -> Option<f64>; 4] = [
+        |rung| rung.error_over_noise,
+        VIEWS[0].read,
+        VIEWS[1].read,
+        VIEWS[2].read,
+    ];
+    let values = || {
+        rungs
+            .iter()
+            .flat_map(|rung| read.iter().filter_map(|read| read(rung)))
+    };
+    let largest = values()
+        .filter(|value| value.is_finite())
+        .fold(1.1, f64::max);
+    let smallest = values().filter(|value| *value > 0.0).fold(1.0, f64::min);
+    let mut marks = vec![
+        Mark::Bars {
+            class: "c-faint",
+            bars: bars(
+                rungs,
+                smallest.min(0.96),
+                |rung| rung.error_over_noise,
+                "error over noise",
+            ),
+        },
+        Mark::Segments {
+            class: "c-floor thick",
+            segments: vec![Segment {
+                x: (1.0, 1.0),
+                y: (0.5, 0.5 - rungs.len() as f64),
+            }],
+        },
+    ];
+    let mut entries = vec![
+        ("c-faint", "all tightenings"),
+        ("c-floor", "nothing but noise"),
+    ];
+    for view in &VIEWS {
+        let dots: Vec<Dot> = rungs
+            .iter()
+            .enumerate()
+            .filter_map(|(row, rung)| {
+                let value = (view.read)(rung)?;
+                Some(Dot {
+                    x: value,
+                    y: -(row as f64) + view.offset,
+                    title: format!(
+                        "{}, {}: {} times the noise",
+                        names[row],
+                        view.words,
+                        significant(value, 4)
+                    ),
+                })
+            })
+            .collect();
+        if !dots.is_empty() {
+            entries.push((view.class, view.words));
+            marks.push(Mark::Dots {
+                class: view.class,
+                dots,
+            });
+        }
+    }
+    let figure = Figure {
+        description: "Error over noise of each model of the ladder".into(),
+        width: 520.0,
+        height: height(rungs),
+        x: Axis::logarithmic(
+            "error over noise [× noise]",
+            smallest.min(0.96),
+            1.08 * largest,
+        ),
+        y: rows(names),
+        marks,
+    };
+    captioned(
+        "Error over noise",
+        html! { (figure.svg()) (legend(&entries)) },
+        None,
+    )
+}
+
+fn bars(rungs: &[Rung], from: f64, read: fn(&Rung) -> Option<f64>, what: &str) -> Vec<Bar> {
+    rungs
+        .iter()
+        .enumerate()
+        .filter_map(|(row, rung)| {
+            let value = read(rung)?;
+            Some(Bar {
+                x: (from, value),
+                y: (-(row as f64) - 0.02, -(row as f64) + 0.34),
+                title: format!("{what} {}", significant(value, 4)),
+            })
+        })
+        .collect()
+}
+
+fn rms_figure(rungs: &[Rung], names: &[String], unit: &str) -> Markup {
+    let largest = rungs
+        .iter()
+        .map(|rung| rung.rms_fitted_output)
+        .filter(|rms| rms.is_finite())
+        .fold(0.0, f64::max);
+    let figure = Figure {
+        description: "Residual of each model of the ladder".into(),
+        width: 520.0,
+        height: height(rungs),
+        x: Axis::linear(
+            format!("root mean square of the residual [{unit}]"),
+            0.0,
+            1.06 * largest,
+            5,
+        ),
+        y: rows(names),
+        marks: vec![Mark::Bars {
+            class: "c-selected",
+            bars: bars(rungs, 0.0, |rung| Some(rung.rms_fitted_output), "residual"),
+        }],
+    };
+    captioned("What the model leaves", figure.svg(), None)
+}
+
+fn selected_figure(rungs: &[Rung], names: &[String]) -> Markup {
+    let figure = Figure {
+        description: "Share of tightenings selected with each model of the ladder".into(),
+        width: 520.0,
+        height: height(rungs),
+        x: Axis::linear("tightenings selected [%]", 0.0, 100.0, 5),
+        y: rows(names),
+        marks: vec![Mark::Bars {
+            class: "c-selected",
+            bars: bars(
+                rungs,
+                0.0,
+                |rung| Some(100.0 * rung.selected_fraction),
+                "selected, percent:",
+            ),
+        }],
+    };
+    captioned("Usable tightenings", figure.svg(), None)
+}
+
+fn table(rungs: &[Rung], names: &[String], unit: &str) -> Markup {
+    let unknown = "the noise is not known";
+    let apart = "fewer than two groups to hold out, or the noise is not known";
+    html! {
+        div.scroll { table.rungs {
+            caption { "The ladder in numbers. Error over noise has no unit: it is a multiple of the measurement noise." }
+            thead {
+                tr {
+                    th rowspan="2" scope="col" { "model" }
+                    th colspan="4" scope="colgroup" { "error over noise [×]" }
+                    th colspan="2" scope="colgroup" { "residual, root mean square" }
+                    th rowspan="2" scope="col" { "median fit of the displacement [%]" }
+                    th rowspan="2" scope="col" { "selected" }
+                }
+                tr {
+                    @for heading in ["all", "tightenings held out", "targets held out", "participants held out"] { th scope="col" { (heading) } }
+                    th scope="col" { "fitted output [" (unit) "]" }
+                    th scope="col" { "displacement [rad]" }
+                }
+            }
+            tbody { @for (rung, name) in rungs.iter().zip(names) { tr {
+                th scope="row" { (name) }
+                td { (plain(rung.error_over_noise, 4, unknown)) }
+                td { (plain(rung.heldout_error_over_noise, 4, unknown)) }
+                td { (plain(rung.heldout_target_error_over_noise, 4, apart)) }
+                td { (plain(rung.heldout_participant_error_over_noise, 4, apart)) }
+                td { (plain(Some(rung.rms_fitted_output), 4, "not finite")) }
+                td { (plain(rung.rms_displacement_rad, 3, "no displacement to compare with")) }
+                td { (plain(rung.fit_percent_median, 4, "no displacement to compare with")) }
+                td { (percent(rung.selected_fraction)) }
+            } } }
+        } }
+    }
+}

@@ -1,0 +1,104 @@
+mod aspects;
+mod force;
+mod force_map;
+
+use super::DiagnosisSection;
+use crate::number::{measured, missing, p_value, percent};
+use crate::quantity;
+use maud::{Markup, html};
+use snug_campaign::{CampaignResult, Diagnosis, Drift, Location};
+
+/// Where the model fails.
+pub const SECTION: DiagnosisSection = DiagnosisSection {
+    anchor: "location",
+    short_title: "Where it fails",
+    title: "Where the model fails",
+    render,
+};
+
+fn render(diagnosis: &Diagnosis, result: &CampaignResult) -> Option<Markup> {
+    let own = Some(&diagnosis.location).filter(|location| holds(location));
+    let last = diagnosis
+        .final_location
+        .as_ref()
+        .filter(|location| holds(location));
+    if own.is_none() && last.is_none() && diagnosis.drift.is_empty() {
+        return None;
+    }
+    Some(html! {
+        @if let Some(location) = own {
+            @if last.is_some() { h3 { "The study's own model" } }
+            (looked_at(location))
+        }
+        @if !diagnosis.drift.is_empty() { (drift(&diagnosis.drift, result)) }
+        @if let Some(location) = last {
+            h3 { "The final model" }
+            (remarks(location))
+            details {
+                summary { "Every view of the final model's misfit" }
+                (views(location))
+            }
+        }
+    })
+}
+
+/// Whether there is anything to show.
+fn holds(location: &Location) -> bool {
+    !location.aspects.is_empty()
+        || !location.remarks.is_empty()
+        || !location.force_over_time.at.is_empty()
+        || !location.force_map.force_n.is_empty()
+}
+
+fn looked_at(location: &Location) -> Markup {
+    html! { (remarks(location)) (views(location)) }
+}
+
+fn remarks(location: &Location) -> Markup {
+    html! {
+        @if !location.remarks.is_empty() { ul.reasons { @for remark in &location.remarks { li { (remark) } } } }
+        @if let Some(share) = location.repeatable_share.filter(|share| share.is_finite()) {
+            p { strong { (percent(share)) } " of the squared misfit repeats: the other tightenings predict it. \
+                That much a missing effect could explain at most; the rest is chance." }
+        }
+    }
+}
+
+fn views(location: &Location) -> Markup {
+    html! {
+        (aspects::figures(&location.aspects))
+        (force::figures(location))
+    }
+}
+
+fn drift(drifts: &[Drift], result: &CampaignResult) -> Markup {
+    html! {
+        h3 { "Fitted values that drift with what they should not depend on" }
+        p { "A hand's stiffness must not depend on how hard the tool kicks. Where a fitted value changes with it, an effect \
+            that the model lacks hides in that value. The change is over the range seen, within each participant." }
+        div.scroll { table {
+            thead { tr {
+                @for heading in ["fitted value", "changes with"] { th.words scope="col" { (heading) } }
+                th scope="col" { "by [%], 95 % interval" }
+                th scope="col" { "p" }
+                th scope="col" { "adjusted p" }
+            } }
+            tbody { @for row in drifts { tr {
+                th scope="row" { (quantity::name(&row.parameter, result).words) }
+                td.words { (quantity::name(&row.against, result).words) }
+                td.strong[row.p_adjusted.is_some_and(|p| p < crate::effect_words::LEVEL)] {
+                    (measured(Some(row.change_percent), row.interval_percent, "could not be estimated"))
+                }
+                td { (tested(row.p)) }
+                td { (tested(row.p_adjusted)) }
+            } } }
+        } }
+    }
+}
+
+fn tested(p: Option<f64>) -> Markup {
+    match p {
+        Some(p) => html! { (p_value(Some(p))) },
+        None => missing("too few tightenings to test"),
+    }
+}

@@ -1,0 +1,220 @@
+//! The misfit along every way of looking, as small pictures of one kind.
+
+use crate::figure::{Axis, Dot, Figure, Mark, Segment, captioned};
+use crate::number::{measured, missing, percent, short, significant};
+use maud::{Markup, html};
+use snug_campaign::{Aspect, Share};
+
+/// More parts than this are drawn along an axis instead of as rows.
+const MOST_ROWS: usize = 12;
+
+/// The small pictures and, folded away, their numbers.
+pub fn figures(aspects: &[Aspect]) -> Markup {
+    if aspects.iter().all(|aspect| aspect.parts.is_empty()) {
+        return html! {};
+    }
+    let largest = aspects
+        .iter()
+        .flat_map(|aspect| &aspect.parts)
+        .flat_map(|part| [Some(part.error_over_noise), part.interval.map(|i| i.high)])
+        .flatten()
+        .filter(|error| error.is_finite())
+        .fold(1.2, f64::max);
+    html! {
+        p { "How far the model misses the measurement in each part of the data, as a multiple of the noise there, with 95 % \
+            intervals; the green line at 1 is nothing but noise. The percentage beside a part is its share of everything \
+            beyond the noise." }
+        div.figures.small {
+            @for aspect in aspects.iter().filter(|aspect| !aspect.parts.is_empty()) { (picture(aspect, largest)) }
+        }
+        details {
+            summary { "The same in numbers" }
+            (table(aspects))
+        }
+    }
+}
+
+/// What an aspect is called, and the factor and unit that its edges are shown in.
+fn heading(aspect: &str) -> (String, f64, &'static str) {
+    match aspect {
+        "time_since_onset_s" => ("Time since the pulse began".into(), 1000.0, "ms"),
+        "phase" => ("Phase of the pulse".into(), 1.0, ""),
+        "frequency_hz" => ("Frequency".into(), 1.0, "Hz"),
+        "amplitude_rad" => ("Displacement".into(), 1000.0, "mrad"),
+        "participant" => ("Participant".into(), 1.0, ""),
+        "strategy" => ("Strategy".into(), 1.0, ""),
+        "joint" => ("Joint".into(), 1.0, ""),
+        "pace_per_min" => ("Pace [1/min]".into(), 1.0, ""),
+        "target_torque_nm" => ("Target torque [Nm]".into(), 1.0, ""),
+        other => (other.replace('_', " "), 1.0, ""),
+    }
+}
+
+fn picture(aspect: &Aspect, largest: f64) -> Markup {
+    let (title, factor, unit) = heading(&aspect.aspect);
+    let ranged = aspect
+        .parts
+        .iter()
+        .all(|part| part.from.is_some() && part.to.is_some());
+    let drawing = if ranged && aspect.parts.len() > MOST_ROWS {
+        along(aspect, largest, factor, unit)
+    } else {
+        in_rows(aspect, largest, factor, unit)
+    };
+    captioned(&title, drawing, None)
+}
+
+/// A part's name, its edges in the aspect's unit.
+fn part_name(part: &Share, factor: f64, unit: &str) -> String {
+    let edge = |value: f64| short(factor * value);
+    match (part.from, part.to) {
+        (Some(from), Some(to)) if to.is_finite() => format!("{}–{} {unit}", edge(from), edge(to))
+            .trim_end()
+            .into(),
+        (Some(from), _) => format!("from {} {unit}", edge(from)).trim_end().into(),
+        (None, Some(to)) => format!("to {} {unit}", edge(to)).trim_end().into(),
+        (None, None) => part.part.replace('_', " "),
+    }
+}
+
+fn spoken(name: &str, part: &Share) -> String {
+    format!(
+        "{name}: {} times the noise, {} of the excess",
+        significant(part.error_over_noise, 3),
+        percent(part.share_of_excess)
+    )
+}
+
+fn in_rows(aspect: &Aspect, largest: f64, factor: f64, unit: &str) -> Markup {
+    let names: Vec<String> = aspect
+        .parts
+        .iter()
+        .map(|part| part_name(part, factor, unit))
+        .collect();
+    let rows: Vec<(String, bool)> = aspect
+        .parts
+        .iter()
+        .zip(&names)
+        .map(|(part, name)| {
+            let share = (100.0 * part.share_of_excess).round();
+            let share = if share.is_finite() {
+                format!(" · {share:.0} %")
+            } else {
+                String::new()
+            };
+            (name.clone() + &share.replace('-', "−"), false)
+        })
+        .collect();
+    let count = rows.len();
+    let at = |row: usize| -(row as f64);
+    let whiskers = aspect.parts.iter().enumerate().filter_map(|(row, part)| {
+        let interval = part.interval?;
+        Some(Segment {
+            x: (interval.low, interval.high),
+            y: (at(row), at(row)),
+        })
+    });
+    let dots = aspect.parts.iter().enumerate().map(|(row, part)| Dot {
+        x: part.error_over_noise,
+        y: at(row),
+        title: spoken(&names[row], part),
+    });
+    Figure {
+        description: format!("Error over noise by {}", aspect.aspect.replace('_', " ")),
+        width: 380.0,
+        height: 60.0 + 22.0 * count.max(3) as f64,
+        x: Axis::logarithmic("error over noise [×]", 0.85, 1.08 * largest),
+        y: Axis::rows(&rows),
+        marks: marks(
+            whiskers.collect(),
+            dots.collect(),
+            Segment {
+                x: (1.0, 1.0),
+                y: (0.5, 0.5 - count as f64),
+            },
+        ),
+    }
+    .svg()
+}
+
+fn along(aspect: &Aspect, largest: f64, factor: f64, unit: &str) -> Markup {
+    let edges = |part: &Share| {
+        let (from, to) = part
+            .from
+            .zip(part.to)
+            .expect("only parts with edges are drawn along an axis");
+        (factor * from, factor * to)
+    };
+    let (start, _) = edges(&aspect.parts[0]);
+    let (_, end) = edges(&aspect.parts[aspect.parts.len() - 1]);
+    let middle = |part: &Share| 0.5 * (edges(part).0 + edges(part).1);
+    let whiskers = aspect.parts.iter().filter_map(|part| {
+        let interval = part.interval?;
+        Some(Segment {
+            x: (middle(part), middle(part)),
+            y: (interval.low, interval.high),
+        })
+    });
+    let dots = aspect.parts.iter().map(|part| Dot {
+        x: middle(part),
+        y: part.error_over_noise,
+        title: spoken(&part_name(part, factor, unit), part),
+    });
+    let floor = Segment {
+        x: (start, end),
+        y: (1.0, 1.0),
+    };
+    Figure {
+        description: format!("Error over noise by {}", aspect.aspect.replace('_', " ")),
+        width: 380.0,
+        height: 60.0 + 22.0 * 7.0,
+        x: Axis::linear(
+            format!("{} [{unit}]", heading(&aspect.aspect).0.to_lowercase()),
+            start,
+            end,
+            5,
+        ),
+        y: Axis::logarithmic("error over noise [×]", 0.85, 1.08 * largest),
+        marks: marks(whiskers.collect(), dots.collect(), floor),
+    }
+    .svg()
+}
+
+fn marks(whiskers: Vec<Segment>, dots: Vec<Dot>, floor: Segment) -> Vec<Mark> {
+    vec![
+        Mark::Segments {
+            class: "c-floor",
+            segments: vec![floor],
+        },
+        Mark::Segments {
+            class: "c-rejected",
+            segments: whiskers,
+        },
+        Mark::Dots {
+            class: "c-rejected",
+            dots,
+        },
+    ]
+}
+
+fn table(aspects: &[Aspect]) -> Markup {
+    html! {
+        div.scroll { table {
+            thead { tr {
+                @for heading in ["part", "error over noise [×], 95 % interval", "share of the excess", "samples"] { th scope="col" { (heading) } }
+            } }
+            @for aspect in aspects {
+                @let (title, factor, unit) = heading(&aspect.aspect);
+                tbody {
+                    tr.group { th colspan="4" scope="rowgroup" { (title) } }
+                    @for part in &aspect.parts { tr {
+                        th scope="row" { (part_name(part, factor, unit)) }
+                        td { (measured(Some(part.error_over_noise), part.interval, "no sample falls there")) }
+                        td { @if part.share_of_excess.is_finite() { (percent(part.share_of_excess)) } @else { (missing("no sample falls there")) } }
+                        td { (part.samples) }
+                    } }
+                }
+            }
+        } }
+    }
+}

@@ -1,0 +1,187 @@
+use super::DiagnosisSection;
+use crate::effect_words::{LEVEL, by_chance, effect_name, effect_names, share_with_error, sizes};
+use crate::figure::{Axis, Bar, Figure, Mark, Segment, captioned, legend};
+use crate::number::{fixed, p_value, plain, significant};
+use maud::{Markup, html};
+use snug_campaign::{CampaignResult, Diagnosis, RankedEffect};
+
+/// What could be missing, best first.
+pub const SECTION: DiagnosisSection = DiagnosisSection {
+    anchor: "ranking",
+    short_title: "Candidates",
+    title: "What could be missing",
+    render,
+};
+
+const ROW: f64 = 21.0;
+
+fn render(diagnosis: &Diagnosis, result: &CampaignResult) -> Option<Markup> {
+    if diagnosis.ranking.is_empty() {
+        return None;
+    }
+    let ranking: Vec<&RankedEffect> = diagnosis.ranking.iter().collect();
+    let model = if diagnosis.added.is_empty() {
+        "the model"
+    } else {
+        "the model with the effects above"
+    };
+    Some(html! {
+        p { "Every candidate was added to " (model) " in turn and judged on tightenings that its size was not fitted to. \
+            The bar is the share of the misfit that it takes away there; the thin line is one standard error to either side. \
+            Below zero, it does harm." }
+        (figure(&ranking))
+        p { "A candidate is believed when chance alone would do as well in fewer than " (fixed(100.0 * LEVEL, 0))
+            " of 100 cases; that already allows for the number of candidates. Open a row for what it is, how it shows and what to check." }
+        div.candidates { @for candidate in &ranking { (entry(candidate, result)) } }
+    })
+}
+
+/// Whether chance is excluded and the gain is larger than its error.
+fn supported(candidate: &RankedEffect) -> bool {
+    candidate.p_family <= LEVEL && candidate.heldout_gain > candidate.heldout_gain_error
+}
+
+fn class(candidate: &RankedEffect) -> &'static str {
+    match (supported(candidate), candidate.unlisted) {
+        (true, true) => "c-rejected",
+        (true, false) => "c-selected",
+        (false, _) => "c-faint",
+    }
+}
+
+fn label(candidate: &RankedEffect) -> String {
+    let name = effect_name(&candidate.effect);
+    if candidate.unlisted {
+        format!("{name} (unlisted)")
+    } else {
+        name
+    }
+}
+
+fn figure(ranking: &[&RankedEffect]) -> Markup {
+    let rows: Vec<(String, bool)> = ranking
+        .iter()
+        .map(|candidate| (label(candidate), false))
+        .collect();
+    let ends = ranking.iter().flat_map(|candidate| {
+        [-1.0, 1.0]
+            .map(|side| 100.0 * (candidate.heldout_gain + side * candidate.heldout_gain_error))
+    });
+    let (low, high) = ends
+        .filter(|end| end.is_finite())
+        // A harm beyond the scale is cut off, so that it does not press the gains together.
+        .fold((0.0_f64, 5.0_f64), |(low, high), end| {
+            (low.min(end.max(-50.0)), high.max(end))
+        });
+    let mut marks: Vec<Mark> = ["c-faint", "c-selected", "c-rejected"]
+        .into_iter()
+        .map(|layer| Mark::Bars {
+            class: layer,
+            bars: ranking
+                .iter()
+                .enumerate()
+                .filter(|(_, candidate)| class(candidate) == layer)
+                .map(|(row, candidate)| bar(row, candidate, low))
+                .collect(),
+        })
+        .collect();
+    marks.push(Mark::Segments {
+        class: "c-whisker",
+        segments: ranking
+            .iter()
+            .enumerate()
+            .map(|(row, candidate)| {
+                let end = |side: f64| {
+                    let end = candidate.heldout_gain + side * candidate.heldout_gain_error;
+                    (100.0 * end).max(low)
+                };
+                Segment {
+                    x: (end(-1.0), end(1.0)),
+                    y: (-(row as f64), -(row as f64)),
+                }
+            })
+            .collect(),
+    });
+    let figure = Figure {
+        description: "Share of the misfit that each candidate removes in held-out tightenings"
+            .into(),
+        width: 760.0,
+        height: 56.0 + ROW * ranking.len().max(2) as f64,
+        x: Axis::linear(
+            "misfit removed in held-out tightenings [%]",
+            low,
+            1.03 * high,
+            6,
+        ),
+        y: Axis::rows(&rows),
+        marks,
+    };
+    let entries = [
+        ("c-selected", "beyond chance"),
+        ("c-rejected", "beyond chance, in no catalogue"),
+        ("c-faint", "could be chance"),
+    ];
+    let used: Vec<(&str, &str)> = entries
+        .into_iter()
+        .filter(|(layer, _)| ranking.iter().any(|candidate| class(candidate) == *layer))
+        .collect();
+    captioned(
+        "Candidates, best first",
+        html! { (figure.svg()) (legend(&used)) },
+        None,
+    )
+}
+
+fn bar(row: usize, candidate: &RankedEffect, low: f64) -> Bar {
+    let gain = (100.0 * candidate.heldout_gain).max(low);
+    Bar {
+        x: (gain.min(0.0), gain.max(0.0)),
+        y: (-(row as f64) - 0.32, -(row as f64) + 0.32),
+        title: format!(
+            "{}: removes {} of the misfit; {}",
+            label(candidate),
+            share_with_error(candidate.heldout_gain, candidate.heldout_gain_error),
+            by_chance(candidate.p_family)
+        ),
+    }
+}
+
+fn entry(candidate: &RankedEffect, result: &CampaignResult) -> Markup {
+    html! {
+        details.candidate {
+            summary {
+                span.name.strong[supported(candidate)] { (effect_name(&candidate.effect)) }
+                " " span.gain { (share_with_error(candidate.heldout_gain, candidate.heldout_gain_error)) }
+                " " span.chance { "p " (p_value(Some(candidate.p_family))) }
+                " " span.sizes { (sizes(&candidate.parameters, result)) }
+                @if !candidate.twins.is_empty() { " " span.tag.twins { "not to be told from " (effect_names(&candidate.twins)) } }
+                @if candidate.unlisted { " " span.tag.unlisted { "in no catalogue" } }
+                @if !candidate.plausible { " " span.tag.implausible { "size not plausible" } }
+            }
+            (evidence(candidate))
+        }
+    }
+}
+
+fn evidence(candidate: &RankedEffect) -> Markup {
+    html! {
+        ul { @for sentence in &candidate.explanation { li { (sentence) } } }
+        ul.note {
+            li { "Kind: " (candidate.kind) "." }
+            li { "How sure: " (by_chance(candidate.p_family)) ", over all candidates together." }
+            li { "Error over noise with it: " (plain(candidate.error_over_noise, 4, "the noise is not known")) " (1.0 = nothing but noise)." }
+            @if candidate.behind_first > 0.0 {
+                li { "The first candidate explains more by " (significant(candidate.behind_first, 2)) " standard deviations over tightenings." }
+            }
+            @if let Some(likeness) = candidate.likeness {
+                li { "Likeness to the first candidate in these data: " (fixed(likeness, 2)) " (1 = the same, 0 = nothing in common)." }
+            }
+            @if !candidate.plausible {
+                li { "Its size lies on the edge of the plausible range, which speaks against it." }
+            }
+            @for parameter in &candidate.parameters {
+                li { (parameter.name) ": plausible from " (significant(parameter.minimum, 3)) " to " (significant(parameter.maximum, 3)) " " (crate::effect_words::unit_text(&parameter.unit)) "." }
+            }
+        }
+    }
+}

@@ -1,0 +1,165 @@
+use super::DiagnosisSection;
+use crate::effect_words::{by_chance, effect_name, effect_names, sizes, unit_text};
+use crate::number::{fixed, percent, significant};
+use maud::{Markup, html};
+use snug_campaign::{AddedEffect, CampaignResult, CorrectedEffect, Diagnosis, Verdict};
+
+/// What is missing in the model, in one sentence, and why.
+pub const SECTION: DiagnosisSection = DiagnosisSection {
+    anchor: "verdict",
+    short_title: "Verdict",
+    title: "Is something missing in the model?",
+    render,
+};
+
+fn render(diagnosis: &Diagnosis, result: &CampaignResult) -> Option<Markup> {
+    Some(html! {
+        p { span.verdict.(diagnosis.verdict.name()) { (word(diagnosis.verdict)) } }
+        p.lead { (diagnosis.headline) }
+        @if !diagnosis.reasons.is_empty() {
+            ul.reasons { @for reason in &diagnosis.reasons { li { (reason) } } }
+        }
+        @if !diagnosis.added.is_empty() {
+            h3 { "What the model has beyond mass, damper and spring" }
+            div.effects { @for effect in &diagnosis.added { (added(effect, result)) } }
+        }
+        (unlisted(diagnosis))
+        (experiment(diagnosis))
+        (corrected(&diagnosis.corrected))
+        (climb(diagnosis))
+        p.note { (basis(diagnosis)) " verdict.json holds every number of this page's diagnosis." }
+    })
+}
+
+fn word(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Adequate => "the model is adequate",
+        Verdict::MissingEffect => "an effect is missing",
+        Verdict::UnlistedEffect => "something is missing that is in no catalogue",
+        Verdict::Undecided => "too little data to say",
+    }
+}
+
+fn added(effect: &AddedEffect, result: &CampaignResult) -> Markup {
+    html! {
+        div.effect {
+            h4 { (effect_name(&effect.effect)) " " span.nature { (effect.kind) } }
+            @if let Some(expression) = &effect.expression { p { code { (expression) } } }
+            p.sizes { (sizes(&effect.parameters, result)) }
+            @if let Some(gain) = effect.heldout_gain {
+                p { "It removes " strong { (fixed(100.0 * gain, 0)) "\u{a0}%" } " of the misfit in tightenings that its size was not fitted to." }
+            }
+            @match effect.p_family {
+                Some(p) => p { "How sure: " (by_chance(p)) "." },
+                None => p { "The study's model already had it, so it was not put to the test here." },
+            }
+            @if let Some(needed) = effect.needed {
+                p { "Without it, the squared error over noise would grow by " (significant(needed, 3)) "." }
+            }
+            @if !effect.twins.is_empty() {
+                p.attention { "These data cannot tell it from " strong { (effect_names(&effect.twins)) } "." }
+            }
+            @if !effect.explanation.is_empty() {
+                ul { @for sentence in &effect.explanation { li { (sentence) } } }
+            }
+        }
+    }
+}
+
+fn unlisted(diagnosis: &Diagnosis) -> Markup {
+    html! {
+        @if let Some(term) = &diagnosis.unlisted {
+            h3 { "The simplest term that describes what no effect of the catalogue explains" }
+            p { code { (term.expression) } " – " (term.statement) " It removes " strong { (fixed(100.0 * term.heldout_gain, 0)) "\u{a0}%" }
+                " of the remaining misfit in tightenings it was not fitted to." }
+            p { "To try it, paste this into the list " code { "model.custom" } " of the study file:" }
+            pre { code { (term.ron) } }
+        }
+    }
+}
+
+fn experiment(diagnosis: &Diagnosis) -> Markup {
+    html! {
+        @if let Some(experiment) = &diagnosis.experiment {
+            h3 { "What would tell " (between(&experiment.between)) " apart" }
+            p { (experiment.statement) }
+            p.note {
+                "Conditions: " (experiment.conditions) ". "
+                @match experiment.tightenings {
+                    Some(count) => { "Tightenings needed: " (count) ". " }
+                    None => "None of the conditions that were tried separates them. ",
+                }
+                "Each such tightening sets them apart by " (significant(experiment.distance_per_tightening, 2))
+                " times the noise."
+            }
+        }
+    }
+}
+
+fn between(names: &[String]) -> String {
+    let names: Vec<String> = names.iter().map(|name| effect_name(name)).collect();
+    match names.split_last() {
+        Some((last, rest)) if !rest.is_empty() => format!("{} and {last}", rest.join(", ")),
+        _ => names.concat(),
+    }
+}
+
+fn corrected(corrected: &[CorrectedEffect]) -> Markup {
+    html! {
+        @if !corrected.is_empty() {
+            h3 { "Taken out before the fit" }
+            ul {
+                @for effect in corrected {
+                    li {
+                        strong { (effect_name(&effect.effect)) } ": measured in the quiet part before the pulse, typically "
+                        (significant(effect.size, 3)) "\u{a0}" (unit_text(&effect.unit)) ", beyond chance in "
+                        (percent(effect.share)) " of the tightenings."
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn climb(diagnosis: &Diagnosis) -> Markup {
+    html! {
+        @if diagnosis.stopped.is_some() || !diagnosis.removals.is_empty() {
+            h3 { "Why it stopped here" }
+            @if let Some(stopped) = &diagnosis.stopped { p { (stopped) } }
+            @if !diagnosis.removals.is_empty() {
+                p { "Every added term was tried to be left out again:" }
+                ul {
+                    @for removal in &diagnosis.removals {
+                        li {
+                            strong { (effect_name(&removal.effect)) } " "
+                            @if removal.removed { "was removed. " } @else { "stays. " }
+                            (removal.statement)
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// What errors are compared with.
+fn basis(diagnosis: &Diagnosis) -> String {
+    let source = match diagnosis.noise.source.as_str() {
+        "pre_roll" => "the noise measured in the quiet part before each pulse",
+        "repeats" => "the differences between repeated tightenings",
+        "declared" => "the noise that the study declares",
+        "residual" => "what the model leaves, because no noise was measured",
+        other => other,
+    };
+    let size = diagnosis
+        .noise
+        .acceleration_rad_per_s2
+        .filter(|noise| noise.is_finite())
+        .map_or_else(String::new, |noise| {
+            format!(" (standard deviation {} rad/s²)", significant(noise, 3))
+        });
+    format!(
+        "{} tightenings took part; model and measurement are compared in the {}, against {source}{size}.",
+        diagnosis.tightenings, diagnosis.compared_output
+    )
+}

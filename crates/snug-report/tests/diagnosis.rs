@@ -1,0 +1,425 @@
+//! The page's sections about what is missing in the model.
+#![allow(clippy::unwrap_used, missing_docs)]
+
+mod diagnosed;
+mod markup;
+mod specimen;
+
+use snug_campaign::{CampaignResult, Comparison, Diagnosis, Location};
+use snug_report::html;
+
+const ANCHORS: [&str; 7] = [
+    "verdict",
+    "ladder",
+    "before-after",
+    "ranking",
+    "location",
+    "comparison",
+    "detectability",
+];
+
+/// The markup of one section; `None` when the page does not have it.
+fn section<'a>(page: &'a str, anchor: &str) -> Option<&'a str> {
+    let start = page.find(&format!("<section id=\"{anchor}\""))?;
+    let end = page[start..].find("</section>").unwrap();
+    Some(&page[start..start + end])
+}
+
+/// Text of one section, tags, pictures' titles and inlined data taken out, spaces made plain.
+fn words(page: &str, anchor: &str) -> String {
+    let mut rest = section(page, anchor).unwrap();
+    let mut text = String::new();
+    while let Some(start) = rest.find('<') {
+        text.push_str(&rest[..start]);
+        let tag = &rest[start..];
+        let close = if tag.starts_with("<script") {
+            "</script>"
+        } else {
+            ">"
+        };
+        rest = &tag[tag.find(close).unwrap() + close.len()..];
+        text.push(' ');
+    }
+    let text = (text + rest).replace('\u{a0}', " ");
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+fn has(page: &str, anchor: &str, sentences: &[&str]) {
+    let words = words(page, anchor);
+    for sentence in sentences {
+        assert!(
+            words.contains(sentence),
+            "{anchor} lacks “{sentence}”: {words}"
+        );
+    }
+}
+
+fn with(change: impl Fn(&mut Diagnosis)) -> CampaignResult {
+    let mut result = diagnosed::improve();
+    change(result.diagnosis.as_mut().unwrap());
+    result
+}
+
+#[test]
+fn sections_stand_right_after_the_overview_and_only_with_a_diagnosis() {
+    let page = html(&diagnosed::improve());
+    let tags = markup::start_tags(&page).unwrap();
+    let sections: Vec<&str> = tags
+        .iter()
+        .filter(|tag| tag.name == "section")
+        .map(|tag| tag.attributes.split('"').nth(1).unwrap())
+        .collect();
+    assert_eq!(sections[0], "overview");
+    assert_eq!(sections[1..8], ANCHORS);
+    assert_eq!(sections.len(), 21);
+    for anchor in ANCHORS {
+        assert!(
+            page.contains(&format!("href=\"#{anchor}\"")),
+            "{anchor} is not in the contents"
+        );
+    }
+    let plain = html(&specimen::empty());
+    for anchor in ANCHORS {
+        assert!(section(&plain, anchor).is_none(), "{anchor}");
+    }
+}
+
+#[test]
+fn the_verdict_states_sizes_with_intervals_units_and_certainty() {
+    let page = html(&diagnosed::improve());
+    has(
+        &page,
+        "verdict",
+        &[
+            "the model is adequate",
+            "cubic stiffness",
+            "k3 9.90 × 10⁵ N/m³ [9.61, 10.19] × 10⁵ N/m³",
+            "It removes 83 % of the misfit",
+            "chance alone does as well in 1 of 1000 cases",
+            "delay 0.00160 s [0.00131, 0.00189] s",
+            "cannot tell it from torque lag",
+            "Check at the bench",
+            "typically 0.310 rad/s², beyond chance in 87.5 %",
+            "No further effect is justified",
+            "torque delay stays.",
+            "24 tightenings took part",
+            "standard deviation 0.900 rad/s²",
+        ],
+    );
+}
+
+#[test]
+fn the_ladder_has_every_number_and_is_drawn() {
+    let page = html(&diagnosed::improve());
+    has(
+        &page,
+        "ladder",
+        &[
+            "error over noise [× noise]",
+            "+ cubic stiffness 1.380 1.390 1.450 1.410 1.242 4.60 × 10⁻⁴ 97.90 87.5 %",
+            "+ torque delay 1.018 1.021 1.034 1.026 0.9162",
+            "fitted output [rad/s²]",
+        ],
+    );
+    let picture = section(&page, "ladder").unwrap();
+    // The bars of three rungs on a logarithmic axis: a longer error is a longer bar, and equal factors equal lengths.
+    let bars = picture.split("g class=\"bars c-faint\"").nth(1).unwrap();
+    let width = |bar: usize| -> f64 {
+        let rect = bars.split("<rect").nth(bar + 1).unwrap();
+        rect.split("width=\"")
+            .nth(1)
+            .unwrap()
+            .split('"')
+            .next()
+            .unwrap()
+            .parse()
+            .unwrap()
+    };
+    let per_factor = (width(0) - width(2)) / (6.42_f64 / 1.018).ln();
+    let middle = (width(1) - width(2)) / (1.38_f64 / 1.018).ln();
+    assert!(
+        (per_factor - middle).abs() < 0.01 * per_factor,
+        "{per_factor} {middle}"
+    );
+}
+
+#[test]
+fn without_noise_the_ladder_is_in_the_output_s_unit() {
+    let page = html(&with(|diagnosis| {
+        for rung in &mut diagnosis.ladder {
+            rung.error_over_noise = None;
+            rung.heldout_error_over_noise = None;
+        }
+    }));
+    has(
+        &page,
+        "ladder",
+        &[
+            "root mean square of the residual [rad/s²]",
+            "how much of that is noise is not known",
+        ],
+    );
+}
+
+#[test]
+fn before_and_after_hold_the_measured_and_both_simulated_samples() {
+    let result = diagnosed::improve();
+    let page = html(&result);
+    let showcase = result
+        .diagnosis
+        .as_ref()
+        .unwrap()
+        .showcase
+        .as_ref()
+        .unwrap();
+    has(
+        &page,
+        "before-after",
+        &[&showcase.id.to_string(), "measured − simulated [rad/s²]"],
+    );
+    let start = page.find("id=\"showcase-data\">").unwrap() + "id=\"showcase-data\">".len();
+    let end = start + page[start..].find("</script>").unwrap();
+    let data: serde_json::Value = serde_json::from_str(&page[start..end]).unwrap();
+    let example = &data["examples"][0];
+    let acceleration = data["panels"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .position(|panel| panel["axis"] == "acceleration α [rad/s²]")
+        .unwrap();
+    let read = |line: usize| example["signals"][acceleration][line].as_array().unwrap();
+    let mut sample = 0;
+    for (point, step) in example["steps"].as_array().unwrap().iter().enumerate() {
+        sample += step.as_u64().unwrap() as usize;
+        for (line, motion) in [
+            (0, &showcase.after.measured),
+            (1, &showcase.before.simulated),
+            (2, &showcase.after.simulated),
+        ] {
+            let truth = motion.acceleration_rad_per_s2.as_ref().unwrap()[sample];
+            let drawn = read(line)[point].as_f64().unwrap();
+            assert!(
+                (drawn - truth).abs() <= 5e-6 * truth.abs(),
+                "{line} {sample}"
+            );
+        }
+    }
+    assert_eq!(sample, 2999, "the last sample is drawn");
+}
+
+#[test]
+fn candidates_stand_with_gain_chance_size_and_twins() {
+    let page = html(&diagnosed::diagnose());
+    has(
+        &page,
+        "ranking",
+        &[
+            "misfit removed in held-out tightenings [%]",
+            "cubic stiffness 83 ± 4 % p 0.001 k3 9.90 × 10⁵ N/m³",
+            "not to be told from quadratic stiffness",
+            "size not plausible",
+            "p*x^2*v (unlisted)",
+            "in no catalogue",
+            "whether the arm runs into a stop",
+            "plausible from −4.95 × 10⁶ to 4.95 × 10⁶ N/m³",
+        ],
+    );
+    has(
+        &page,
+        "verdict",
+        &["9 tightenings on the soft joint", "Tightenings needed: 9"],
+    );
+}
+
+#[test]
+fn an_unlisted_term_is_ready_to_paste() {
+    let page = html(&diagnosed::unlisted());
+    has(
+        &page,
+        "verdict",
+        &[
+            "something is missing that is in no catalogue",
+            "expression: &quot;p*x^2*v&quot;",
+            "removes 71 % of what is left",
+        ],
+    );
+}
+
+#[test]
+fn the_places_of_failure_are_drawn_and_tabled() {
+    let page = html(&diagnosed::improve());
+    has(
+        &page,
+        "location",
+        &[
+            "84 % of the excess lies in the peak",
+            "97.0 % of the squared misfit repeats",
+            "peak 9.9 [8.5, 11.3] 44.5 % 4800",
+            "missing force [N]",
+            "displacement of the grip x [mm]",
+            "stiffness peak angle 62.0 [55.0, 69.0] &lt; 0.001",
+            "Nothing stands out.",
+        ],
+    );
+    // k3 x³ at the map's largest displacement, 33 mm: 35.6 N; the scale is a quarter of it.
+    has(&page, "location", &["27 to 36 N"]);
+    let map = section(&page, "location").unwrap();
+    assert!(map.contains("x = 33.0 mm"), "the cell's words");
+    assert!(map.contains("heat unsure"), "cells whose band holds zero");
+}
+
+#[test]
+fn errors_absence_and_false_alarms_are_stated() {
+    let page = html(&diagnosed::improve());
+    has(
+        &page,
+        "comparison",
+        &[
+            "Acceleration 5.78 rad/s² 19.6 rad/s² 9.90 91.00 6.420",
+            "acceleration rms [rad/s²]",
+        ],
+    );
+    let rows = section(&page, "comparison")
+        .unwrap()
+        .matches("data-v=")
+        .count();
+    assert_eq!(
+        rows,
+        24 * 7,
+        "three quantities with rms and fit, one with error over noise"
+    );
+    has(
+        &page,
+        "detectability",
+        &[
+            "2 of 40 : 5.0 %",
+            "[1.4, 16.5] %",
+            "Meant were 5.0 %",
+            "coulomb friction fc 0.830 N 30.0 N",
+        ],
+    );
+}
+
+#[test]
+fn absent_parts_leave_their_sections_out() {
+    let result = with(|diagnosis| {
+        diagnosis.ladder.clear();
+        diagnosis.ranking.clear();
+        diagnosis.added.clear();
+        diagnosis.corrected.clear();
+        diagnosis.removals.clear();
+        diagnosis.drift.clear();
+        diagnosis.reasons.clear();
+        diagnosis.detectability.clear();
+        diagnosis.comparison = Comparison::default();
+        diagnosis.location = Location::default();
+        diagnosis.final_location = None;
+        diagnosis.control = None;
+        diagnosis.showcase = None;
+        diagnosis.stopped = None;
+    });
+    let page = html(&result);
+    markup::start_tags(&page).unwrap();
+    assert!(section(&page, "verdict").is_some());
+    for anchor in &ANCHORS[1..] {
+        assert!(section(&page, anchor).is_none(), "{anchor}");
+        assert!(!page.contains(&format!("href=\"#{anchor}\"")), "{anchor}");
+    }
+}
+
+#[test]
+fn what_is_not_finite_never_reaches_the_reader() {
+    let result = with(|diagnosis| {
+        for rung in &mut diagnosis.ladder {
+            rung.error_over_noise = Some(f64::NAN);
+            rung.rms_fitted_output = f64::INFINITY;
+            rung.selected_fraction = f64::NAN;
+        }
+        for candidate in &mut diagnosis.ranking {
+            candidate.heldout_gain = f64::NAN;
+            candidate.p_family = f64::NAN;
+            candidate.parameters[0].value = f64::NAN;
+        }
+        for part in diagnosis
+            .location
+            .aspects
+            .iter_mut()
+            .flat_map(|aspect| &mut aspect.parts)
+        {
+            part.error_over_noise = f64::NAN;
+            part.share_of_excess = f64::NAN;
+            part.to = Some(f64::INFINITY);
+        }
+        diagnosis.location.force_over_time.low_n.fill(f64::NAN);
+        diagnosis
+            .location
+            .force_over_time
+            .force_n
+            .fill(f64::INFINITY);
+        diagnosis.location.force_map.force_n.fill(Some(f64::NAN));
+        diagnosis.drift[0].change_percent = f64::NAN;
+        diagnosis.comparison.pooled[0].rms = f64::NAN;
+        diagnosis.detectability[0].smallest_detectable = Some(f64::INFINITY);
+        let showcase = diagnosis.showcase.as_mut().unwrap();
+        showcase
+            .after
+            .simulated
+            .acceleration_rad_per_s2
+            .as_mut()
+            .unwrap()
+            .truncate(7);
+        showcase
+            .before
+            .simulated
+            .displacement_rad
+            .as_mut()
+            .unwrap()
+            .fill(f64::NAN);
+    });
+    let page = html(&result);
+    for tag in markup::start_tags(&page).unwrap() {
+        assert!(
+            !tag.attributes.contains("NaN"),
+            "{} {}",
+            tag.name,
+            tag.attributes
+        );
+        assert!(
+            !tag.attributes.contains("\"inf"),
+            "{} {}",
+            tag.name,
+            tag.attributes
+        );
+    }
+    for anchor in ANCHORS {
+        if section(&page, anchor).is_some() {
+            let words = words(&page, anchor);
+            for word in ["NaN", " inf", "∞"] {
+                assert!(!words.contains(word), "{anchor}: {words}");
+            }
+        }
+    }
+}
+
+#[test]
+fn hostile_names_stay_text() {
+    let attack = "\"></script><script>alert(1)</script><img src=x onerror='1'>";
+    let harmless = html(&diagnosed::unlisted()).matches("<script").count();
+    let mut result = diagnosed::unlisted();
+    let diagnosis = result.diagnosis.as_mut().unwrap();
+    diagnosis.headline = attack.into();
+    diagnosis.compared_output = attack.into();
+    diagnosis.noise.source = attack.into();
+    diagnosis.ranking[0].effect = attack.into();
+    diagnosis.ranking[0].twins = vec![attack.into()];
+    diagnosis.ranking[0].parameters[0].unit = attack.into();
+    diagnosis.location.aspects[1].aspect = attack.into();
+    diagnosis.location.aspects[1].parts[0].part = attack.into();
+    diagnosis.comparison.pooled[0].quantity = attack.into();
+    diagnosis.comparison.tightenings[0].id.file = attack.into();
+    diagnosis.unlisted.as_mut().unwrap().ron = attack.into();
+    let page = html(&result);
+    let tags = markup::start_tags(&page).unwrap();
+    assert!(tags.iter().all(|tag| tag.name != "img"));
+    assert_eq!(page.matches("<script").count(), harmless);
+}

@@ -1,0 +1,94 @@
+use snug_campaign::EffectParameter;
+
+/// Four significant digits, without a tail of zeros that says nothing.
+pub fn significant(value: f64) -> String {
+    if value == 0.0 || (1e-3..1e5).contains(&value.abs()) {
+        let digits = 3 - value.abs().max(1e-9).log10().floor() as i32;
+        format!("{value:.*}", digits.clamp(0, 8) as usize)
+    } else if value.is_finite() {
+        format!("{value:.2e}")
+    } else {
+        "?".into()
+    }
+}
+
+/// A parameter with interval and unit: `k3_n_per_m3 9.90e5 [9.61e5, 1.02e6] N/m^3`.
+pub fn sized(parameter: &EffectParameter) -> String {
+    let interval = match (parameter.low, parameter.high) {
+        (Some(low), Some(high)) => {
+            format!(" [{}, {}]", alike(low, parameter), alike(high, parameter))
+        }
+        _ => " (no interval)".into(),
+    };
+    let unit = if parameter.unit == "1" {
+        ""
+    } else {
+        &parameter.unit
+    };
+    let own = match (parameter.per_tightening, parameter.spread) {
+        (true, Some(spread)) => format!(
+            " on average, spread {} from tightening to tightening",
+            significant(spread)
+        ),
+        (true, None) => " on average".into(),
+        (false, _) => String::new(),
+    };
+    format!(
+        "{} {}{interval} {unit}{own}",
+        parameter.name,
+        alike(parameter.value, parameter)
+    )
+    .trim_end()
+    .to_owned()
+}
+
+/// As many decimals as half the interval supports with two digits; a power of ten where the value needs one.
+fn alike(number: f64, parameter: &EffectParameter) -> String {
+    let largest = [Some(parameter.value), parameter.low, parameter.high]
+        .into_iter()
+        .flatten()
+        .fold(0.0, |largest: f64, value| largest.max(value.abs()));
+    if !(1e-3..1e5).contains(&largest) || !number.is_finite() {
+        return significant_in_powers(number);
+    }
+    let half = match (parameter.low, parameter.high) {
+        (Some(low), Some(high)) if high > low => 0.5 * (high - low),
+        _ => return significant(number),
+    };
+    let decimals = (1 - half.log10().floor() as i32).clamp(0, 8);
+    format!("{number:.*}", decimals as usize)
+}
+
+fn significant_in_powers(number: f64) -> String {
+    if number.is_finite() {
+        format!("{number:.2e}")
+    } else {
+        "?".into()
+    }
+}
+
+/// A p value that does not pretend.
+pub fn p_value(p: f64) -> String {
+    if !p.is_finite() {
+        "?".into()
+    } else if p < 0.001 {
+        "< 0.001".into()
+    } else {
+        format!("{p:.3}")
+    }
+}
+
+/// A p value in words.
+pub fn by_chance(p: f64) -> String {
+    if !p.is_finite() {
+        return "its chance could not be told".into();
+    }
+    if p >= 0.1 {
+        return format!(
+            "chance alone would do this in {:.0} of 100 cases",
+            100.0 * p
+        );
+    }
+    let one_in = (1.0 / p.max(1e-6)).round();
+    format!("chance alone would do this once in {one_in:.0} cases")
+}

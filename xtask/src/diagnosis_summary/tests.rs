@@ -1,0 +1,183 @@
+#![allow(clippy::unwrap_used)]
+
+use super::{WIDTH, text};
+use snug_campaign::*;
+
+fn parameter(name: &str, unit: &str, value: f64, low: f64, high: f64) -> EffectParameter {
+    EffectParameter {
+        name: name.into(),
+        unit: unit.into(),
+        value,
+        low: Some(low),
+        high: Some(high),
+        standard_error: None,
+        per_tightening: false,
+        spread: None,
+        minimum: -1e7,
+        maximum: 1e7,
+    }
+}
+
+fn candidate(effect: &str, gain: f64, p: f64, size: EffectParameter) -> RankedEffect {
+    RankedEffect {
+        effect: effect.into(),
+        kind: "mechanical".into(),
+        unlisted: false,
+        parameters: vec![size],
+        score: 9.0,
+        p_family: p,
+        heldout_gain: gain,
+        heldout_gain_error: 0.04,
+        error_over_noise: Some(1.4),
+        behind_first: 0.0,
+        likeness: None,
+        twins: vec!["quadratic_stiffness".into()],
+        plausible: true,
+        explanation: vec![],
+    }
+}
+
+fn rung(effects: &[&str], error: Option<f64>, selected: f64) -> Rung {
+    Rung {
+        effects: effects.iter().map(|name| (*name).into()).collect(),
+        error_over_noise: error,
+        heldout_error_over_noise: error.map(|error| 1.01 * error),
+        heldout_target_error_over_noise: None,
+        heldout_participant_error_over_noise: None,
+        rms_fitted_output: 3.0 * selected,
+        rms_displacement_rad: None,
+        fit_percent_median: None,
+        selected_fraction: selected,
+    }
+}
+
+fn missing() -> Diagnosis {
+    Diagnosis {
+        verb: "diagnose".into(),
+        verdict: Verdict::MissingEffect,
+        headline: "Missing: cubic stiffness. ".repeat(12),
+        reasons: vec!["It does not fit.".into()],
+        stopped: None,
+        tightenings: 24,
+        noise: NoiseStatement {
+            source: "pre_roll".into(),
+            acceleration_rad_per_s2: Some(0.5),
+        },
+        compared_output: "acceleration".into(),
+        added: vec![],
+        corrected: vec![],
+        ladder: vec![
+            rung(&[], Some(6.4), 0.42),
+            rung(&["cubic_stiffness"], Some(1.38), 0.88),
+            rung(&["cubic_stiffness", "torque_delay"], Some(1.0), 0.96),
+        ],
+        ranking: (0..11)
+            .map(|place| {
+                let size = parameter("k3_n_per_m3", "N/m^3", 9.9e5, 9.606e5, 1.0194e6);
+                candidate(&format!("effect_{place}"), 0.83, 0.0004, size)
+            })
+            .collect(),
+        removals: vec![],
+        comparison: Comparison::default(),
+        location: Location {
+            remarks: vec!["Most of it lies around the peak.".into()],
+            ..Location::default()
+        },
+        final_location: None,
+        drift: vec![],
+        detectability: vec![],
+        control: Some(NegativeControl {
+            campaigns: 40,
+            false_alarms: 2,
+            nominal_rate: 0.05,
+            rate_low: 0.014,
+            rate_high: 0.165,
+        }),
+        unlisted: None,
+        experiment: None,
+        showcase: None,
+    }
+}
+
+fn blocks(text: &str, line: &str) -> usize {
+    let line = text.lines().find(|l| l.contains(line)).unwrap();
+    line.matches('#').count()
+}
+
+#[test]
+fn the_verdict_leads_and_the_next_command_closes() {
+    let text = text(&missing(), "--study rig.ron", false);
+    let first = text.trim_start().lines().next().unwrap();
+    assert_eq!(first, "Verdict: an effect is missing");
+    assert!(text.contains("    cargo xtask add effect_0 --study rig.ron\n"));
+    assert!(
+        text.trim_end()
+            .ends_with("cargo xtask improve --study rig.ron")
+    );
+    assert!(text.contains("Most of it lies around the peak."));
+}
+
+#[test]
+fn lines_keep_their_width_and_plain_text_has_no_colours() {
+    let plain = text(&missing(), "", false);
+    for line in plain.lines() {
+        assert!(line.chars().count() <= WIDTH + 2, "{line}");
+    }
+    assert!(!plain.contains('\u{1b}') && !plain.contains('█'));
+    assert!(text(&missing(), "", true).contains('\u{1b}'));
+}
+
+#[test]
+fn sizes_stand_with_unit_and_interval() {
+    let text = text(&missing(), "", false);
+    assert!(text.contains("k3_n_per_m3 9.90e5 [9.61e5, 1.02e6] N/m^3"));
+    assert!(text.contains("83 ± 4 %"));
+    assert!(text.contains("< 0.001"));
+    assert!(text.contains("effect_7") && !text.contains("effect_8"));
+    assert!(text.contains("the best 8 of 11 candidates"));
+}
+
+#[test]
+fn bars_shrink_to_nothing_at_the_floor() {
+    let text = text(&missing(), "", false);
+    let base = blocks(&text, "base model");
+    let middle = blocks(&text, "+ cubic_stiffness");
+    assert_eq!(base, super::BAR);
+    // ln 1.38 / ln 6.4 = 0.1735 of 36 columns.
+    assert_eq!(middle, 6);
+    assert_eq!(blocks(&text, "+ torque_delay"), 0);
+}
+
+#[test]
+fn without_noise_the_error_has_the_output_s_name() {
+    let mut diagnosis = missing();
+    diagnosis.ladder = vec![rung(&[], None, 1.0), rung(&["sin"], None, 0.5)];
+    let text = text(&diagnosis, "", false);
+    assert!(text.contains("residual of the acceleration"));
+    assert_eq!(blocks(&text, "base model"), 36);
+    assert_eq!(blocks(&text, "+ sin"), 18);
+}
+
+#[test]
+fn every_verdict_says_what_to_do() {
+    let mut diagnosis = missing();
+    diagnosis.verb = "compare".into();
+    assert!(
+        text(&diagnosis, "", false)
+            .trim_end()
+            .ends_with("cargo xtask diagnose")
+    );
+    diagnosis.verb = "improve".into();
+    diagnosis.verdict = Verdict::Adequate;
+    assert!(text(&diagnosis, "", false).contains("Nothing needs to be added"));
+    diagnosis.verdict = Verdict::Undecided;
+    assert!(text(&diagnosis, "", false).contains("Record more tightenings"));
+    diagnosis.verdict = Verdict::UnlistedEffect;
+    diagnosis.unlisted = Some(UnlistedTerm {
+        expression: "p*x^2*v".into(),
+        ron: "(name: \"x2v\")".into(),
+        heldout_gain: 0.7,
+        statement: "A damping that grows with x².".into(),
+    });
+    assert!(text(&diagnosis, "", false).contains("    (name: \"x2v\")\n    cargo xtask diagnose"));
+}
