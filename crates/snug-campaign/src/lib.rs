@@ -28,6 +28,7 @@ mod recording;
 mod rig;
 mod tightening;
 mod time_base;
+mod units;
 
 pub use campaign::{
     CampaignResult, ConditionSummary, EffectSize, Moments, PresetSummary, QuantitySummary,
@@ -51,3 +52,4 @@ pub use tightening::{
     Traces,
 };
 pub use time_base::TimeBase;
+pub use units::SignalUnits;
