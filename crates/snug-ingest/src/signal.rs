@@ -145,6 +145,11 @@ impl Unit {
     }
 }
 
+/// The default of a channel's factor.
+pub(crate) fn as_it_is() -> f64 {
+    1.0
+}
+
 /// Checks a set of declared channels: units fit, torque and a motion are there, nothing is declared twice.
 pub(crate) fn check(
     channels: impl Iterator<Item = (Signal, Unit, f64)> + Clone,

@@ -39,7 +39,7 @@ fn symbol(unit: Unit) -> Option<&'static str> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Column, CsvChannel, CsvLayout};
+    use crate::csv::{Column, CsvChannel, CsvLayout};
 
     fn units(channels: &[(Signal, Unit)]) -> (String, String, f64) {
         let channel = |&(signal, unit): &(Signal, Unit)| CsvChannel {
