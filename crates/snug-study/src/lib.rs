@@ -4,6 +4,7 @@ mod error;
 mod evaluation;
 mod examples;
 mod file_evaluation;
+mod position;
 mod progress;
 mod run;
 mod selection;
