@@ -1,6 +1,6 @@
 //! Bad input gives a clear error or a named finding, and everything else is still evaluated.
 
-use crate::campaign::{embedded, run_study, study_on};
+use crate::campaign::{embedded, run_study, study_file, study_on};
 use snug_campaign::{Finding, Severity};
 use snug_model::ParameterSettings;
 use snug_study::{Outcome, Preset, Study, StudyError};
@@ -149,6 +149,111 @@ fn a_typo_in_the_study_is_told_with_line_and_column() {
     let text = error.to_string();
     assert!(text.contains("windw") && text.contains("window"), "{text}");
     assert!(error.is_bad_argument());
+}
+
+#[test]
+fn a_value_that_is_not_allowed_is_told_with_line_and_column() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("study.ron");
+    for (text, line, column, word) in [
+        (
+            "(\n  selection: (minimum_fit_percent: 101),\n)",
+            2,
+            15,
+            "101",
+        ),
+        (
+            "(\n  preprocess: (\n    window: Pulse(length_s: -1.0)),\n)",
+            3,
+            19,
+            "length_s",
+        ),
+        (
+            "(\n  model: (effects: [\"cubic_stifness\"]),\n)",
+            2,
+            11,
+            "cubic_stifness",
+        ),
+        (
+            "(identify: (solver: (maximum_iterations: 0)))",
+            1,
+            22,
+            "maximum_iterations",
+        ),
+        (
+            "(source: (format: Csv(channels: [],\nsampling: Rate(hz: 100.0))))",
+            1,
+            23,
+            "Torque",
+        ),
+        ("(record: (gap_s: -1.0))", 1, 11, "gap_s"),
+        ("(validation: (ranges: [\"tset\"]))", 1, 15, "tset"),
+    ] {
+        std::fs::write(&path, text).unwrap();
+        let error = Study::read(&path).unwrap_err();
+        let told = error.to_string();
+        let place = format!("{}:{line}:{column}: ", path.display());
+        assert!(told.starts_with(&place), "{told}");
+        assert!(told.contains(word), "{told}");
+        assert!(error.is_bad_argument());
+    }
+}
+
+#[test]
+fn a_range_of_which_nothing_is_scored_is_refused_before_any_work() {
+    let mut study = Study::read(&study_file("silverbox.ron")).unwrap();
+    study.validation.unscored_samples = 21_688;
+    let error = study.check().unwrap_err();
+    let text = error.to_string();
+    assert!(
+        text.contains("multisine test") && text.contains("21688"),
+        "{text}"
+    );
+    assert!(error.is_bad_argument());
+    study.validation.unscored_samples = 21_687;
+    study.check().unwrap();
+    study.identify.unscored_samples = 65_062;
+    assert!(study.check().unwrap_err().is_bad_argument());
+}
+
+/// Two tightenings one after another in a file that nobody wrote events into.
+#[test]
+fn a_file_without_events_gives_every_tightening() {
+    use snug_synthetic::{MatValue, mat5};
+    let source = snug_study::Study::on(embedded()).source;
+    let good = snug_ingest::read(&source, &embedded().join(GOOD), 0.33).unwrap();
+    let recording = &good.recordings[0];
+    let acceleration = recording.motion.acceleration_rad_per_s2.as_ref().unwrap();
+    let variables = [
+        ("Inline_Torque", MatValue::Double(&recording.torque_nm)),
+        ("angle_acc_Acc_FIR150", MatValue::Double(acceleration)),
+        (
+            "F_op_J",
+            MatValue::Double(recording.grip_force_n.as_ref().unwrap()),
+        ),
+    ];
+    let (outcome, _data, _out) = {
+        let data = tempfile::tempdir().unwrap();
+        let bytes = mat5(&variables, true).unwrap();
+        std::fs::write(data.path().join("TP1_QS_Soft_5.mat"), bytes).unwrap();
+        let (outcome, out) = run_study(&study_on(data.path(), Preset::Snug)).unwrap();
+        (outcome, data, out)
+    };
+    assert_eq!(outcome.left_out, 0, "{:?}", outcome.result.findings);
+    assert_eq!(outcome.result.tightenings.len(), recording.segments.len());
+    assert_eq!(outcome.result.presets[0].selected, recording.segments.len());
+    let (with_events, _out) = {
+        let data = tempfile::tempdir().unwrap();
+        std::fs::copy(embedded().join(GOOD), data.path().join(GOOD)).unwrap();
+        run_study(&study_on(data.path(), Preset::Snug)).unwrap()
+    };
+    // The same tightenings, cut a few milliseconds elsewhere: the estimates lie within each other's intervals.
+    for (a, b) in std::iter::zip(&outcome.result.tightenings, &with_events.result.tightenings) {
+        let (a, b) = (a.estimate.as_ref().unwrap(), b.estimate.as_ref().unwrap());
+        let interval = b.parameter("stiffness_n_per_m").unwrap().interval.unwrap();
+        let found = a.value("stiffness_n_per_m").unwrap();
+        assert!((interval.low..interval.high).contains(&found), "{found}");
+    }
 }
 
 #[test]

@@ -154,9 +154,10 @@ fn validation(text: &mut String, result: &CampaignResult) {
             line(
                 text,
                 format_args!(
-                    "  validation {}: rms residual {} of the displacement",
+                    "  validation {}: rms residual of the displacement {} {}",
                     tightening.id,
-                    significant(rms)
+                    significant(rms * result.units.output_per_rad),
+                    result.units.output
                 ),
             );
         }

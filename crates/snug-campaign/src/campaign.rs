@@ -1,4 +1,6 @@
-use crate::{Diagnosis, Finding, Interval, Rejection, TighteningId, TighteningResult, Traces};
+use crate::{
+    Diagnosis, Finding, Interval, Rejection, SignalUnits, TighteningId, TighteningResult, Traces,
+};
 use serde::{Deserialize, Serialize};
 
 /// How many tightenings were rejected for one reason.
@@ -117,6 +119,8 @@ pub struct CampaignResult {
     pub preset: String,
     /// Which quantity was fitted, in words, for example `acceleration`.
     pub fitted_output: String,
+    /// In which units input and output are shown.
+    pub units: SignalUnits,
     /// Names of the effects in the model; empty for the base model.
     pub effects: Vec<String>,
     /// Both presets side by side (the one in use first).

@@ -1,19 +1,4 @@
-//! The words every Snug crate shares.
-//!
-//! A [`Recording`] is one measurement file in SI units; [`Tightening`]s are cut from it; a [`TighteningResult`] says
-//! what was identified, and a [`CampaignResult`] what all of them say together. This crate holds plain data: it reads
-//! no files, knows no model and computes nothing beyond one-line definitions.
-//!
-//! ```
-//! use snug_campaign::{Conditions, TighteningId, TimeBase};
-//!
-//! let time = TimeBase { start_s: 1.48, interval_s: 1e-4 };
-//! assert_eq!(time.at(100), 1.49);
-//! let id = TighteningId { file: "TP3_QS_Soft_8.mat".into(), number: 2 };
-//! assert_eq!(id.to_string(), "TP3_QS_Soft_8.mat #2");
-//! let conditions = Conditions { participant: Some("TP3".into()), ..Conditions::default() };
-//! assert!(conditions.strategy.is_none(), "what a file does not say stays unsaid");
-//! ```
+#![doc = include_str!("../README.md")]
 
 mod campaign;
 mod comparison;
@@ -28,6 +13,7 @@ mod recording;
 mod rig;
 mod tightening;
 mod time_base;
+mod units;
 
 pub use campaign::{
     CampaignResult, ConditionSummary, EffectSize, Moments, PresetSummary, QuantitySummary,
@@ -51,3 +37,4 @@ pub use tightening::{
     Traces,
 };
 pub use time_base::TimeBase;
+pub use units::SignalUnits;

@@ -66,6 +66,9 @@ pub struct Recording {
     pub grip_force_n: Option<Vec<f64>>,
     /// Whether a grip-force channel stands in the file under any known name (it selects the tool's inertia).
     pub has_force_channel: bool,
+    /// Name of the grip-force channel in its source, where it is one of the names of the thesis' layout.
+    #[serde(default)]
+    pub grip_force_channel: Option<String>,
     /// The tightenings' places, in file order; one segment over everything where the file has no events.
     pub segments: Vec<Segment>,
 }

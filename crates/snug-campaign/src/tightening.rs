@@ -137,8 +137,16 @@ pub struct FitMeasures {
     pub natural_frequency_high_hz: Option<f64>,
     /// Damped frequency of tool and hand–arm together \[Hz\]; `None` when overdamped.
     pub damped_frequency_hz: Option<f64>,
+    /// Lower end of its 95 % interval \[Hz\].
+    pub damped_frequency_low_hz: Option<f64>,
+    /// Upper end of its 95 % interval \[Hz\].
+    pub damped_frequency_high_hz: Option<f64>,
     /// ζ of tool and hand–arm together: c l² / (2 √(k l² (I_n + m l²))).
     pub damping_ratio: Option<f64>,
+    /// Lower end of its 95 % interval.
+    pub damping_ratio_low: Option<f64>,
+    /// Upper end of its 95 % interval.
+    pub damping_ratio_high: Option<f64>,
     /// ζ as the thesis checks it, with the tool's mass: c / (2 √(k (m + m_n))).
     pub thesis_damping_ratio: Option<f64>,
     /// max |F1| \[N\].

@@ -13,6 +13,7 @@ mod locate;
 mod ranking;
 mod score;
 mod settings;
+mod sizes;
 mod units;
 mod unlisted;
 

@@ -117,7 +117,6 @@ pub(crate) fn held(case: &Case, fitted: &Fitted) -> Option<Model> {
         let parameter = model.parameters_mut().iter_mut().find(|p| p.name == name)?;
         parameter.value = value;
         parameter.fixed = true;
-        parameter.standard_error = errors.as_ref().map(|errors| errors[column]);
     }
     Some(model)
 }

@@ -64,7 +64,9 @@ pub enum IdentifyError {
         quantity: Quantity,
     },
     /// Fewer samples are scored than parameters are free.
-    #[error("{residuals} scored samples cannot determine {parameters} parameters")]
+    #[error(
+        "{residuals} scored samples (after unscored_samples) cannot determine {parameters} parameters"
+    )]
     TooShort {
         /// Scored samples.
         residuals: usize,

@@ -68,12 +68,8 @@ pub struct CsvChannel {
     /// In which unit.
     pub unit: Unit,
     /// Factor before the unit, for gain or sign (−1: the sensor counts the other way). Default 1.
-    #[serde(default = "one")]
+    #[serde(default = "signal::as_it_is")]
     pub scale: f64,
-}
-
-fn one() -> f64 {
-    1.0
 }
 
 /// A column by the header's name or by place.
@@ -161,7 +157,7 @@ impl CsvLayout {
     /// # Errors
     /// [`IngestError::Setting`] naming the field.
     pub fn check(&self) -> Result<(), IngestError> {
-        signal::check(self.channels.iter().map(|c| (c.signal, c.unit, c.scale)))?;
+        signal::check(self.declared())?;
         range::check(&self.ranges)?;
         let (field, value, fits) = match &self.sampling {
             Sampling::Rate { hz } => ("sampling.hz", *hz, hz.is_finite() && *hz > 0.0),
@@ -215,20 +211,58 @@ impl CsvLayout {
             .to_string_lossy()
             .into_owned();
         let mut log = FindingLog::new(&file);
-        let mut wanted: Vec<(String, &Column)> = self
-            .channels
-            .iter()
-            .map(|channel| {
-                (
-                    format!("{:?}", channel.signal).to_lowercase(),
-                    &channel.column,
-                )
-            })
-            .collect();
-        if let Sampling::TimeColumn { column, .. } = &self.sampling {
-            wanted.push(("time".to_owned(), column));
-        }
-        let Table { mut columns, lines } = table::read(content, self, &wanted, &mut log)?;
+        let table = table::read(content, self, &self.wanted(), &mut log)?;
+        let (time_base, columns) = self.on_a_grid(table, &mut log)?;
+        let samples = columns.first().map_or(0, Vec::len);
+        let recording = Recording {
+            conditions: self
+                .conditions
+                .as_ref()
+                .map_or_else(Conditions::default, |pattern| {
+                    pattern.read(&[label.as_str()], &mut log)
+                }),
+            segments: range::segments(&self.ranges, samples, &mut log),
+            ..assemble(
+                file,
+                label,
+                time_base,
+                self.declared().zip(columns),
+                lever_arm_m,
+            )
+        };
+        Ok(Ingested {
+            recordings: vec![recording],
+            findings: log.finish(),
+        })
+    }
+
+    /// What the channels measure, in which unit, with which factor.
+    fn declared(&self) -> impl Iterator<Item = (Signal, Unit, f64)> + Clone {
+        self.channels.iter().map(|c| (c.signal, c.unit, c.scale))
+    }
+
+    /// The columns to read, each with what it holds: the channels, then the times where a column has them.
+    fn wanted(&self) -> Vec<(String, &Column)> {
+        let channels = self.channels.iter().map(|channel| {
+            (
+                format!("{:?}", channel.signal).to_lowercase(),
+                &channel.column,
+            )
+        });
+        let times = match &self.sampling {
+            Sampling::TimeColumn { column, .. } => Some(("time".to_owned(), column)),
+            Sampling::Rate { .. } => None,
+        };
+        channels.chain(times).collect()
+    }
+
+    /// The channels' samples on a uniform grid.
+    fn on_a_grid(
+        &self,
+        table: Table,
+        log: &mut FindingLog,
+    ) -> Result<(TimeBase, Vec<Vec<f64>>), IngestError> {
+        let Table { mut columns, lines } = table;
         let time_base = match &self.sampling {
             Sampling::Rate { hz } => TimeBase {
                 start_s: 0.0,
@@ -246,33 +280,10 @@ impl CsvLayout {
                     channels: &mut columns,
                     place: &|index| format!("line {}", lines[index]),
                 };
-                sampling::uniform(timed, *tolerance_ratio, &mut log)?
+                sampling::uniform(timed, *tolerance_ratio, log)?
             }
         };
-        let samples = columns.first().map_or(0, Vec::len);
-        let recording = Recording {
-            conditions: self
-                .conditions
-                .as_ref()
-                .map_or_else(Conditions::default, |pattern| {
-                    pattern.read(&[label.as_str()], &mut log)
-                }),
-            segments: range::segments(&self.ranges, samples, &mut log),
-            ..assemble(
-                file,
-                label,
-                time_base,
-                self.channels
-                    .iter()
-                    .map(|c| (c.signal, c.unit, c.scale))
-                    .zip(columns),
-                lever_arm_m,
-            )
-        };
-        Ok(Ingested {
-            recordings: vec![recording],
-            findings: log.finish(),
-        })
+        Ok((time_base, columns))
     }
 }
 
@@ -293,6 +304,7 @@ pub(crate) fn assemble(
         motion: Motion::default(),
         grip_force_n: None,
         has_force_channel: false,
+        grip_force_channel: None,
         segments: Vec::new(),
     };
     for ((signal, unit, scale), mut samples) in channels {

@@ -23,6 +23,12 @@ pub enum IngestError {
         /// The path.
         path: PathBuf,
     },
+    /// The data path names a device, a pipe or the like.
+    #[error("{} is neither a folder nor a regular file: the study's data path must name one of them", path.display())]
+    NotAFile {
+        /// The path.
+        path: PathBuf,
+    },
     /// The folder holds no file of the formats that the source reads.
     #[error("{} holds no file to read: {others} file(s) are there, none ends in {expected}", folder.display())]
     NothingToRead {
@@ -339,9 +345,9 @@ impl IngestError {
     pub fn finding(&self) -> Finding {
         let file = match self {
             Self::File { path, .. } => path.file_name(),
-            Self::NoSuchPath { path } | Self::NothingToRead { folder: path, .. } => {
-                path.file_name()
-            }
+            Self::NoSuchPath { path }
+            | Self::NotAFile { path }
+            | Self::NothingToRead { folder: path, .. } => path.file_name(),
             _ => None,
         };
         Finding {
@@ -361,9 +367,10 @@ impl IngestError {
     pub fn code(&self) -> &'static str {
         match self {
             Self::File { source, .. } => source.code(),
-            Self::NoSuchPath { .. } | Self::NothingToRead { .. } | Self::NoSuchFile { .. } => {
-                "missing_data"
-            }
+            Self::NoSuchPath { .. }
+            | Self::NotAFile { .. }
+            | Self::NothingToRead { .. }
+            | Self::NoSuchFile { .. } => "missing_data",
             Self::Setting { .. } => "bad_setting",
             Self::FormatNotBuilt { .. } => "unknown_format",
             Self::MissingChannel { .. } => "missing_channel",

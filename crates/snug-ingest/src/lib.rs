@@ -9,6 +9,7 @@ pub mod mcap;
 mod range;
 mod sampling;
 mod signal;
+mod signal_units;
 mod source;
 mod thesis_layout;
 

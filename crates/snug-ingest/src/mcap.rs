@@ -50,22 +50,23 @@ pub struct McapChannel {
     /// In which unit.
     pub unit: Unit,
     /// Factor before the unit, for gain or sign. Default 1.
-    #[serde(default = "one")]
+    #[serde(default = "signal::as_it_is")]
     pub scale: f64,
 }
 
-fn one() -> f64 {
-    1.0
-}
-
 impl McapLayout {
+    /// What the channels measure, in which unit, with which factor.
+    fn declared(&self) -> impl Iterator<Item = (Signal, Unit, f64)> + Clone {
+        self.channels.iter().map(|c| (c.signal, c.unit, c.scale))
+    }
+
     /// Checks the settings that no type can check.
     ///
     /// # Errors
     /// [`IngestError::Setting`] naming the field.
     pub fn check(&self) -> Result<(), IngestError> {
         if !self.channels.is_empty() {
-            signal::check(self.channels.iter().map(|c| (c.signal, c.unit, c.scale)))?;
+            signal::check(self.declared())?;
         }
         range::check(&self.ranges)?;
         for (field, value) in [

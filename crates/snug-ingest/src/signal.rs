@@ -35,8 +35,10 @@ impl Signal {
 /// The unit of a column or topic. Lengths of the grip become angles by the rig's lever arm, θ = x/l.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Unit {
-    /// The SI unit of the signal about the joint (Nm, rad, rad/s, rad/s², N), or a voltage that stands for it 1:1.
+    /// A pure number that stands for the signal in SI units about the joint (Nm, rad, rad/s, rad/s², N) 1:1.
     One,
+    /// V, a voltage that stands for the signal in SI units about the joint 1:1.
+    Volt,
     /// N m
     NewtonMetre,
     /// N cm = 0.01 N m
@@ -111,7 +113,7 @@ impl Unit {
     pub fn factor(self, signal: Signal, lever_arm_m: f64) -> Option<f64> {
         use Signal::{Acceleration, Displacement, GripForce, Torque, Velocity};
         let (measures, factor, length) = match self {
-            Self::One => (signal, 1.0, false),
+            Self::One | Self::Volt => (signal, 1.0, false),
             Self::NewtonMetre => (Torque, 1.0, false),
             Self::NewtonCentimetre => (Torque, 0.01, false),
             Self::NewtonMillimetre => (Torque, 0.001, false),
@@ -141,6 +143,11 @@ impl Unit {
         let per_length = if length { 1.0 / lever_arm_m } else { 1.0 };
         (measures == signal).then_some(factor * per_length)
     }
+}
+
+/// The default of a channel's factor.
+pub(crate) fn as_it_is() -> f64 {
+    1.0
 }
 
 /// Checks a set of declared channels: units fit, torque and a motion are there, nothing is declared twice.

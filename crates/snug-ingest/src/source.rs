@@ -106,7 +106,7 @@ impl Source {
 /// passed over.
 ///
 /// # Errors
-/// [`IngestError::NoSuchPath`], [`IngestError::NothingToRead`], [`IngestError::NoSuchFile`].
+/// [`IngestError::NoSuchPath`], [`IngestError::NotAFile`], [`IngestError::NothingToRead`], [`IngestError::NoSuchFile`].
 pub fn list(source: &Source, path: &Path) -> Result<Listing, IngestError> {
     if path.is_file() {
         return Ok(Listing {
@@ -115,8 +115,11 @@ pub fn list(source: &Source, path: &Path) -> Result<Listing, IngestError> {
         });
     }
     if !path.is_dir() {
-        return Err(IngestError::NoSuchPath {
-            path: path.to_owned(),
+        let path = path.to_owned();
+        return Err(if path.exists() {
+            IngestError::NotAFile { path }
+        } else {
+            IngestError::NoSuchPath { path }
         });
     }
     if !source.files.is_empty() {

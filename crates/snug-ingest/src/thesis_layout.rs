@@ -139,6 +139,7 @@ impl ThesisLayout {
             },
             grip_force_n: channels.force,
             has_force_channel: force.is_some(),
+            grip_force_channel: force.map(|(name, _)| name.to_owned()),
             segments,
         };
         Ok(Ingested {
@@ -193,7 +194,7 @@ impl ThesisLayout {
                 "no_events",
                 About::File,
                 format!(
-                    "no table of events ({}); the whole file of {samples} samples is one tightening",
+                    "no table of events ({}); the whole file of {samples} samples is one segment",
                     self.events.join(" or ")
                 ),
             );

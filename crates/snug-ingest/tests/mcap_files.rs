@@ -120,6 +120,7 @@ fn measurement(file: &str) -> Recording {
         },
         grip_force_n: None,
         has_force_channel: false,
+        grip_force_channel: None,
         segments: vec![Segment {
             number: 1,
             start: 0,

@@ -39,7 +39,6 @@ pub use input::Input;
 pub use model::{Assembly, BASE_PARAMETERS, MAXIMUM_FREE, Model, THESIS_START};
 pub use number::Number;
 pub use oscillation::{
-    damped_frequency_hz, damping_ratio, natural_frequency_hz, natural_frequency_standard_error_hz,
-    thesis_damping_ratio,
+    damped_frequency_hz, damping_ratio, natural_frequency_hz, thesis_damping_ratio,
 };
 pub use settings::{ModelSettings, ParameterSettings};

@@ -7,22 +7,6 @@ pub fn natural_frequency_hz(mass_kg: f64, stiffness_n_per_m: f64) -> Option<f64>
     (square >= 0.0 && square.is_finite()).then(|| square.sqrt() / (2.0 * PI))
 }
 
-/// Standard error of √(k/m) / 2π \[Hz\] to first order: f/2 √(var k/k² + var m/m² − 2 cov(m, k)/(m k)).
-pub fn natural_frequency_standard_error_hz(
-    mass_kg: f64,
-    stiffness_n_per_m: f64,
-    mass_variance: f64,
-    stiffness_variance: f64,
-    covariance: f64,
-) -> Option<f64> {
-    let frequency = natural_frequency_hz(mass_kg, stiffness_n_per_m)?;
-    let relative = mass_variance / (mass_kg * mass_kg)
-        + stiffness_variance / (stiffness_n_per_m * stiffness_n_per_m)
-        - 2.0 * covariance / (mass_kg * stiffness_n_per_m);
-    let error = 0.5 * frequency * relative.max(0.0).sqrt();
-    error.is_finite().then_some(error)
-}
-
 /// ζ = c l² / (2 √(k l² (I_n + m l²))) of tool and hand–arm together; light damping is ζ < 1.
 pub fn damping_ratio(
     rig: &Rig,

@@ -3,6 +3,7 @@
 mod autoregression;
 mod bias;
 mod channel;
+mod division;
 mod error;
 mod faults;
 mod integration;

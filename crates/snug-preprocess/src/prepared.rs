@@ -1,6 +1,6 @@
 use crate::ThesisChecks;
 use serde::{Deserialize, Serialize};
-use snug_campaign::{Finding, Rejection, Tightening};
+use snug_campaign::{Finding, Rejection, Segment, Tightening};
 
 /// A tightening that can be fitted, with what preprocessing holds against it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -29,6 +29,8 @@ impl Prepared {
 /// Every segment is either one of `tightenings`, or has a finding of severity `LeftOut` that says why not.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Preprocessed {
+    /// The tightenings' places: the recording's segments, or what preset `snug` divided a file without events into.
+    pub segments: Vec<Segment>,
     /// Tightenings in file order.
     pub tightenings: Vec<Prepared>,
     /// What was noticed, repaired or left out, in file order. `LeftOut` also marks a tightening that is kept for the fit

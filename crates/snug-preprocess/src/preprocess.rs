@@ -1,7 +1,8 @@
+use crate::division;
 use crate::presets::{Context, snug, thesis, whole};
 use crate::remarks::Remarks;
 use crate::{PreprocessError, PreprocessSettings, Preprocessed, Preset, Window};
-use snug_campaign::{Finding, Quantity, Recording, Severity, TighteningId};
+use snug_campaign::{Finding, Quantity, Recording, Segment, Severity, TighteningId};
 
 /// Sampling intervals between a nanosecond and eleven days; beyond them sample counts have no meaning.
 const SHORTEST_INTERVAL_S: f64 = 1e-9;
@@ -33,7 +34,13 @@ pub fn preprocess(
         rig: settings.rig.rig(recording),
         interval_s: recording.time_base.interval_s,
     };
-    for segment in &recording.segments {
+    let division = match (settings.window, settings.preset) {
+        (Window::Pulse { start_s, .. }, Preset::Snug) => division::segments(&context, start_s),
+        _ => recording.segments.clone(),
+    };
+    result.findings.extend(divided(recording, &division));
+    result.findings.extend(force_left_out(&context));
+    for segment in &division {
         let mut remarks = Remarks::new(TighteningId {
             file: recording.file.clone(),
             number: segment.number,
@@ -55,6 +62,7 @@ pub fn preprocess(
             Err(finding) => result.findings.push(finding),
         }
     }
+    result.segments = division;
     result.findings.extend(goes_up(recording, &result));
     tracing::debug!(
         file = %recording.file,
@@ -76,6 +84,36 @@ fn refuse_bad_interval(context: &Context<'_>, remarks: &Remarks) -> Result<(), F
         "the sampling interval is {interval_s} s, it must lie between 1e-9 and 1e6 s; the tightening is left out"
     );
     Err(remarks.left_out("bad_sample_interval", None, message))
+}
+
+/// Says that a recording without events was divided.
+fn divided(recording: &Recording, division: &[Segment]) -> Option<Finding> {
+    (division.len() > recording.segments.len()).then(|| {
+        let message = format!(
+            "the file has no events; its {} torque pulses with a quiet part of their own before them are taken as one \
+             tightening each",
+            division.len()
+        );
+        file_finding(recording, Severity::Note, "divided_by_pulses", message)
+    })
+}
+
+/// The original takes the grip force of files that call it `F_op_J` only.
+fn force_left_out(context: &Context<'_>) -> Option<Finding> {
+    let recording = context.recording;
+    let name = recording.grip_force_channel.as_deref()?;
+    (thesis::leaves_force_out(context) && recording.grip_force_n.is_some()).then(|| Finding {
+        channel: Some(name.to_owned()),
+        ..file_finding(
+            recording,
+            Severity::Note,
+            "grip_force_not_taken",
+            format!(
+                "the measured grip force {name} is not reported: as in the original program, it chooses the tool's \
+                 inertia, but only a channel called F_op_J counts as measured force"
+            ),
+        )
+    })
 }
 
 /// The original's overwritten code 1, once per file: how many tightenings it would have rejected.

@@ -114,6 +114,7 @@ pub(crate) fn recording(seeds: &[u64], bias_rad_per_s2: f64) -> Recording {
         },
         grip_force_n: Some(force),
         has_force_channel: true,
+        grip_force_channel: Some("F_op_J".into()),
         segments: (0..seeds.len())
             .map(|index| Segment {
                 number: index as u32 + 1,

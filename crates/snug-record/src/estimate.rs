@@ -108,10 +108,34 @@ const MEASURES: &[Field] = &[
         "Damped frequency of tool, hand and arm",
     ),
     field(
+        "damped_frequency_low_hz",
+        Kind::Double,
+        "Hz",
+        "Damped frequency: lower end of the 95 % interval",
+    ),
+    field(
+        "damped_frequency_high_hz",
+        Kind::Double,
+        "Hz",
+        "Damped frequency: upper end of the 95 % interval",
+    ),
+    field(
         "damping_ratio",
         Kind::Double,
         "",
         "Damping ratio of tool, hand and arm",
+    ),
+    field(
+        "damping_ratio_low",
+        Kind::Double,
+        "",
+        "Damping ratio: lower end of the 95 % interval",
+    ),
+    field(
+        "damping_ratio_high",
+        Kind::Double,
+        "",
+        "Damping ratio: upper end of the 95 % interval",
     ),
     field(
         "thesis_damping_ratio",

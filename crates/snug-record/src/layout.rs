@@ -40,10 +40,29 @@ pub fn layout(parameters: &[&str]) -> String {
 }
 
 fn tightening_tab(panels: &mut Map<String, Value>) -> Value {
-    let signal = |path: &str, label: &str, color: &str| {
-        let value = format!("{}.{path}", topic::SIGNALS);
-        series(&value, label, color, true)
-    };
+    let left = motion_plots(panels);
+    let right = difference_plots(panels);
+    let tables = [
+        table(
+            panels,
+            "parameters",
+            "Parameters",
+            &format!("{}.parameters[:]", topic::ESTIMATE),
+        ),
+        raw(panels, "estimate", "Estimate", topic::ESTIMATE),
+        raw(panels, "window", "Tightening", topic::WINDOW),
+    ];
+    let plots = split("row", column(&left), column(&right), 50.0);
+    split("row", plots, column(&tables), 70.0)
+}
+
+/// A line over the samples of a tightening.
+fn signal(path: &str, label: &str, color: &str) -> Value {
+    series(&format!("{}.{path}", topic::SIGNALS), label, color, true)
+}
+
+/// Torque, displacement and acceleration, measured against simulated.
+fn motion_plots(panels: &mut Map<String, Value>) -> [Value; 3] {
     let motion = |quantity: &str| {
         vec![
             signal(&format!("measured.{quantity}"), "measured", BLUE),
@@ -52,7 +71,7 @@ fn tightening_tab(panels: &mut Map<String, Value>) -> Value {
     };
     let mut displacement = motion("displacement_rad");
     displacement.push(signal("simulated.euler_displacement_rad", "Euler", GREY));
-    let left = [
+    [
         plot(
             panels,
             "torque",
@@ -66,52 +85,36 @@ fn tightening_tab(panels: &mut Map<String, Value>) -> Value {
             "Acceleration [rad/s²]",
             motion("acceleration_rad_per_s2"),
         ),
+    ]
+}
+
+/// Residuals and forces.
+fn difference_plots(panels: &mut Map<String, Value>) -> [Value; 3] {
+    let residual = |quantity: &str| {
+        let path = format!("residual.{quantity}");
+        vec![signal(&path, "measured − simulated", RED)]
+    };
+    let forces = vec![
+        signal("forces.force_f1_n", "F1", RED),
+        signal("forces.force_f2_n", "F2", BLUE),
+        signal("forces.force_f3_n", "F3", GREEN),
+        signal("forces.grip_force_n", "F_op_J", GREY),
     ];
-    let right = [
+    [
         plot(
             panels,
             "residual",
             "Residual of the acceleration [rad/s²]",
-            vec![signal(
-                "residual.acceleration_rad_per_s2",
-                "measured − simulated",
-                RED,
-            )],
+            residual("acceleration_rad_per_s2"),
         ),
         plot(
             panels,
             "residual_displacement",
             "Residual of the displacement [rad]",
-            vec![signal(
-                "residual.displacement_rad",
-                "measured − simulated",
-                RED,
-            )],
+            residual("displacement_rad"),
         ),
-        plot(
-            panels,
-            "forces",
-            "Force between tool and hand [N]",
-            vec![
-                signal("forces.force_f1_n", "F1", RED),
-                signal("forces.force_f2_n", "F2", BLUE),
-                signal("forces.force_f3_n", "F3", GREEN),
-                signal("forces.grip_force_n", "F_op_J", GREY),
-            ],
-        ),
-    ];
-    let tables = [
-        table(
-            panels,
-            "parameters",
-            "Parameters",
-            &format!("{}.parameters[:]", topic::ESTIMATE),
-        ),
-        raw(panels, "estimate", "Estimate", topic::ESTIMATE),
-        raw(panels, "window", "Tightening", topic::WINDOW),
-    ];
-    let plots = split("row", column(&left), column(&right), 50.0);
-    split("row", plots, column(&tables), 70.0)
+        plot(panels, "forces", "Force between tool and hand [N]", forces),
+    ]
 }
 
 fn parameters_tab(panels: &mut Map<String, Value>, parameters: &[&str]) -> Value {

@@ -20,6 +20,8 @@ pub(crate) struct FileHeader {
     pub(crate) samples: usize,
     pub(crate) channels: Vec<String>,
     pub(crate) has_force_channel: bool,
+    #[serde(default)]
+    pub(crate) grip_force_channel: Option<String>,
     pub(crate) segments: Vec<Segment>,
 }
 
@@ -57,6 +59,7 @@ pub(crate) const FILE: Message = Message {
             "",
             "A grip-force channel stands in the file",
         ),
+        field("grip_force_channel", Kind::Text, "", "Its name in the file"),
         field(
             "segments",
             Kind::List(&Kind::Object(SEGMENT)),
@@ -146,6 +149,7 @@ pub(crate) fn header(recording: &Recording) -> FileHeader {
             .map(|(name, _)| (*name).to_owned())
             .collect(),
         has_force_channel: recording.has_force_channel,
+        grip_force_channel: recording.grip_force_channel.clone(),
         segments: recording.segments.clone(),
     }
 }
@@ -242,6 +246,7 @@ impl Assembly {
             },
             grip_force_n,
             has_force_channel: self.header.has_force_channel,
+            grip_force_channel: self.header.grip_force_channel,
             segments: self.header.segments,
         };
         (recording, whole)

@@ -11,6 +11,7 @@ mod page;
 mod quantity;
 mod quartiles;
 mod section;
+mod signal_unit;
 mod statistics_json;
 mod tightenings_csv;
 mod traces_json;

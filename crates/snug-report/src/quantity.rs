@@ -1,5 +1,6 @@
 //! What a column name means: `stiffness_n_per_m` is read as "stiffness k" in N/m.
 
+use crate::signal_unit;
 use snug_campaign::CampaignResult;
 
 /// How a quantity is called on the page.
@@ -50,7 +51,8 @@ pub fn name(column: &str, result: &CampaignResult) -> QuantityName {
         return QuantityName {
             words: (*words).into(),
             symbol,
-            unit: (*unit).into(),
+            unit: signal_unit::base_parameter(&result.units, column)
+                .unwrap_or_else(|| (*unit).into()),
         };
     }
     let (stem, suffix_unit) = split_unit(column);
@@ -63,7 +65,7 @@ pub fn name(column: &str, result: &CampaignResult) -> QuantityName {
     QuantityName {
         words: stem.replace('_', " "),
         symbol: "",
-        unit: declared.unwrap_or(suffix_unit),
+        unit: signal_unit::effect_parameter(&result.units, declared.unwrap_or(suffix_unit)),
     }
 }
 

@@ -29,7 +29,7 @@ const BASE_PARAMETERS: [&str; 3] = ["mass_kg", "damping_kg_per_s", "stiffness_n_
 type Measure = (&'static str, fn(&FitMeasures) -> Option<f64>);
 
 /// Measures that follow the parameters.
-const MEASURES: [Measure; 12] = [
+const MEASURES: [Measure; 16] = [
     ("natural_frequency_hz_low", |measures| {
         measures.natural_frequency_low_hz
     }),
@@ -48,7 +48,15 @@ const MEASURES: [Measure; 12] = [
     ("damped_frequency_hz", |measures| {
         measures.damped_frequency_hz
     }),
+    ("damped_frequency_hz_low", |measures| {
+        measures.damped_frequency_low_hz
+    }),
+    ("damped_frequency_hz_high", |measures| {
+        measures.damped_frequency_high_hz
+    }),
     ("damping_ratio", |measures| measures.damping_ratio),
+    ("damping_ratio_low", |measures| measures.damping_ratio_low),
+    ("damping_ratio_high", |measures| measures.damping_ratio_high),
     ("thesis_damping_ratio", |measures| {
         measures.thesis_damping_ratio
     }),

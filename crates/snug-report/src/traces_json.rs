@@ -2,8 +2,9 @@
 
 use crate::decimation;
 use crate::number::drawn;
+use crate::signal_unit::motion_axis;
 use serde_json::{Value, json};
-use snug_campaign::{CampaignResult, Quantity, Traces};
+use snug_campaign::{CampaignResult, Quantity, SignalUnits, Traces};
 
 /// Points over all examples together: keeps the page small, and a lone example fine enough to zoom into.
 const POINTS_IN_ALL: usize = 24_000;
@@ -28,7 +29,7 @@ pub struct Panel {
     /// Heading.
     pub title: &'static str,
     /// Vertical axis: quantity and unit.
-    pub axis: &'static str,
+    pub axis: String,
     /// Signals from back to front.
     pub series: Vec<Series>,
     /// Whether it shows a residual, with the band of the noise behind it.
@@ -55,55 +56,13 @@ fn residual(measured: &'static str, simulated: &'static str) -> Vec<Series> {
 
 /// The panels, in reading order, that at least one example has signals for.
 pub fn panels(result: &CampaignResult) -> Vec<Panel> {
-    let (measured, simulated, axis) = match residual_quantity(result) {
-        Quantity::Displacement => ("xm", "xs", "residual of the angle [rad]"),
-        Quantity::Velocity => ("vm", "vs", "residual of the velocity [rad/s]"),
-        Quantity::Acceleration => ("am", "as", "residual [rad/s²]"),
-    };
-    let mut panels = vec![
-        Panel {
-            title: "Curve fit: displacement",
-            axis: "angle θ [rad]",
-            series: vec![
-                series("xm", "measured", "c-measured broad"),
-                series("xs", "simulated", "c-simulated"),
-                series("xe", "Euler method", "c-euler"),
-            ],
-            residual: false,
-        },
-        Panel {
-            title: "Acceleration",
-            axis: "acceleration α [rad/s²]",
-            series: vec![
-                series("am", "measured", "c-measured"),
-                series("as", "simulated", "c-simulated"),
-            ],
-            residual: false,
-        },
-        Panel {
-            title: "Residual of the fitted output",
-            axis,
-            series: residual(measured, simulated),
-            residual: true,
-        },
-        Panel {
-            title: "Force between tool and hand",
-            axis: "force [N]",
-            series: vec![
-                series("f2", "F2 from measured α", "c-f2"),
-                series("fo", "F_op_J measured", "c-measured"),
-                series("f3", "F3 from simulated α", "c-f3"),
-                series("f1", "F1 spring and damper", "c-f1"),
-            ],
-            residual: false,
-        },
-        Panel {
-            title: "Torque pulse",
-            axis: "joint torque T [Nm]",
-            series: vec![series("tq", "measured", "c-measured")],
-            residual: false,
-        },
-    ];
+    let units = &result.units;
+    let mut panels = motion_panels(units);
+    panels.push(residual_panel(residual_quantity(result), units));
+    if units.input_is_torque() {
+        panels.push(force_panel());
+    }
+    panels.push(input_panel(units));
     let there = |key| {
         result
             .examples
@@ -117,6 +76,72 @@ pub fn panels(result: &CampaignResult) -> Vec<Panel> {
     }
     panels.retain(|panel| !panel.series.is_empty());
     panels
+}
+
+fn motion_panels(units: &SignalUnits) -> Vec<Panel> {
+    vec![
+        Panel {
+            title: "Curve fit: displacement",
+            axis: motion_axis(units, Quantity::Displacement),
+            series: vec![
+                series("xm", "measured", "c-measured broad"),
+                series("xs", "simulated", "c-simulated"),
+                series("xe", "Euler method", "c-euler"),
+            ],
+            residual: false,
+        },
+        Panel {
+            title: "Acceleration",
+            axis: motion_axis(units, Quantity::Acceleration),
+            series: vec![
+                series("am", "measured", "c-measured"),
+                series("as", "simulated", "c-simulated"),
+            ],
+            residual: false,
+        },
+    ]
+}
+
+fn residual_panel(quantity: Quantity, units: &SignalUnits) -> Panel {
+    let (measured, simulated) = match quantity {
+        Quantity::Displacement => ("xm", "xs"),
+        Quantity::Velocity => ("vm", "vs"),
+        Quantity::Acceleration => ("am", "as"),
+    };
+    Panel {
+        title: "Residual of the fitted output",
+        axis: format!("residual: {}", motion_axis(units, quantity)),
+        series: residual(measured, simulated),
+        residual: true,
+    }
+}
+
+fn force_panel() -> Panel {
+    Panel {
+        title: "Force between tool and hand",
+        axis: "force [N]".into(),
+        series: vec![
+            series("f2", "F2 from measured α", "c-f2"),
+            series("fo", "F_op_J measured", "c-measured"),
+            series("f3", "F3 from simulated α", "c-f3"),
+            series("f1", "F1 spring and damper", "c-f1"),
+        ],
+        residual: false,
+    }
+}
+
+fn input_panel(units: &SignalUnits) -> Panel {
+    let (title, axis) = if units.input_is_torque() {
+        ("Torque pulse", "joint torque T [Nm]".to_owned())
+    } else {
+        ("Input", format!("input [{}]", units.input))
+    };
+    Panel {
+        title,
+        axis,
+        series: vec![series("tq", "measured", "c-measured")],
+        residual: false,
+    }
 }
 
 /// The fitted quantity where the examples hold it measured and simulated, else the first that they do hold.
@@ -168,6 +193,8 @@ pub struct Example<'a> {
     pub tightening: usize,
     traces: &'a Traces,
     kept: Vec<usize>,
+    /// What motions \[rad …\] are multiplied with to be shown.
+    output_per_rad: f64,
 }
 
 /// The examples whose tightening exists, each decimated to its share of the points.
@@ -178,13 +205,15 @@ pub fn examples(result: &CampaignResult) -> Vec<Example<'_>> {
         .examples
         .iter()
         .filter(|(tightening, _)| *tightening < result.tightenings.len())
-        .map(|(tightening, traces)| Example::new(*tightening, traces, points))
+        .map(|(tightening, traces)| {
+            Example::new(*tightening, traces, points, result.units.output_per_rad)
+        })
         .collect()
 }
 
 impl<'a> Example<'a> {
     /// Chooses the samples to draw, at most about `points`.
-    pub fn new(tightening: usize, traces: &'a Traces, points: usize) -> Self {
+    pub fn new(tightening: usize, traces: &'a Traces, points: usize, output_per_rad: f64) -> Self {
         let all = |keys: &[&str]| -> Vec<&'a [f64]> {
             keys.iter().filter_map(|key| samples(traces, key)).collect()
         };
@@ -194,12 +223,13 @@ impl<'a> Example<'a> {
             tightening,
             traces,
             kept: decimation::indices(leading, &others, points),
+            output_per_rad,
         }
     }
 
     /// The same example with fewer points, for the still picture.
     pub fn coarser(&self, points: usize) -> Self {
-        Self::new(self.tightening, self.traces, points)
+        Self::new(self.tightening, self.traces, points, self.output_per_rad)
     }
 
     /// Unit of the time axis and how many of it one second has: milliseconds up to two seconds.
@@ -230,11 +260,13 @@ impl<'a> Example<'a> {
             Some(key) => Some(samples(self.traces, key)?),
             None => None,
         };
+        let motion = matches!(series.key.as_bytes().first(), Some(b'x' | b'v' | b'a'));
+        let scale = if motion { self.output_per_rad } else { 1.0 };
         let value = |index: usize| {
             let first = *first.get(index)?;
             match second {
-                Some(second) => drawn(first - second.get(index)?, DIGITS),
-                None => drawn(first, DIGITS),
+                Some(second) => drawn(scale * (first - second.get(index)?), DIGITS),
+                None => drawn(scale * first, DIGITS),
             }
         };
         Some(self.kept.iter().map(|index| value(*index)).collect())

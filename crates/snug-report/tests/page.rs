@@ -4,7 +4,7 @@
 mod markup;
 mod specimen;
 
-use snug_campaign::{CampaignResult, Finding, Rejection, Severity};
+use snug_campaign::{CampaignResult, Finding, Rejection, Severity, SignalUnits};
 use snug_report::html;
 
 /// Text of the page outside scripts and styles, tags taken out.
@@ -156,6 +156,115 @@ fn axes_and_columns_carry_units() {
     }
 }
 
+/// The facts of every example in the viewer's data: name, value with unit, interval.
+fn facts(page: &str) -> Vec<[String; 3]> {
+    let data = viewer_data(page);
+    let examples = data["examples"].as_array().unwrap().iter();
+    examples
+        .flat_map(|example| serde_json::from_value::<Vec<[String; 3]>>(example["facts"].clone()))
+        .flatten()
+        .collect()
+}
+
+fn viewer_data(page: &str) -> serde_json::Value {
+    let start = page.find("id=\"viewer-data\">").unwrap() + "id=\"viewer-data\">".len();
+    let end = start + page[start..].find("</script>").unwrap();
+    serde_json::from_str(&page[start..end]).unwrap()
+}
+
+#[test]
+fn every_number_of_a_tightening_has_an_interval_or_says_what_it_is() {
+    let facts = facts(&html(&specimen::campaign(4)));
+    let of = |name: &str| facts.iter().find(|fact| fact[0] == name).unwrap();
+    assert_eq!(
+        of("damped frequency with the tool")[2],
+        "[3.062,\u{a0}3.138]"
+    );
+    assert_eq!(
+        of("damping ratio ζ with the tool")[2],
+        "[0.348,\u{a0}0.372]"
+    );
+    assert_eq!(of("|F3|")[2], "largest of this window");
+    for fact in &facts {
+        assert!(!fact[2].is_empty(), "{fact:?}");
+    }
+}
+
+#[test]
+fn key_numbers_show_one_statistic_with_its_own_interval() {
+    let result = specimen::campaign(24);
+    let words = text(&html(&result));
+    let mass = result.conditions[0].quantities[0]
+        .selected
+        .as_ref()
+        .unwrap();
+    let card = &words[words.find("Mass m, mean").unwrap()..];
+    let card = &card[..card.find("Damping").unwrap()];
+    assert!(card.contains(&format!("{:.2}", mass.mean)), "{card}");
+    assert!(card.contains("95 % interval ["), "{card}");
+    assert!(!card.contains("median"), "{card}");
+}
+
+#[test]
+fn bars_say_their_unit() {
+    let page = html(&specimen::campaign(24));
+    let bar = page.split("<title>").find(|text| {
+        text.starts_with(|c: char| c.is_ascii_digit()) && text.contains(" kg</title>")
+    });
+    assert!(bar.unwrap().contains("tightening"), "{bar:?}");
+}
+
+#[test]
+fn a_rig_that_measures_volts_shows_volts() {
+    let mut result = specimen::campaign(4);
+    result.units = SignalUnits {
+        input: "V".into(),
+        output: "V".into(),
+        output_per_rad: 1.0,
+    };
+    let page = html(&result);
+    let data = viewer_data(&page).to_string();
+    assert!(!data.contains("rad") && !data.contains("Nm") && !data.contains("kg"));
+    let words = text(&page);
+    // The glossary explains the mechanical terms and says what stands for them.
+    let (words, glossary) = words.split_at(words.rfind("Terms, symbols and units").unwrap());
+    assert!(glossary.contains("its input in V and its output in V"));
+    for label in [
+        "output [V]",
+        "input [V]",
+        "mass m [V/(V/s²)]",
+        "stiffness k [V/V]",
+    ] {
+        assert!(words.contains(label), "{label}");
+    }
+    for label in [
+        "joint torque T [Nm]",
+        "mass m [kg]",
+        "force [N]",
+        "hand and arm",
+    ] {
+        assert!(!words.contains(label), "{label}");
+    }
+}
+
+#[test]
+fn a_rig_that_measures_lengths_shows_metres() {
+    let mut result = specimen::campaign(1);
+    result.units.output = "m".into();
+    result.units.output_per_rad = 0.5;
+    let data = viewer_data(&html(&result));
+    assert_eq!(data["panels"][0]["axis"], "displacement of the grip [m]");
+    let drawn = data["examples"][0]["signals"][0][0].as_array().unwrap();
+    let angle_rad = result.examples[0]
+        .1
+        .measured
+        .displacement_rad
+        .as_ref()
+        .unwrap();
+    let last = drawn.last().unwrap().as_f64().unwrap();
+    assert!((last - 0.5 * angle_rad[2999]).abs() <= 5e-6 * last.abs());
+}
+
 #[test]
 fn small_p_values_are_not_zero_and_untestable_ones_say_why() {
     let page = html(&specimen::campaign(24));
@@ -241,9 +350,7 @@ fn what_is_not_finite_never_reaches_the_reader() {
 fn the_data_of_the_viewer_are_the_measured_samples() {
     let result = specimen::campaign(2);
     let page = html(&result);
-    let start = page.find("id=\"viewer-data\">").unwrap() + "id=\"viewer-data\">".len();
-    let end = start + page[start..].find("</script>").unwrap();
-    let data: serde_json::Value = serde_json::from_str(&page[start..end]).unwrap();
+    let data = viewer_data(&page);
     let example = &data["examples"][1];
     let panel = data["panels"]
         .as_array()

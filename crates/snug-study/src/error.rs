@@ -1,10 +1,11 @@
+use crate::position;
 use snug_identify::IdentifyError;
 use snug_ingest::IngestError;
 use snug_model::ModelError;
 use snug_preprocess::PreprocessError;
 use snug_record::RecordError;
 use snug_report::ReportError;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 /// Why a study cannot be read or run.
@@ -29,6 +30,18 @@ pub enum StudyError {
         column: usize,
         /// What was found and what is allowed there.
         message: String,
+    },
+    /// A setting that stands in the study file is not allowed.
+    #[error("{}:{line}:{column}: {source}", path.display())]
+    InFile {
+        /// Which file.
+        path: PathBuf,
+        /// 1-based line of the field.
+        line: usize,
+        /// 1-based column of the field.
+        column: usize,
+        /// What is not allowed.
+        source: Box<StudyError>,
     },
     /// A value of the study has no RON form.
     #[error("the study cannot be written as RON: {source}")]
@@ -55,6 +68,20 @@ pub enum StudyError {
         parameter: String,
         /// Its fixed value.
         value: f64,
+    },
+    /// A range is no longer than what is not scored of it.
+    #[error(
+        "{setting} is {unscored}, but the range `{range}` has {samples} samples only: nothing of it would be scored"
+    )]
+    NothingScored {
+        /// Path of the field.
+        setting: &'static str,
+        /// Its value.
+        unscored: usize,
+        /// The range.
+        range: String,
+        /// Its length.
+        samples: usize,
     },
     /// The source has no range of that name.
     #[error("validation.ranges: there is no range `{name}` in the source; it has: {}", known.join(", "))]
@@ -107,7 +134,9 @@ impl StudyError {
             self,
             Self::Read { .. }
                 | Self::Syntax { .. }
+                | Self::InFile { .. }
                 | Self::Setting { .. }
+                | Self::NothingScored { .. }
                 | Self::UnknownRange { .. }
                 | Self::FixedAgainstConstraint { .. }
                 | Self::Ingest(IngestError::Setting { .. })
@@ -116,5 +145,50 @@ impl StudyError {
                 | Self::Preprocess(_)
                 | Self::Model(_)
         )
+    }
+
+    /// Path of the setting that is not allowed, as in the study file.
+    fn field(&self) -> Option<String> {
+        match self {
+            Self::Setting { setting, .. } | Self::NothingScored { setting, .. } => {
+                Some((*setting).to_owned())
+            }
+            Self::FixedAgainstConstraint { parameter, .. } => {
+                Some(format!("model.parameters.{parameter}"))
+            }
+            Self::UnknownRange { .. } => Some("validation.ranges".to_owned()),
+            Self::Ingest(IngestError::Setting { field, .. }) => Some(format!("source.{field}")),
+            Self::Preprocess(PreprocessError::SettingOutOfRange { setting, .. }) => {
+                Some(format!("preprocess.{setting}"))
+            }
+            Self::Preprocess(PreprocessError::ThesisWithoutWindow) => {
+                Some("preprocess.window".to_owned())
+            }
+            Self::Model(ModelError::Rig { field, .. }) => Some(format!("preprocess.rig.{field}")),
+            Self::Model(
+                ModelError::UnknownParameter { name, .. } | ModelError::ParameterRange { name, .. },
+            ) => Some(format!("model.parameters.{name}")),
+            Self::Model(_) => Some("model.effects".to_owned()),
+            Self::Identify(IdentifyError::Setting { name, .. }) => {
+                Some(format!("identify.solver.{name}"))
+            }
+            Self::Record(RecordError::Setting { field, .. }) => Some(format!("record.{field}")),
+            _ => None,
+        }
+    }
+
+    /// The error with the line and column at which `text`, the content of the file at `path`, states the setting; as it is
+    /// where the file says nothing of it.
+    pub(crate) fn in_file(self, path: &Path, text: &str) -> Self {
+        let field = self.field();
+        match field.and_then(|field| position::of_field(text, &field)) {
+            Some(place) => Self::InFile {
+                path: path.to_path_buf(),
+                line: place.line,
+                column: place.column,
+                source: Box::new(self),
+            },
+            None => self,
+        }
     }
 }

@@ -5,10 +5,10 @@ use snug_campaign::{
     Estimate, FitMeasures, FitStatus, Motion, Recording, Rejection, Segment, Selection, Tightening,
     TighteningId, TighteningResult, Traces,
 };
-use snug_identify::{agreement, identify, natural_frequency_half_width_hz};
+use snug_identify::{agreement, derived, identify};
 use snug_model::{
-    BASE_PARAMETERS, Input, Model, damped_frequency_hz, damping_ratio, euler_displacement,
-    inverse_dynamics_force, natural_frequency_hz, spring_damper_force, thesis_damping_ratio,
+    BASE_PARAMETERS, Input, Model, euler_displacement, inverse_dynamics_force, spring_damper_force,
+    thesis_damping_ratio,
 };
 use snug_preprocess::{Prepared, Preset, target_torque_nm};
 
@@ -217,9 +217,12 @@ fn measures(
     };
     let rig = &tightening.rig;
     // A mass or stiffness that was stopped by its bound says nothing about a frequency.
-    let frequency_hz = natural_frequency_hz(m, k)
+    let natural = derived::natural_frequency(estimate)
         .filter(|_| !on_bound(BASE_PARAMETERS[0]) && !on_bound(BASE_PARAMETERS[2]));
-    let half_width_hz = frequency_hz.and_then(|_| natural_frequency_half_width_hz(estimate));
+    let damped = derived::damped_frequency(rig, estimate);
+    let ratio = derived::damping(rig, estimate);
+    let low = |derived: Option<derived::Derived>| Some(derived?.interval?.low);
+    let high = |derived: Option<derived::Derived>| Some(derived?.interval?.high);
     FitMeasures {
         fit_percent: displacement
             .as_ref()
@@ -239,11 +242,15 @@ fn measures(
             }
             agreement::accuracy_percent(y, &scored(&traces.euler_displacement_rad))
         }),
-        natural_frequency_hz: frequency_hz,
-        natural_frequency_low_hz: frequency_hz.zip(half_width_hz).map(|(f, h)| f - h),
-        natural_frequency_high_hz: frequency_hz.zip(half_width_hz).map(|(f, h)| f + h),
-        damped_frequency_hz: damped_frequency_hz(rig, m, c, k),
-        damping_ratio: damping_ratio(rig, m, c, k),
+        natural_frequency_hz: natural.map(|natural| natural.value),
+        natural_frequency_low_hz: low(natural),
+        natural_frequency_high_hz: high(natural),
+        damped_frequency_hz: damped.map(|damped| damped.value),
+        damped_frequency_low_hz: low(damped),
+        damped_frequency_high_hz: high(damped),
+        damping_ratio: ratio.map(|ratio| ratio.value),
+        damping_ratio_low: low(ratio),
+        damping_ratio_high: high(ratio),
         thesis_damping_ratio: thesis_damping_ratio(study.selection.tool_mass_kg, m, c, k),
         peak_force_f1_n: peak(&traces.force_f1_n),
         peak_force_f2_n: peak(&traces.force_f2_n),

@@ -129,17 +129,37 @@ fn evaluate(
     }
     if let Some(mean) = mean_estimate(&evaluated) {
         for one in kept {
+            findings.extend(not_scored(study, one));
             evaluated.push(validated(study, one, &mean)?);
         }
     }
     let done: Vec<u32> = evaluated.iter().map(|one| one.result.id.number).collect();
-    for segment in &recording.segments {
+    for segment in &prepared.segments {
         if !done.contains(&segment.number) {
             evaluated.push(without_estimate(study, recording, segment));
         }
     }
     evaluated.sort_by_key(|one| one.result.id.number);
     Ok(evaluated)
+}
+
+/// Says that a validation window ends before its scored samples begin.
+fn not_scored(study: &Study, prepared: &Prepared) -> Option<Finding> {
+    let tightening = &prepared.tightening;
+    let (unscored, samples) = (
+        study.validation.unscored_samples,
+        tightening.torque_nm.len(),
+    );
+    (unscored >= samples).then(|| Finding {
+        severity: Severity::LeftOut,
+        code: "nothing_scored".to_owned(),
+        file: tightening.id.file.clone(),
+        tightening: Some(tightening.id.number),
+        channel: None,
+        message: format!(
+            "validation.unscored_samples is {unscored}, but only {samples} samples are there; nothing is scored"
+        ),
+    })
 }
 
 fn not_identified(id: &TighteningId, why: &str) -> Finding {

@@ -5,6 +5,7 @@ mod cases;
 mod evaluation;
 mod examples;
 mod file_evaluation;
+mod position;
 mod progress;
 mod run;
 mod selection;

@@ -175,6 +175,7 @@ impl Collected {
             study_ron,
             preset: study.preprocess.preset.name().to_owned(),
             fitted_output: format!("{:?}", study.identify.fitted_output).to_lowercase(),
+            units: study.source.units(study.preprocess.rig.lever_arm_m),
             effects: study.model.effects.clone(),
             presets,
             conditions,

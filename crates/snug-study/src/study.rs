@@ -59,7 +59,7 @@ impl Study {
     ///
     /// # Errors
     /// [`StudyError::Read`] when the file cannot be read, [`StudyError::Syntax`] with line and column when it does not
-    /// follow the format.
+    /// follow the format, [`StudyError::InFile`] with those of the field when a value is not allowed.
     pub fn read(path: &Path) -> Result<Self, StudyError> {
         let text = std::fs::read_to_string(path).map_err(|source| StudyError::Read {
             path: path.to_path_buf(),
@@ -77,6 +77,7 @@ impl Study {
         study.source.path = folder.join(&study.source.path);
         // What the file leaves out has the default preset's choices; they are to be those of the preset it names.
         study.follow(Preset::default(), study.preprocess.preset);
+        study.check().map_err(|error| error.in_file(path, &text))?;
         Ok(study)
     }
 
@@ -135,6 +136,7 @@ impl Study {
         self.record.check()?;
         self.selection.check()?;
         self.source.check()?;
+        self.check_scored()?;
         let known = self.source.ranges();
         for name in &self.validation.ranges {
             if !known.iter().any(|range| range.name == *name) {
@@ -159,6 +161,30 @@ impl Study {
                 return Err(StudyError::FixedAgainstConstraint {
                     parameter: parameter.name.clone(),
                     value: parameter.value,
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// Of every range something must be scored.
+    fn check_scored(&self) -> Result<(), StudyError> {
+        for range in self.source.ranges() {
+            let (setting, unscored) = if self.validation.ranges.contains(&range.name) {
+                (
+                    "validation.unscored_samples",
+                    self.validation.unscored_samples,
+                )
+            } else {
+                ("identify.unscored_samples", self.identify.unscored_samples)
+            };
+            let samples = range.end - range.start;
+            if unscored >= samples {
+                return Err(StudyError::NothingScored {
+                    setting,
+                    unscored,
+                    range: range.name.clone(),
+                    samples,
                 });
             }
         }

@@ -91,6 +91,10 @@ impl SyntheticFile {
             },
             grip_force_n: self.grip_force_n.clone(),
             has_force_channel: self.grip_force_n.is_some(),
+            grip_force_channel: self
+                .grip_force_n
+                .is_some()
+                .then(|| self.plan.channel_names.names()[2].to_owned()),
             segments,
         }
     }

@@ -26,7 +26,7 @@ impl Default for MatStyle {
 
 impl ChannelNames {
     /// Acceleration, torque, force.
-    fn names(self) -> [&'static str; 3] {
+    pub(crate) fn names(self) -> [&'static str; 3] {
         match self {
             Self::Plain => ["angle_acc_Acc_FIR150", "Inline_Torque", "F_op_J"],
             Self::Inline => ["angle_acc_Acc_FIR150", "Inline", "F_op_J"],

@@ -180,10 +180,20 @@ impl Value {
         !self.dims.is_empty() && self.dims.iter().filter(|&&length| length != 1).count() <= 1
     }
 
-    /// Shape and class as people write them, `80000×1 single`.
+    /// Shape and class as people write them, `80000×1 single`, `80000×1 complex double`.
     pub fn describe(&self) -> String {
         let shape: Vec<String> = self.dims.iter().map(usize::to_string).collect();
-        format!("{} {}", shape.join("×"), self.class_name())
+        let complex = if self.is_complex() { "complex " } else { "" };
+        format!("{} {complex}{}", shape.join("×"), self.class_name())
+    }
+
+    /// Whether the numbers have an imaginary part.
+    pub fn is_complex(&self) -> bool {
+        match &self.content {
+            Content::Numeric { imaginary, .. } => imaginary.is_some(),
+            Content::Sparse(sparse) => sparse.imaginary.is_some(),
+            _ => false,
+        }
     }
 }
 

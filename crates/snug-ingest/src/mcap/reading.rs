@@ -149,11 +149,16 @@ fn declared(
         .map_or_else(Conditions::default, |pattern| {
             pattern.read(&[stem.as_str()], log)
         });
-    let signals = layout.channels.iter().map(|c| (c.signal, c.unit, c.scale));
     Ok(Recording {
         conditions,
         segments: range::segments(&layout.ranges, samples, log),
-        ..assemble(file, stem, time_base, signals.zip(channels), lever_arm_m)
+        ..assemble(
+            file,
+            stem,
+            time_base,
+            layout.declared().zip(channels),
+            lever_arm_m,
+        )
     })
 }
 

@@ -48,6 +48,14 @@ fn nothing_to_read_is_said() {
     let folder = tempfile::tempdir().unwrap();
     let missing = list(&Source::default(), &folder.path().join("nowhere")).unwrap_err();
     assert!(missing.to_string().contains("nowhere"), "{missing}");
+    let device = Path::new("/dev/null");
+    if device.exists() {
+        let error = list(&Source::default(), device).unwrap_err().to_string();
+        assert!(
+            error.contains("neither a folder nor a regular file"),
+            "{error}"
+        );
+    }
     fs::write(folder.path().join("notes.csv"), "x").unwrap();
     let empty = list(&Source::default(), folder.path()).unwrap_err();
     assert!(

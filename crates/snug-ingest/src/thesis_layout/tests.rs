@@ -107,6 +107,25 @@ fn segments_are_back_to_back_whatever_the_event_clock_says() {
 }
 
 #[test]
+fn a_complex_channel_is_called_complex() {
+    let complex = Value {
+        dims: vec![60, 1],
+        content: Content::Numeric {
+            real: Numbers::F64(vec![1.0; 60]),
+            imaginary: Some(Numbers::F64(vec![0.5; 60])),
+        },
+    };
+    let error = read(vec![
+        ("angle_acc_Acc_FIR150", complex),
+        ("Inline", vector_of(vec![2.0; 60])),
+    ])
+    .unwrap_err();
+    let text = error.to_string();
+    assert!(text.contains("60×1 complex double"), "{text}");
+    assert!(text.contains("real vector"), "{text}");
+}
+
+#[test]
 fn every_channel_name_is_known() {
     for acceleration in ["angle_acc_Acc_FIR150", "Data1_angle_acc_Acc_FIR150"] {
         for torque in ["Inline_Torque", "Inline", "Data1_Inline"] {
@@ -125,6 +144,7 @@ fn every_channel_name_is_known() {
                 );
                 assert_eq!(recording.grip_force_n.as_deref(), Some(&[3.0; 60][..]));
                 assert!(recording.has_force_channel && findings.is_empty());
+                assert_eq!(recording.grip_force_channel.as_deref(), Some(force));
                 assert_eq!(
                     recording.label, "TP9_QS_Soft_5",
                     "the stem, where the file has no File_name"

@@ -6,6 +6,7 @@
 //! 3. Offset: the displacement at its first local minimum, else at 27.4 ms, is taken off the displacement alone.
 //! 4. Codes 1 and 2 on the displacement (see [`crate::ThesisChecks`]).
 //! 5. Target torque from the whole segment.
+//! 6. The grip force is taken where it is called `F_op_J`; under another name it only chooses the tool's inertia.
 //!
 //! The noise of the quiet part is measured as well, for the intervals alone: nothing is corrected or weighted with it.
 //!
@@ -21,7 +22,7 @@ use crate::offset::zero_index;
 use crate::remarks::Remarks;
 use crate::signals::Signals;
 use crate::torque_target::peak_torque_nm;
-use crate::{Prepared, ThesisChecks, window};
+use crate::{Prepared, Preset, ThesisChecks, window};
 use snug_campaign::{Finding, NoiseFloor, Quantity, Segment};
 
 /// Prepares one segment as the original did; `start_s` and `length_s` are the window's.
@@ -33,6 +34,9 @@ pub(crate) fn prepare(
 ) -> Result<Prepared, Finding> {
     let mut signals = Signals::cut(context.recording, segment, remarks)?;
     signals.source_of(Quantity::Acceleration, remarks)?;
+    if leaves_force_out(context) {
+        signals.grip_force_n = None;
+    }
     let window = window::thesis(start_s, length_s, context.interval_s);
     let missing = context.bridge_missing(&mut signals, remarks);
     context.refuse_truncation(&window, &signals, remarks)?;
@@ -68,6 +72,15 @@ pub(crate) fn prepare(
     })
 }
 
+/// Whether the grip force stands under a name that the original reads for its presence alone (`Data1_…`).
+pub(crate) fn leaves_force_out(context: &Context<'_>) -> bool {
+    let name = context.recording.grip_force_channel.as_deref();
+    context.settings.preset == Preset::Thesis && name.is_some_and(|name| name != FORCE)
+}
+
+/// The one name under which the original takes the grip force.
+const FORCE: &str = "F_op_J";
+
 /// Noise floor of the acceleration before the window; `None` when there is too little of it.
 fn noise_before(
     context: &Context<'_>,
@@ -82,4 +95,37 @@ fn noise_before(
     }
     let noise = Autoregression::fit(quiet, settings.maximum_order)?;
     (noise.standard_deviation > 0.0).then(|| pre_roll_floor(&noise, Quantity::Acceleration))
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use crate::synthetic::recording;
+    use crate::{PreprocessSettings, Preprocessed, Preset, preprocess};
+    use snug_campaign::{Quantity, Recording, Severity};
+
+    fn prepared(recording: &Recording, preset: Preset) -> Preprocessed {
+        let settings = PreprocessSettings {
+            preset,
+            ..PreprocessSettings::default()
+        };
+        preprocess(recording, &settings, Quantity::Acceleration).unwrap()
+    }
+
+    #[test]
+    fn the_original_takes_the_grip_force_under_one_name_only() {
+        let mut recording = recording(&[11], 0.0);
+        let plain = prepared(&recording, Preset::Thesis);
+        assert!(plain.tightenings[0].tightening.grip_force_n.is_some());
+        recording.grip_force_channel = Some("Data1_F_op_J_FIR_Filter_OFFSET".into());
+        let other = prepared(&recording, Preset::Thesis);
+        let tightening = &other.tightenings[0].tightening;
+        assert_eq!(tightening.grip_force_n, None);
+        assert_eq!(tightening.rig.known_inertia_kg_m2, 0.275);
+        assert_eq!(other.findings[0].code, "grip_force_not_taken");
+        assert_eq!(other.findings.len(), 1);
+        assert_eq!(other.findings[0].severity, Severity::Note);
+        let snug = &prepared(&recording, Preset::Snug).tightenings[0].tightening;
+        assert!(snug.grip_force_n.is_some());
+    }
 }

@@ -99,6 +99,7 @@ impl Decoder {
         Ok(())
     }
 
+    /// Gives every number of a message with its path; the message was checked.
     fn visit(
         &self,
         message: usize,
@@ -108,64 +109,108 @@ impl Decoder {
         depth: usize,
     ) -> Decoded {
         let message = &self.messages[message];
-        let mut totals = vec![0usize; message.fields.len()];
-        let mut last = vec![None; message.fields.len()];
-        for (number, value) in Fields::of(data).flatten() {
-            let Some(&index) = message.by_number.get(&number) else {
-                continue;
-            };
-            match message.fields[index].kind {
-                Kind::Message(_) => totals[index] += 1,
-                Kind::Other => {}
-                kind => each_number(kind, value, &mut |number| {
-                    totals[index] += 1;
-                    last[index] = Some(number);
-                })?,
-            }
-        }
+        let occurrences = message.occurrences(data)?;
+        let decoded = message.put_singular(&occurrences, path, put);
+        self.put_repeated_and_nested(message, &occurrences, data, path, put, depth)
+            .and(decoded)
+    }
+
+    /// Elements of arrays, and what stands in nested messages. An array that is too long is passed over.
+    fn put_repeated_and_nested(
+        &self,
+        message: &Message,
+        occurrences: &[Occurrences],
+        data: &[u8],
+        path: &mut String,
+        put: &mut impl FnMut(&str, f64),
+        depth: usize,
+    ) -> Decoded {
         let length = path.len();
         let mut decoded = Ok(());
-        for (index, field) in message.fields.iter().enumerate() {
-            join(path, &field.name);
-            if field.repeated && totals[index] > LONGEST_ARRAY {
-                decoded = Err(ARRAY_TOO_LONG);
-            } else if !field.repeated && !matches!(field.kind, Kind::Message(_) | Kind::Other) {
-                // Of a singular field that stands twice the last value counts, as protobuf asks.
-                let value = last[index].or(field.zero_when_absent.then_some(0.0));
-                if let Some(value) = value {
-                    put(path, value);
-                }
-            }
-            path.truncate(length);
-        }
         let mut position = vec![0usize; message.fields.len()];
         for (number, value) in Fields::of(data).flatten() {
             let Some(&index) = message.by_number.get(&number) else {
                 continue;
             };
             let field = &message.fields[index];
-            if field.repeated && totals[index] > LONGEST_ARRAY {
+            if field.repeated && occurrences[index].count > LONGEST_ARRAY {
                 continue;
             }
             join(path, &field.name);
             let stem = path.len();
+            let mut element = |path: &mut String| {
+                write!(path, "[{}]", position[index]).expect("a String takes all text");
+                position[index] += 1;
+            };
             match field.kind {
                 Kind::Message(inner) if depth < DEEPEST => {
                     if field.repeated {
-                        write!(path, "[{}]", position[index]).expect("a String takes all text");
-                        position[index] += 1;
+                        element(path);
                     }
                     let bytes = value.bytes().unwrap_or_default();
                     decoded = self.visit(inner, bytes, path, put, depth + 1).and(decoded);
                 }
                 Kind::Message(_) | Kind::Other => {}
                 kind if field.repeated => each_number(kind, value, &mut |number| {
-                    write!(path, "[{}]", position[index]).expect("a String takes all text");
-                    position[index] += 1;
+                    element(path);
                     put(path, number);
                     path.truncate(stem);
                 })?,
                 _ => {}
+            }
+            path.truncate(length);
+        }
+        decoded
+    }
+}
+
+/// How often a field stands in a message, and its last number.
+#[derive(Debug, Clone, Copy, Default)]
+struct Occurrences {
+    count: usize,
+    last: Option<f64>,
+}
+
+impl Message {
+    /// Counts every field of an encoded message.
+    fn occurrences(&self, data: &[u8]) -> Result<Vec<Occurrences>, &'static str> {
+        let mut occurrences = vec![Occurrences::default(); self.fields.len()];
+        for (number, value) in Fields::of(data).flatten() {
+            let Some(&index) = self.by_number.get(&number) else {
+                continue;
+            };
+            let field = &mut occurrences[index];
+            match self.fields[index].kind {
+                Kind::Message(_) => field.count += 1,
+                Kind::Other => {}
+                kind => each_number(kind, value, &mut |number| {
+                    field.count += 1;
+                    field.last = Some(number);
+                })?,
+            }
+        }
+        Ok(occurrences)
+    }
+
+    /// Numbers that stand once; an array that is too long is told.
+    fn put_singular(
+        &self,
+        occurrences: &[Occurrences],
+        path: &mut String,
+        put: &mut impl FnMut(&str, f64),
+    ) -> Decoded {
+        let length = path.len();
+        let mut decoded = Ok(());
+        for (field, found) in self.fields.iter().zip(occurrences) {
+            join(path, &field.name);
+            if field.repeated && found.count > LONGEST_ARRAY {
+                decoded = Err(ARRAY_TOO_LONG);
+            } else if !field.repeated && !matches!(field.kind, Kind::Message(_) | Kind::Other) {
+                // Of a singular field that stands twice the last value counts, as protobuf asks.
+                let value = found.last.or(field.zero_when_absent.then_some(0.0));
+                if let Some(value) = value {
+                    put(path, value);
+                }
             }
             path.truncate(length);
         }

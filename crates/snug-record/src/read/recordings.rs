@@ -250,6 +250,7 @@ fn empty(window: &Window, time_base: TimeBase, has: impl Fn(&str) -> bool) -> Re
             motion,
             grip_force_n: has("grip_force_n").then(Vec::new),
             has_force_channel: has("grip_force_n"),
+            grip_force_channel: None,
             segments: Vec::new(),
         },
         extent: Extent::Windows { stored_every: 1 },

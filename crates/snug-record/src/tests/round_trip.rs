@@ -151,6 +151,7 @@ fn whole_measurement_files_come_back_bit_for_bit() {
         },
         grip_force_n: force.then(|| noise(3, length)),
         has_force_channel: true,
+        grip_force_channel: Some("Data1_F_op_J_FIR_Filter_OFFSET".into()),
         segments: vec![Segment {
             number: 1,
             start: 0,

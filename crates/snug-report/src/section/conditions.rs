@@ -141,17 +141,20 @@ fn drawing(column: &str, result: &CampaignResult) -> Markup {
     });
     let (low, high) = linear_range(ends, 0.05);
     let figure = Figure {
-        description: format!("Mean {} per condition with 95 % intervals", name.words),
+        description: format!(
+            "Mean {} per condition with 95 % intervals",
+            name.with_unit()
+        ),
         width: 380.0,
         height: 56.0 + 17.0 * rows.len() as f64,
         x: Axis::linear(name.with_unit(), low, high, 5),
         y: Axis::rows(&rows),
-        marks: marks(&placed),
+        marks: marks(&placed, &name.unit),
     };
     captioned(&quantity::capitalised(&name.words), figure.svg(), None)
 }
 
-fn marks(placed: &[(f64, &ConditionSummary, &Moments)]) -> Vec<Mark> {
+fn marks(placed: &[(f64, &ConditionSummary, &Moments)], unit: &str) -> Vec<Mark> {
     let spreads = placed.iter().filter_map(|(y, _, moments)| {
         let deviation = moments.standard_deviation?;
         Some(Segment {
@@ -172,12 +175,14 @@ fn marks(placed: &[(f64, &ConditionSummary, &Moments)]) -> Vec<Mark> {
             x: moments.mean,
             y: *y,
             title: format!(
-                "{} {}: {} {}",
-                summary.factor,
+                "{} {}: mean {} {} {unit}",
+                quantity::words(&summary.factor),
                 summary.level,
                 mean.value,
                 mean.interval.unwrap_or_default()
-            ),
+            )
+            .trim_end()
+            .into(),
         }
     });
     vec![

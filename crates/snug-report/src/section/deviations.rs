@@ -11,7 +11,7 @@ pub const SECTION: Section = Section {
 };
 
 /// Each quirk of the original program that moves results: what it does, what snug does.
-const DEVIATIONS: [(&str, &str, &str); 10] = [
+const DEVIATIONS: [(&str, &str, &str); 11] = [
     (
         "Integration",
         "Integrates from the segment's start and never zeroes the velocity: 1.48 s of bias and noise enter as drift. A constant \
@@ -55,6 +55,12 @@ const DEVIATIONS: [(&str, &str, &str); 10] = [
         "Takes every file for Quick Step without TT in its name and for a hard joint without Soft; Snug leaves what it cannot read open, \
          under both presets.",
         "Leaves what it cannot read open, and says so.",
+    ),
+    (
+        "Grip force",
+        "Takes a channel called F_op_J only; under its other name (Data1_F_op_J_FIR_Filter_OFFSET) it chooses the tool's inertia, \
+         but is not reported.",
+        "Reports it under either name.",
     ),
     (
         "90 % rule",

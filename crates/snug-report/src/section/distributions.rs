@@ -1,4 +1,4 @@
-use super::{Section, nothing};
+use super::{Section, counted, nothing};
 use crate::figure::{Axis, Bar, Figure, Mark, Segment, captioned, legend, round_step};
 use crate::number::significant;
 use crate::quantity;
@@ -81,7 +81,7 @@ fn histogram(column: &str, result: &CampaignResult) -> Option<Markup> {
     let figure = Figure {
         description: format!(
             "Histogram of {}: {} selected, {} rejected tightenings",
-            name.words,
+            name.with_unit(),
             selected.len(),
             rejected.len()
         ),
@@ -90,8 +90,8 @@ fn histogram(column: &str, result: &CampaignResult) -> Option<Markup> {
         x: Axis::linear(name.with_unit(), edges.low, edges.high(), 5),
         y: Axis::counts("tightenings", deepest, tallest),
         marks: vec![
-            bars("c-selected", &edges, &above, 1.0),
-            bars("c-rejected", &edges, &below, -1.0),
+            bars("c-selected", &edges, &above, 1.0, &name.unit),
+            bars("c-rejected", &edges, &below, -1.0, &name.unit),
             Mark::Segments {
                 class: "c-zero",
                 segments: vec![Segment {
@@ -122,7 +122,7 @@ fn histogram(column: &str, result: &CampaignResult) -> Option<Markup> {
     ))
 }
 
-fn bars(class: &'static str, edges: &Edges, counts: &[usize], sign: f64) -> Mark {
+fn bars(class: &'static str, edges: &Edges, counts: &[usize], sign: f64, unit: &str) -> Mark {
     let bars = counts
         .iter()
         .enumerate()
@@ -134,10 +134,13 @@ fn bars(class: &'static str, edges: &Edges, counts: &[usize], sign: f64) -> Mark
                 x: (left, right),
                 y: (height.min(0.0), height.max(0.0)),
                 title: format!(
-                    "{count} from {} to {}",
+                    "{} from {} to {} {unit}",
+                    counted(*count, "tightening"),
                     significant(left, 4),
                     significant(right, 4)
-                ),
+                )
+                .trim_end()
+                .into(),
             }
         })
         .collect();

@@ -76,9 +76,15 @@ const TERMS: [(&str, &str); 17] = [
     ),
 ];
 
-fn render(_: &CampaignResult) -> Markup {
+fn render(result: &CampaignResult) -> Markup {
     html! {
         dl.glossary { @for (term, meaning) in TERMS { dt { (term) } dd { (meaning) } } }
+        @if !result.units.mechanical() {
+            p.note {
+                "The source declares its input in " (result.units.input) " and its output in " (result.units.output)
+                ": in the formulas above they stand for T and θ."
+            }
+        }
         p.note { "Decimal points throughout; units are SI unless they stand beside the number." }
     }
 }

@@ -1,5 +1,5 @@
 use super::{Section, counted};
-use crate::number::{fixed, percent, percent_interval, plain, rounded, share, short};
+use crate::number::{fixed, missing, percent, percent_interval, plain, rounded, share, short};
 use crate::quantity::{self, capitalised};
 use crate::quartiles::Quartiles;
 use maud::{Markup, html};
@@ -94,18 +94,20 @@ fn fitted(result: &CampaignResult) -> impl Iterator<Item = &TighteningResult> {
 }
 
 fn model_words(result: &CampaignResult) -> String {
+    let base = if result.units.mechanical() {
+        "the damped mass–spring model of the hand and arm"
+    } else {
+        "the damped mass–spring model"
+    };
     if result.effects.is_empty() {
-        return "the damped mass–spring model of the hand and arm".into();
+        return base.into();
     }
     let effects: Vec<String> = result
         .effects
         .iter()
         .map(|effect| effect.replace('_', " "))
         .collect();
-    format!(
-        "the damped mass–spring model of the hand and arm plus {}",
-        effects.join(", ")
-    )
+    format!("{base} plus {}", effects.join(", "))
 }
 
 fn measured(result: &CampaignResult) -> String {
@@ -141,7 +143,7 @@ fn measured(result: &CampaignResult) -> String {
         text += &format!("; {} per minute", paces.join(", "));
     }
     let targets = numbers(result.tightenings.iter().map(|t| t.target_torque_nm));
-    if !targets.is_empty() {
+    if !targets.is_empty() && result.units.input_is_torque() {
         text += &format!("; target torque {} Nm", targets.join(", "));
     }
     format!(
@@ -261,12 +263,12 @@ fn measure_card(name: &str, unit: &str, spread: Option<Quartiles>, decimals: i32
         name: format!("{name}, median"),
         value: match spread {
             Some(spread) => html! { (fixed(spread.median, decimals)) },
-            None => crate::number::missing(why),
+            None => missing(why),
         },
         unit: unit.into(),
         note: match spread {
             Some(spread) => format!(
-                "middle half {} to {}",
+                "middle half of the tightenings {} to {} {unit}",
                 fixed(spread.low, decimals),
                 fixed(spread.high, decimals)
             ),
@@ -278,18 +280,26 @@ fn measure_card(name: &str, unit: &str, spread: Option<Quartiles>, decimals: i32
 fn quantity_card(row: &QuantitySummary, result: &CampaignResult) -> Card {
     let name = quantity::name(&row.quantity, result);
     let why = "no selected tightening";
+    let mean = row
+        .selected
+        .as_ref()
+        .filter(|moments| moments.mean.is_finite())
+        .map(|moments| rounded(moments.mean, moments.mean_interval));
     Card {
         name: capitalised(&format!("{} {}", name.words, name.symbol))
             .trim_end()
             .to_string()
-            + ", median",
-        value: plain(row.selected.as_ref().map(|moments| moments.median), 4, why),
+            + ", mean",
+        value: match &mean {
+            Some(mean) => html! { (mean.value) },
+            None => missing(why),
+        },
         unit: name.unit,
-        note: match &row.selected {
-            Some(moments) => {
-                let mean = rounded(moments.mean, moments.mean_interval);
-                format!("mean {} {}", mean.value, mean.interval.unwrap_or_default())
-            }
+        note: match mean {
+            Some(mean) => mean.interval.map_or_else(
+                || "no interval from one tightening".into(),
+                |interval| format!("95 % interval {interval}"),
+            ),
             None => why.into(),
         },
     }

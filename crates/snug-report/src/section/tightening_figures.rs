@@ -3,10 +3,11 @@ use crate::figure::{Axis, Bar, Figure, Mark, captioned, legend, linear_range};
 use crate::number::{rounded, short, significant};
 use crate::outcome::outcome_words;
 use crate::quantity;
+use crate::signal_unit;
 use crate::traces_json::{Example, Panel, embedded, examples, panels, residual_quantity};
 use maud::{Markup, PreEscaped, html};
 use serde_json::{Value, json};
-use snug_campaign::{CampaignResult, Quantity, TighteningResult};
+use snug_campaign::{CampaignResult, FitMeasures, Interval, TighteningResult};
 
 /// Measured and simulated signals of single tightenings.
 pub const SECTION: Section = Section {
@@ -49,7 +50,7 @@ fn render(result: &CampaignResult) -> Markup {
                 }
                 button type="button" data-step="1" aria-label="next tightening" { "›" }
             }
-            p.current data-current="" aria-live="polite" { (heading(&result.tightenings[first.tightening])) }
+            p.current data-current="" aria-live="polite" { (heading(&result.tightenings[first.tightening], result)) }
             div.figures {
                 @for panel in &panels { (still(panel, first, result)) }
                 (facts_card(first, result))
@@ -69,7 +70,7 @@ fn choice(tightening: &TighteningResult) -> String {
 }
 
 /// Name, conditions and outcome in one line.
-fn heading(tightening: &TighteningResult) -> String {
+fn heading(tightening: &TighteningResult, result: &CampaignResult) -> String {
     let conditions = &tightening.conditions;
     let mut parts = vec![tightening.id.to_string()];
     parts.extend(
@@ -86,8 +87,14 @@ fn heading(tightening: &TighteningResult) -> String {
         parts.push(format!("{} per minute", short(pace)));
     }
     parts.push(format!(
-        "peak torque {} Nm",
-        significant(tightening.peak_torque_nm, 4)
+        "peak {} {} {}",
+        if result.units.input_is_torque() {
+            "torque"
+        } else {
+            "input"
+        },
+        significant(tightening.peak_torque_nm, 4),
+        result.units.input
     ));
     parts.push(outcome_words(&tightening.selection.rejections));
     parts.join(" · ")
@@ -105,10 +112,10 @@ fn panel_json(panel: &Panel) -> Value {
 fn example_json(example: &Example, panels: &[Panel], result: &CampaignResult) -> Value {
     let tightening = &result.tightenings[example.tightening];
     let mut value = example.json(panels);
-    value["heading"] = json!(heading(tightening));
+    value["heading"] = json!(heading(tightening, result));
     value["noise"] = json!(noise_band(tightening, result));
     value["facts"] = json!(facts(tightening, result));
-    value["note"] = json!(note(example, tightening));
+    value["note"] = json!(note(example, tightening, result));
     value
 }
 
@@ -118,12 +125,12 @@ fn noise_band(tightening: &TighteningResult, result: &CampaignResult) -> Option<
         .noise
         .as_ref()
         .filter(|noise| noise.quantity == residual_quantity(result))
-        .map(|noise| 1.96 * noise.standard_deviation)
+        .map(|noise| 1.96 * noise.standard_deviation * result.units.output_per_rad)
         .filter(|band| band.is_finite())
 }
 
 /// Where the window begins and how large the noise is.
-fn note(example: &Example, tightening: &TighteningResult) -> String {
+fn note(example: &Example, tightening: &TighteningResult, result: &CampaignResult) -> String {
     let mut text = format!(
         "The window begins {} s after the segment's start.",
         significant(example.start_s(), 4)
@@ -131,8 +138,8 @@ fn note(example: &Example, tightening: &TighteningResult) -> String {
     if let Some(noise) = &tightening.noise {
         text += &format!(
             " Noise of the fitted output: standard deviation {} {}.",
-            significant(noise.standard_deviation, 3),
-            unit(noise.quantity)
+            significant(noise.standard_deviation * result.units.output_per_rad, 3),
+            signal_unit::motion(&result.units, noise.quantity)
         );
     }
     text
@@ -188,7 +195,7 @@ fn still(panel: &Panel, example: &Example, result: &CampaignResult) -> Markup {
             end,
             6,
         ),
-        y: Axis::linear(panel.axis, low, high, 5),
+        y: Axis::linear(panel.axis.clone(), low, high, 5),
         marks,
     };
     let mut entries: Vec<(&str, &str)> = panel
@@ -227,49 +234,103 @@ fn facts(tightening: &TighteningResult, result: &CampaignResult) -> Vec<[String;
             interval,
         ]);
     }
-    let measures = &tightening.measures;
-    if let Some(frequency) = measures.natural_frequency_hz {
-        let ends = measures
-            .natural_frequency_low_hz
-            .zip(measures.natural_frequency_high_hz);
-        facts.push([
-            "natural frequency fₙ".into(),
-            format!("{} Hz", significant(frequency, 4)),
-            ends.map_or_else(String::new, |(low, high)| {
-                format!("[{}, {}]", significant(low, 4), significant(high, 4))
-            }),
-        ]);
-    }
-    for (name, value, unit) in [
+    facts.extend(derived_facts(&tightening.measures));
+    facts.extend(agreement_facts(&tightening.measures, result));
+    facts
+}
+
+/// What follows from the parameters, with its interval.
+fn derived_facts(measures: &FitMeasures) -> impl Iterator<Item = [String; 3]> {
+    let interval = |low: Option<f64>, high: Option<f64>| {
+        low.zip(high).map(|(low, high)| Interval { low, high })
+    };
+    [
+        (
+            "natural frequency fₙ",
+            measures.natural_frequency_hz,
+            interval(
+                measures.natural_frequency_low_hz,
+                measures.natural_frequency_high_hz,
+            ),
+            "Hz",
+        ),
         (
             "damped frequency with the tool",
             measures.damped_frequency_hz,
+            interval(
+                measures.damped_frequency_low_hz,
+                measures.damped_frequency_high_hz,
+            ),
             "Hz",
         ),
-        ("damping ratio ζ with the tool", measures.damping_ratio, ""),
-        ("fit of the displacement", measures.fit_percent, "%"),
+        (
+            "damping ratio ζ with the tool",
+            measures.damping_ratio,
+            interval(measures.damping_ratio_low, measures.damping_ratio_high),
+            "",
+        ),
+    ]
+    .into_iter()
+    .filter_map(|(name, value, interval, unit)| {
+        let value = value.filter(|value| value.is_finite())?;
+        let shown = rounded(value, interval);
+        Some([
+            name.into(),
+            format!("{} {unit}", shown.value),
+            shown.interval.unwrap_or_else(|| "no interval".into()),
+        ])
+    })
+}
+
+/// How model and measurement agree in this window, and its largest forces.
+fn agreement_facts(measures: &FitMeasures, result: &CampaignResult) -> Vec<[String; 3]> {
+    const WINDOW: &str = "of this window";
+    const LARGEST: &str = "largest of this window";
+    let rms = measures
+        .rms_displacement_rad
+        .map(|rms| rms * result.units.output_per_rad);
+    let mut rows = vec![
+        ("fit of the displacement", measures.fit_percent, "%", WINDOW),
         (
             "fit of the fitted output",
             measures.fit_percent_fitted_output,
             "%",
+            WINDOW,
         ),
-        ("error over noise", measures.error_over_noise, ""),
+        (
+            "rms residual of the displacement",
+            rms,
+            result.units.output.as_str(),
+            WINDOW,
+        ),
+        (
+            "error over noise",
+            measures.error_over_noise,
+            "× noise",
+            WINDOW,
+        ),
         (
             "accuracy of the Euler method",
             measures.euler_accuracy_percent,
             "%",
+            WINDOW,
         ),
-        ("peak |F1|", measures.peak_force_f1_n, "N"),
-        ("peak |F2|", measures.peak_force_f2_n, "N"),
-        ("peak |F3|", measures.peak_force_f3_n, "N"),
-        ("peak |F_op_J|", measures.peak_grip_force_n, "N"),
-    ] {
-        if let Some(value) = value.filter(|value| value.is_finite()) {
-            let text = format!("{} {unit}", significant(value, 3));
-            facts.push([name.into(), text, String::new()]);
-        }
+    ];
+    if result.units.input_is_torque() {
+        rows.extend([
+            ("|F1|", measures.peak_force_f1_n, "N", LARGEST),
+            ("|F2|", measures.peak_force_f2_n, "N", LARGEST),
+            ("|F3|", measures.peak_force_f3_n, "N", LARGEST),
+            ("|F_op_J|", measures.peak_grip_force_n, "N", LARGEST),
+        ]);
     }
-    facts
+    rows.into_iter()
+        .filter_map(|(name, value, unit, of_what)| {
+            let value = value.filter(|value| value.is_finite())?;
+            let text = format!("{} {unit}", significant(value, 3));
+            Some([name.into(), text, of_what.into()])
+        })
+        .collect()
 }
 
 fn facts_card(example: &Example, result: &CampaignResult) -> Markup {
@@ -282,15 +343,7 @@ fn facts_card(example: &Example, result: &CampaignResult) -> Markup {
                     tr { th scope="row" { (name) } td { (value) } td.interval { (interval) } }
                 }
             } }
-            p.note data-note="" { (note(example, tightening)) }
+            p.note data-note="" { (note(example, tightening, result)) }
         }
-    }
-}
-
-fn unit(quantity: Quantity) -> &'static str {
-    match quantity {
-        Quantity::Displacement => "rad",
-        Quantity::Velocity => "rad/s",
-        Quantity::Acceleration => "rad/s²",
     }
 }

@@ -5,7 +5,7 @@ use crate::quantity;
 use crate::tightenings_csv::effect_parameters;
 use crate::traces_json::examples;
 use maud::{Markup, html};
-use snug_campaign::{CampaignResult, TighteningResult};
+use snug_campaign::{CampaignResult, Interval, TighteningResult};
 use std::collections::HashMap;
 
 /// Every tightening with its estimate, to sort and filter.
@@ -24,6 +24,8 @@ fn render(result: &CampaignResult) -> Markup {
     }
     let mut parameters: Vec<&str> = BASE_PARAMETERS.to_vec();
     parameters.extend(effect_parameters(result));
+    // A rig that is driven by something else has no target torque.
+    let torque = result.units.input_is_torque();
     let drawn: HashMap<usize, usize> = examples(result)
         .iter()
         .enumerate()
@@ -45,20 +47,26 @@ fn render(result: &CampaignResult) -> Markup {
         div.scroll.wide.tall tabindex="0" { table.sortable data-sortable="" {
             thead { tr {
                 @for heading in ["tightening", "outcome", "participant", "strategy", "joint"] { th.words scope="col" { (heading) } }
-                @for heading in ["pace [1/min]", "target [Nm]"] { th scope="col" { (heading) } }
+                th scope="col" { "pace [1/min]" }
+                @if torque { th scope="col" { "target [Nm]" } }
                 @for parameter in &parameters { th scope="col" { (quantity::name(parameter, result).with_unit()) } }
                 @for heading in ["fₙ [Hz]", "fit [%]", "error over noise"] { th scope="col" { (heading) } }
             } }
             tbody {
                 @for (index, tightening) in result.tightenings.iter().enumerate() {
-                    (row(tightening, &parameters, drawn.get(&index).copied()))
+                    (row(tightening, &parameters, drawn.get(&index).copied(), torque))
                 }
             }
         } }
     }
 }
 
-fn row(tightening: &TighteningResult, parameters: &[&str], drawn: Option<usize>) -> Markup {
+fn row(
+    tightening: &TighteningResult,
+    parameters: &[&str],
+    drawn: Option<usize>,
+    torque: bool,
+) -> Markup {
     let conditions = &tightening.conditions;
     let measures = &tightening.measures;
     let selected = tightening.selection.selected();
@@ -74,9 +82,13 @@ fn row(tightening: &TighteningResult, parameters: &[&str], drawn: Option<usize>)
             td.words { @if let Some(word) = word { (word) } @else { (missing("the file does not say")) } }
         }
         td data-v=[sort_key(conditions.pace_per_min)] { (setting(conditions.pace_per_min)) }
-        td data-v=[sort_key(Some(tightening.target_torque_nm))] { (setting(Some(tightening.target_torque_nm))) }
+        @if torque {
+            td data-v=[sort_key(Some(tightening.target_torque_nm))] { (setting(Some(tightening.target_torque_nm))) }
+        }
         @for name in parameters { (parameter(tightening, name)) }
-        (measure(measures.natural_frequency_hz, "needs a positive mass and stiffness"))
+        td data-v=[sort_key(measures.natural_frequency_hz)] {
+            (measured(measures.natural_frequency_hz, natural_frequency_interval(tightening), "needs a positive mass and stiffness"))
+        }
         (measure(measures.fit_percent, "no simulation to compare with"))
         (measure(measures.error_over_noise, "no noise floor or no fit"))
     } }
@@ -96,6 +108,14 @@ fn parameter(tightening: &TighteningResult, name: &str) -> Markup {
             @else if parameter.interval.is_none() { " " span.interval { "no interval" } }
         }
     }
+}
+
+fn natural_frequency_interval(tightening: &TighteningResult) -> Option<Interval> {
+    let measures = &tightening.measures;
+    Some(Interval {
+        low: measures.natural_frequency_low_hz?,
+        high: measures.natural_frequency_high_hz?,
+    })
 }
 
 fn measure(value: Option<f64>, why: &str) -> Markup {

@@ -20,6 +20,11 @@ const BORDERLINE_NM: f64 = 0.5;
 const LISTED: usize = 50;
 
 fn render(result: &CampaignResult) -> Markup {
+    if !result.units.input_is_torque() {
+        return nothing(
+            "The input of this rig is no torque, so there is no target to round it to.",
+        );
+    }
     let torques: Vec<&TighteningResult> = result
         .tightenings
         .iter()

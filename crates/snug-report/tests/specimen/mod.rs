@@ -8,7 +8,7 @@ use oscillator::{Noise, Oscillator};
 use snug_campaign::{
     CampaignResult, Conditions, Correction, Estimate, Finding, FitMeasures, FitStatus,
     Identifiability, Interval, NoiseFloor, NoiseSource, ParameterEstimate, Quantity, Rejection,
-    Rig, Selection, Severity, TighteningId, TighteningResult, Traces,
+    Rig, Selection, Severity, SignalUnits, TighteningId, TighteningResult, Traces,
 };
 
 /// Signals are kept of the first tightenings only.
@@ -32,6 +32,7 @@ pub fn campaign(count: usize) -> CampaignResult {
         study_ron: "Study(\n    title: \"Specimen\",\n    rig: (lever_arm_m: 0.330),\n)\n".into(),
         preset: "snug".into(),
         fitted_output: "acceleration".into(),
+        units: SignalUnits::default(),
         effects: vec!["cubic_stiffness".into()],
         presets: summary::presets(&tightenings),
         conditions: summary::conditions(&tightenings),
@@ -209,7 +210,11 @@ fn measures(oscillator: &Oscillator, traces: &Traces, index: usize, good: bool) 
         natural_frequency_low_hz: identified.then_some(4.9),
         natural_frequency_high_hz: identified.then_some(5.3),
         damped_frequency_hz: Some(3.1),
+        damped_frequency_low_hz: Some(3.0625),
+        damped_frequency_high_hz: Some(3.1375),
         damping_ratio: Some(0.36),
+        damping_ratio_low: Some(0.348),
+        damping_ratio_high: Some(0.372),
         thesis_damping_ratio: Some(0.5),
         peak_force_f1_n: peak(&traces.force_f1_n),
         peak_force_f2_n: peak(&traces.force_f2_n),

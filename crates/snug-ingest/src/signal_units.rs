@@ -1,0 +1,82 @@
+use crate::{Format, Signal, Source, Unit};
+use snug_campaign::SignalUnits;
+
+impl Source {
+    /// In which units input and output are shown: as declared where that is a voltage or a pure number, m for lengths of
+    /// the grip, else Nm and rad.
+    ///
+    /// The first motion channel decides for the output.
+    pub fn units(&self, lever_arm_m: f64) -> SignalUnits {
+        let declared: Vec<(Signal, Unit)> = match &self.format {
+            Format::Thesis(_) => Vec::new(),
+            Format::Csv(layout) => layout.channels.iter().map(|c| (c.signal, c.unit)).collect(),
+            Format::Mcap(layout) => layout.channels.iter().map(|c| (c.signal, c.unit)).collect(),
+        };
+        let mut units = SignalUnits::default();
+        for (signal, unit) in declared.iter().rev() {
+            if *signal == Signal::Torque {
+                units.input = symbol(*unit).unwrap_or("Nm").to_owned();
+            } else if signal.quantity().is_some() {
+                let length = unit.factor(*signal, 2.0) != unit.factor(*signal, 1.0);
+                let standing_for = if length { "m" } else { "rad" };
+                units.output = symbol(*unit).unwrap_or(standing_for).to_owned();
+                units.output_per_rad = if length { lever_arm_m } else { 1.0 };
+            }
+        }
+        units
+    }
+}
+
+/// The symbol of a unit that stands for the signal 1:1; `None` for one that measures it.
+fn symbol(unit: Unit) -> Option<&'static str> {
+    match unit {
+        Unit::One => Some("1"),
+        Unit::Volt => Some("V"),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::csv::{Column, CsvChannel, CsvLayout};
+
+    fn units(channels: &[(Signal, Unit)]) -> (String, String, f64) {
+        let channel = |&(signal, unit): &(Signal, Unit)| CsvChannel {
+            column: Column::Index(0),
+            signal,
+            unit,
+            scale: 1.0,
+        };
+        let layout = CsvLayout {
+            channels: channels.iter().map(channel).collect(),
+            ..CsvLayout::default()
+        };
+        let source = Source {
+            format: Format::Csv(layout),
+            ..Source::default()
+        };
+        let units = source.units(0.4);
+        (units.input, units.output, units.output_per_rad)
+    }
+
+    #[test]
+    fn declared_units_reach_the_reader() {
+        use Signal::{Displacement, Torque, Velocity};
+        let words = |input: &str, output: &str, scale| (input.to_owned(), output.to_owned(), scale);
+        let volts = [(Torque, Unit::Volt), (Displacement, Unit::Volt)];
+        assert_eq!(units(&volts), words("V", "V", 1.0));
+        let length = [
+            (Torque, Unit::NewtonCentimetre),
+            (Displacement, Unit::Millimetre),
+        ];
+        assert_eq!(units(&length), words("Nm", "m", 0.4));
+        let angle = [
+            (Displacement, Unit::Degree),
+            (Velocity, Unit::Volt),
+            (Torque, Unit::One),
+        ];
+        assert_eq!(units(&angle), words("1", "rad", 1.0));
+        assert_eq!(Source::default().units(0.4), SignalUnits::default());
+    }
+}

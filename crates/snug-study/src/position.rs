@@ -1,0 +1,219 @@
+//! Where a field stands in a study file, for errors that are found only after the file was read.
+
+use std::ops::Range;
+
+/// A place in a text.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Position {
+    /// 1-based line.
+    pub(crate) line: usize,
+    /// 1-based column, in characters.
+    pub(crate) column: usize,
+}
+
+/// The place of the field that `path` names, for example `selection.minimum_fit_percent`; of its nearest parent where the
+/// text does not state the field itself; `None` where it states nothing of it.
+///
+/// Between a parent and its field there may be further levels, as in `window: Pulse(start_s: 1.5)` for
+/// `window.start_s`: the outermost field of that name counts.
+pub(crate) fn of_field(text: &str, path: &str) -> Option<Position> {
+    let keys = keys(text);
+    let mut within = 0..text.len();
+    let mut found = None;
+    for name in path.split('.') {
+        let inside = keys
+            .iter()
+            .filter(|key| key.name == name && within.contains(&key.at));
+        let Some(key) = inside.min_by_key(|key| (key.depth, key.at)) else {
+            break;
+        };
+        found = Some(key.at);
+        within = key.value.clone();
+    }
+    found.map(|at| position(text, at))
+}
+
+fn position(text: &str, at: usize) -> Position {
+    let before = &text[..at];
+    let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
+    Position {
+        line: before.matches('\n').count() + 1,
+        column: before[line_start..].chars().count() + 1,
+    }
+}
+
+/// A field's name or a map's key.
+#[derive(Debug)]
+struct Key<'a> {
+    name: &'a str,
+    at: usize,
+    depth: usize,
+    /// From the colon to the end of what stands in the same parentheses and belongs to it.
+    value: Range<usize>,
+}
+
+/// Every `name:` and `"name":` of a RON text that is known to be well formed.
+fn keys(text: &str) -> Vec<Key<'_>> {
+    let mut keys: Vec<Key> = Vec::new();
+    let mut open: Vec<usize> = Vec::new();
+    let mut depth = 0usize;
+    let mut last: Option<(usize, &str)> = None;
+    let mut at = 0;
+    while at < text.len() {
+        let token = token(&text[at..]);
+        let (start, end) = (at, at + token.length);
+        at = end;
+        match token.kind {
+            Kind::Space => {}
+            Kind::Name(name) => last = Some((start, name)),
+            Kind::Mark(':') => {
+                if let Some((at, name)) = last.take() {
+                    open.push(keys.len());
+                    let value = end..text.len();
+                    keys.push(Key {
+                        name,
+                        at,
+                        depth,
+                        value,
+                    });
+                }
+            }
+            Kind::Mark(mark) => {
+                last = None;
+                let closes = matches!(mark, ')' | ']' | '}');
+                if closes || mark == ',' {
+                    while let Some(&index) = open.last().filter(|&&i| keys[i].depth == depth) {
+                        keys[index].value.end = start;
+                        open.pop();
+                    }
+                }
+                match mark {
+                    '(' | '[' | '{' => depth += 1,
+                    _ if closes => depth = depth.saturating_sub(1),
+                    _ => {}
+                }
+            }
+        }
+    }
+    keys
+}
+
+enum Kind<'a> {
+    /// White space and comments.
+    Space,
+    /// An identifier, or a string without its quotes.
+    Name(&'a str),
+    Mark(char),
+}
+
+struct Token<'a> {
+    kind: Kind<'a>,
+    length: usize,
+}
+
+/// The first token of a text that is not empty.
+fn token(text: &str) -> Token<'_> {
+    let until = |end: &str, from: usize| {
+        text[from..]
+            .find(end)
+            .map_or(text.len(), |found| from + found + end.len())
+    };
+    let first = text.chars().next().unwrap_or(' ');
+    let named = |length: usize, name| Token {
+        kind: Kind::Name(name),
+        length,
+    };
+    let space = |length| Token {
+        kind: Kind::Space,
+        length,
+    };
+    if text.starts_with("//") {
+        return space(until("\n", 2));
+    }
+    if text.starts_with("/*") {
+        return space(until("*/", 2));
+    }
+    if text.starts_with("r#\"") {
+        return named(until("\"#", 3), "");
+    }
+    if first == '"' {
+        let length = string_length(text);
+        return named(length, text.get(1..length - 1).unwrap_or(""));
+    }
+    if first == '\'' {
+        // A character, possibly escaped: '\'' is one.
+        let from = if text[1..].starts_with('\\') { 3 } else { 2 };
+        let from = (from..=text.len()).find(|&at| text.is_char_boundary(at));
+        return space(until("'", from.unwrap_or(text.len())));
+    }
+    let word = |c: char| c.is_alphanumeric() || c == '_';
+    if word(first) {
+        let length = text.find(|c| !word(c)).unwrap_or(text.len());
+        return named(length, &text[..length]);
+    }
+    if first.is_whitespace() {
+        return space(first.len_utf8());
+    }
+    Token {
+        kind: Kind::Mark(first),
+        length: first.len_utf8(),
+    }
+}
+
+/// Bytes of a string with both quotes; `\"` does not end it.
+fn string_length(text: &str) -> usize {
+    let mut escaped = false;
+    for (at, character) in text.char_indices().skip(1) {
+        match character {
+            '"' if !escaped => return at + 1,
+            '\\' => escaped = !escaped,
+            _ => escaped = false,
+        }
+    }
+    text.len()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const STUDY: &str = r#"// selection: (minimum_fit_percent: 1.0)
+(
+    title: "a: (b) \" start_s: 3", /* window: */
+    source: (format: Csv(
+        comment: ';', channels: [(column: Name("µ"), unit: One), (unit: Volt)],
+        sampling: Rate(hz: -1.0),
+    )),
+    preprocess: (rig: (lever_arm_m: 0.3), window: Pulse(start_s: 1.5)),
+    model: (parameters: { "mass_kg": (value: -1.0, fixed: true) }),
+    selection: (tool_mass_kg: 2.6,
+        /* µµ */ minimum_fit_percent: 101),
+)"#;
+
+    fn at(path: &str) -> Option<(usize, usize)> {
+        of_field(STUDY, path).map(|position| (position.line, position.column))
+    }
+
+    /// Lines and columns as an editor counts them.
+    #[test]
+    fn fields_are_found_where_they_stand() {
+        for (path, place) in [
+            ("selection.minimum_fit_percent", (11, 18)),
+            ("preprocess.window.start_s", (8, 57)),
+            ("preprocess.rig.lever_arm_m", (8, 24)),
+            ("source.sampling.hz", (6, 24)),
+            ("source.channels", (5, 23)),
+            ("model.parameters.mass_kg", (9, 27)),
+            ("model.parameters.mass_kg.fixed", (9, 52)),
+        ] {
+            assert_eq!(at(path), Some(place), "{path}");
+        }
+    }
+
+    #[test]
+    fn what_is_not_stated_has_the_place_of_its_parent_or_none() {
+        assert_eq!(at("selection.noise_limited_ratio"), at("selection"));
+        assert_eq!(at("record.gap_s"), None);
+        assert_eq!(at("start_s"), at("preprocess.window.start_s"));
+    }
+}
