@@ -116,7 +116,7 @@ pub(crate) fn climb(
     loop {
         let current = climb.rungs.last().expect("the climb begins with a rung").clone();
         tell(&format!("ranking what is missing beside {}", list(&current.effects)));
-        climb.ranking = rank(cases, &current, &candidates(cases, &current, custom)?, units, settings)?;
+        climb.ranking = rank(cases, &current, &candidates(cases, &current, custom)?, units, settings, settings.control_campaigns)?;
         show(&climb.ranking, tell);
         if climb.additions.len() >= MOST_EFFECTS {
             climb.stopped = Stop::Full;
@@ -186,7 +186,9 @@ fn choose(
     let left = &ranking.candidates[single].fitted;
     let leaves_much = misfit(left) > MUCH_LEFT * misfit(current)
         && (!left.is_weighted || left.scale() > 1.0 + 2.0 * settings.smallest_gain);
-    if room < 2 || !(is_unlisted(winner.effect) || leaves_much) {
+    let half = |listed: usize| ranking.candidates[listed].gain() > 0.5 * winner.gain();
+    let in_doubt = is_unlisted(winner.effect) && listed.is_some_and(half) || leaves_much;
+    if room < 2 || !in_doubt {
         return Ok(vec![step(ranking, single, current)]);
     }
     let heldout = current.heldout(&|unit| unit);
@@ -202,7 +204,7 @@ fn choose(
         tell(&format!("looking ahead from {}", list(&first.effects)));
         let mut seconds = candidates(cases, first, custom)?;
         seconds.retain(|&effect| !is_unlisted(effect));
-        let next = rank(cases, first, &seconds, units, settings)?;
+        let next = rank(cases, first, &seconds, units, settings, 0)?;
         show(&next, tell);
         let Ok(second) = justified(&next, first, settings) else {
             continue;

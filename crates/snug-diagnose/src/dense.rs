@@ -67,26 +67,8 @@ impl Square {
     /// Solves A x = b by Cholesky after scaling the diagonal to 1; directions about which A knows nothing stay 0.
     pub fn solve_scaled(&self, b: &[f64]) -> Option<Vec<f64>> {
         let n = self.size;
-        let unit: Vec<f64> = (0..n)
-            .map(|i| match self.at(i, i) {
-                d if d > 0.0 => 1.0 / d.sqrt(),
-                _ => 0.0,
-            })
-            .collect();
-        let mut lower = vec![0.0; n * n];
-        for i in 0..n {
-            for j in 0..=i {
-                let known: f64 = (0..j).map(|k| lower[i * n + k] * lower[j * n + k]).sum();
-                let left = self.at(i, j) * unit[i] * unit[j] - known;
-                lower[i * n + j] = if i == j {
-                    if left > ROUNDING { left.sqrt() } else { 0.0 }
-                } else if lower[j * n + j] > 0.0 {
-                    left / lower[j * n + j]
-                } else {
-                    0.0
-                };
-            }
-        }
+        let unit = self.units();
+        let lower = self.scaled_cholesky(&unit);
         let mut x: Vec<f64> = b.iter().zip(&unit).map(|(b, u)| b * u).collect();
         for i in 0..n {
             let known: f64 = (0..i).map(|k| lower[i * n + k] * x[k]).sum();
@@ -106,6 +88,44 @@ impl Square {
             *x *= u;
         }
         x.iter().all(|x| x.is_finite()).then_some(x)
+    }
+
+    /// 1/√diagonal, 0 where the diagonal is not positive.
+    fn units(&self) -> Vec<f64> {
+        let diagonal = (0..self.size).map(|i| self.at(i, i));
+        diagonal.map(|d| if d > 0.0 { 1.0 / d.sqrt() } else { 0.0 }).collect()
+    }
+
+    /// Lower Cholesky factor of the matrix scaled to a diagonal of 1; directions that are rounding have zero pivots.
+    fn scaled_cholesky(&self, unit: &[f64]) -> Vec<f64> {
+        let n = self.size;
+        let mut lower = vec![0.0; n * n];
+        for i in 0..n {
+            for j in 0..=i {
+                let known = dot(&lower[i * n..i * n + j], &lower[j * n..j * n + j]);
+                let left = self.at(i, j) * unit[i] * unit[j] - known;
+                lower[i * n + j] = if i == j {
+                    if left > ROUNDING { left.sqrt() } else { 0.0 }
+                } else if lower[j * n + j] > 0.0 {
+                    left / lower[j * n + j]
+                } else {
+                    0.0
+                };
+            }
+        }
+        lower
+    }
+
+    /// Lower factor L with L Lᵀ = A, row-major.
+    pub fn cholesky(&self) -> Vec<f64> {
+        let unit = self.units();
+        let mut lower = self.scaled_cholesky(&unit);
+        for (row, unit) in lower.chunks_exact_mut(self.size.max(1)).zip(&unit) {
+            if *unit > 0.0 {
+                row.iter_mut().for_each(|value| *value /= unit);
+            }
+        }
+        lower
     }
 
     /// The inverse, column by column.

@@ -1,7 +1,7 @@
 //! A hypothesis after its fit: sizes, errors, and what it is worth in data that took no part.
 
 use crate::dense::{Square, dot};
-use crate::hypothesis::Hypothesis;
+use crate::hypothesis::{Hypothesis, Room};
 use crate::units::Units;
 use crate::DiagnoseError;
 use snug_identify::PooledFit;
@@ -47,7 +47,7 @@ pub(crate) struct Fitted {
 
 impl Fitted {
     pub fn new(
-        hypothesis: &mut Hypothesis<'_>,
+        hypothesis: &Hypothesis<'_>,
         fit: PooledFit,
         units: &Units,
     ) -> Result<Self, DiagnoseError> {
@@ -79,13 +79,14 @@ impl Fitted {
 
     fn work_out_blocks(
         &mut self,
-        hypothesis: &mut Hypothesis<'_>,
+        hypothesis: &Hypothesis<'_>,
         profiles: &[snug_identify::Profile],
     ) {
         let order: Vec<usize> = match self.units.are_whole() {
             true => Vec::new(),
             false => [hypothesis.own.as_slice(), &hypothesis.shared].concat(),
         };
+        let mut room = Room::default();
         for member in 0..self.own.len() {
             if self.units.are_whole() {
                 let (curvature, gradient) = self.profiles[member].clone();
@@ -99,7 +100,7 @@ impl Fitted {
                 continue;
             }
             let values = hypothesis.values(member, &self.own[member], &self.shared);
-            let (residual, jacobian) = hypothesis.weighted(member, &values, &order);
+            let (residual, jacobian) = hypothesis.weighted(member, &values, &order, &mut room);
             let count = residual.len();
             let mut whole = Square::zero(order.len());
             for range in self.units.ranges(count) {

@@ -27,7 +27,7 @@ pub(crate) struct Hypothesis<'a> {
 
 /// Buffers of one evaluation.
 #[derive(Default)]
-struct Room {
+pub(crate) struct Room {
     output: Vec<f64>,
     sensitivity: Vec<f64>,
     residual: Vec<f64>,
@@ -174,21 +174,21 @@ impl<'a> Hypothesis<'a> {
     }
 
     /// The fit with what follows from it.
-    pub fn finish(&mut self, end: PooledEnd, units: &Units) -> Result<Fitted, DiagnoseError> {
+    pub fn finish(&self, end: PooledEnd, units: &Units) -> Result<Fitted, DiagnoseError> {
         Fitted::new(self, end.fit, units)
     }
 
     /// Weighted residual and, for the parameters in `order`, weighted Jacobian (column-major) of one member.
-    pub fn weighted(
-        &mut self,
+    pub fn weighted<'r>(
+        &self,
         member: usize,
         values: &[f64],
         order: &[usize],
-    ) -> (&mut [f64], &mut [f64]) {
+        room: &'r mut Room,
+    ) -> (&'r mut [f64], &'r mut [f64]) {
         let case = &self.cases[member];
         let measured = case.measured();
         let (samples, columns) = (measured.len(), order.len());
-        let room = &mut self.room;
         room.output.resize(samples, 0.0);
         room.sensitivity.resize(samples * columns, 0.0);
         self.models[member].sensitivities(
@@ -301,7 +301,10 @@ impl PooledResidual for Hypothesis<'_> {
         let (own, shared) = parameters.split_at(self.own.len());
         let values = self.values(member, own, shared);
         let order = [self.own.as_slice(), &self.shared].concat();
-        let (residual, jacobian) = self.weighted(member, &values, &order);
-        linearization.set_jacobian(residual, jacobian)
+        let mut room = std::mem::take(&mut self.room);
+        let (residual, jacobian) = self.weighted(member, &values, &order, &mut room);
+        let outcome = linearization.set_jacobian(residual, jacobian);
+        self.room = room;
+        outcome
     }
 }

@@ -5,7 +5,7 @@ use crate::family::Family;
 use crate::evidence::{clearness, spread_of_sum};
 use crate::fitted::Fitted;
 use crate::hypothesis::{Hypothesis, Start};
-use crate::score::{Column, Scorer};
+use crate::score::{Column, Control, Scored, Scorer};
 use crate::units::Units;
 use crate::{Case, DiagnoseSettings};
 use rayon::prelude::*;
@@ -52,7 +52,14 @@ impl Candidate {
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Ranking {
     pub candidates: Vec<Candidate>,
+    /// What every candidate was scored with.
+    pub columns: Vec<Column>,
+    /// Campaigns of nothing but noise, and in how many of them something was called supported.
+    pub control: (usize, usize),
 }
+
+/// Sign flips behind a p in the negative control.
+const CONTROL_FLIPS: usize = 199;
 
 /// Fits exactly these effects, from where `from` ended where it is given.
 pub(crate) fn fit_effects(
@@ -77,10 +84,23 @@ pub(crate) fn rank(
     candidates: &[Effect],
     units: Units,
     settings: &DiagnoseSettings,
+    control_campaigns: usize,
 ) -> Result<Ranking, DiagnoseError> {
-    let mut hypothesis = Hypothesis::new(cases, &current.effects)?;
-    let columns = Scorer::new(&mut hypothesis, current, units).columns(candidates)?;
+    let hypothesis = Hypothesis::new(cases, &current.effects)?;
+    let control = Control {
+        campaigns: control_campaigns,
+        seed: settings.seed,
+    };
+    let Scored { columns, control } =
+        Scorer::new(&hypothesis, current, units, control).score(candidates)?;
     let family = Family::new(&columns, settings.sign_flips, settings.seed);
+    let false_alarms = control
+        .par_iter()
+        .filter(|columns| {
+            let family = Family::new(columns, CONTROL_FLIPS, settings.seed);
+            candidates.iter().any(|&effect| family.p(columns, effect) <= settings.level)
+        })
+        .count();
     let heldout = current.heldout(&|unit| unit);
     let refitted: Vec<Result<Candidate, DiagnoseError>> = candidates
         .par_iter()
@@ -99,7 +119,11 @@ pub(crate) fn rank(
         .collect();
     let mut candidates = refitted.into_iter().collect::<Result<Vec<_>, _>>()?;
     candidates.sort_by(|a, b| b.gain().total_cmp(&a.gain()));
-    Ok(Ranking { candidates })
+    Ok(Ranking {
+        candidates,
+        columns,
+        control: (control.len(), false_alarms),
+    })
 }
 
 /// What held-out units lose in squared residual.

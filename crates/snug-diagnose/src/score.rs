@@ -4,10 +4,14 @@
 //! z̃ = z − J (JᵀJ)⁻¹ Jᵀ z, s_ij = z̃ᵀ r_i, I_ij = z̃ᵀ z̃; predicted size Σ s / Σ I.
 
 use crate::DiagnoseError;
-use crate::dense::dot;
+use crate::dense::{Square, dot};
 use crate::fitted::Fitted;
-use crate::hypothesis::Hypothesis;
+use crate::hypothesis::{Hypothesis, Room};
 use crate::units::Units;
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use rand_distr::{Distribution, StandardNormal};
+use rayon::prelude::*;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 use snug_model::{Effect, Law, ParameterSpec, Scope};
 
@@ -34,11 +38,37 @@ pub(crate) struct Column {
     cross: Vec<f64>,
 }
 
-/// The fitted model against which effects are scored, and what was worked out of it once.
+/// The fitted model against which effects are scored.
 pub(crate) struct Scorer<'a, 'h> {
-    hypothesis: &'h mut Hypothesis<'a>,
+    hypothesis: &'h Hypothesis<'a>,
     fitted: &'h Fitted,
     units: Units,
+    /// Campaigns of nothing but noise that are scored beside the measured one.
+    control: Control,
+}
+
+/// How many campaigns of nothing but noise are drawn, and from which seed.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Control {
+    pub campaigns: usize,
+    pub seed: u64,
+}
+
+/// Columns of the measured campaign and of campaigns that hold nothing but noise.
+pub(crate) struct Scored {
+    pub columns: Vec<Column>,
+    pub control: Vec<Vec<Column>>,
+}
+
+/// What one tightening adds to every column.
+struct Contribution {
+    /// Column by column: s of each unit.
+    scores: Vec<Vec<f64>>,
+    variances: Vec<Vec<f64>>,
+    information: Vec<f64>,
+    cross: Vec<Vec<f64>>,
+    /// Campaign by campaign: s of each column, then the gradient over the shared parameters.
+    control: Vec<Vec<f64>>,
 }
 
 impl Column {
@@ -125,77 +155,172 @@ impl Column {
 }
 
 impl<'a, 'h> Scorer<'a, 'h> {
-    pub fn new(hypothesis: &'h mut Hypothesis<'a>, fitted: &'h Fitted, units: Units) -> Self {
+    pub fn new(
+        hypothesis: &'h Hypothesis<'a>,
+        fitted: &'h Fitted,
+        units: Units,
+        control: Control,
+    ) -> Self {
+        let campaigns = if units.are_whole() && fitted.is_weighted {
+            control.campaigns
+        } else {
+            0
+        };
         Self {
             hypothesis,
             fitted,
             units,
+            control: Control { campaigns, ..control },
         }
     }
 
     /// All columns of `effects`.
-    pub fn columns(&mut self, effects: &[Effect]) -> Result<Vec<Column>, DiagnoseError> {
-        let mut columns: Vec<Column> = effects.iter().flat_map(|&effect| directions(effect, self.units.are_whole())).collect();
+    pub fn score(&self, effects: &[Effect]) -> Result<Scored, DiagnoseError> {
+        let whole = self.units.are_whole();
+        let mut columns: Vec<Column> = effects
+            .iter()
+            .flat_map(|&effect| directions(effect, whole))
+            .collect();
         let mut others = Vec::new();
         for &effect in effects {
             let mut with = self.fitted.effects.clone();
             with.push(effect);
             others.push((effect, Hypothesis::new(self.hypothesis.cases, &with)?));
         }
-        for member in 0..self.hypothesis.cases.len() {
-            self.score_member(member, &mut columns, &others);
+        let contributions: Vec<Contribution> = (0..self.hypothesis.cases.len())
+            .into_par_iter()
+            .map(|member| self.contribution(member, &columns, &others))
+            .collect();
+        let blank = columns.clone();
+        for contribution in &contributions {
+            for (index, column) in columns.iter_mut().enumerate() {
+                column.scores.extend(&contribution.scores[index]);
+                column.variances.extend(&contribution.variances[index]);
+                column.information += contribution.information[index];
+                let cross = &contribution.cross[index];
+                column.cross.resize(cross.len(), 0.0);
+                for (sum, more) in column.cross.iter_mut().zip(cross) {
+                    *sum += more;
+                }
+            }
         }
-        self.project_shared(&mut columns);
-        columns.iter_mut().for_each(Column::bound);
-        Ok(columns)
+        let gradients: Vec<&[f64]> = self.fitted.profiles().iter().map(|(_, g)| g.as_slice()).collect();
+        let mut control = Vec::new();
+        for campaign in 0..self.control.campaigns {
+            let mut drawn = blank.clone();
+            for (index, column) in drawn.iter_mut().enumerate() {
+                column.variances.clone_from(&columns[index].variances);
+                column.cross.clone_from(&columns[index].cross);
+                let drawn = contributions.iter().map(|c| c.control[campaign][index]);
+                column.scores = drawn.collect();
+            }
+            let gradients: Vec<&[f64]> = contributions
+                .iter()
+                .map(|c| &c.control[campaign][columns.len()..])
+                .collect();
+            self.project_shared(&mut drawn, &gradients);
+            control.push(drawn);
+        }
+        self.project_shared(&mut columns, &gradients);
+        Ok(Scored { columns, control })
     }
 
-    fn score_member(
-        &mut self,
+    fn contribution(
+        &self,
         member: usize,
-        columns: &mut [Column],
+        columns: &[Column],
         others: &[(Effect, Hypothesis<'_>)],
-    ) {
+    ) -> Contribution {
+        let hypothesis = self.hypothesis;
         // Stretches of one tightening share everything with each other.
         let own_count = match self.units.are_whole() {
-            true => self.hypothesis.own.len(),
-            false => self.hypothesis.own.len() + self.hypothesis.shared.len(),
+            true => hypothesis.own.len(),
+            false => hypothesis.own.len() + hypothesis.shared.len(),
         };
-        let order = [self.hypothesis.own.as_slice(), &self.hypothesis.shared].concat();
-        let (own, shared) = (&self.fitted.own[member], &self.fitted.shared);
-        let values = self.hypothesis.values(member, own, shared);
-        let (residual, jacobian) = self.hypothesis.weighted(member, &values, &order);
-        let (residual, mut jacobian) = (residual.to_vec(), jacobian.to_vec());
+        let order = [hypothesis.own.as_slice(), &hypothesis.shared].concat();
+        let values = hypothesis.values(member, &self.fitted.own[member], &self.fitted.shared);
+        let mut room = Room::default();
+        let (residual, jacobian) = hypothesis.weighted(member, &values, &order, &mut room);
         let count = residual.len();
-        let nuisance = Nuisance::new(&jacobian, count, own_count);
+        let nuisance = Nuisance::new(jacobian, count, own_count);
         // Sensitivities to the shared parameters, as far as the own ones cannot imitate them.
-        for column in jacobian[own_count * count..].chunks_exact_mut(count) {
+        let (_, shared) = jacobian.split_at_mut(own_count * count);
+        for column in shared.chunks_exact_mut(count) {
             nuisance.project(column);
         }
         let bias = self.bias_signature(member, &nuisance);
-        let plain = self.hypothesis.output(member, &values);
+        let plain = hypothesis.output(member, &values);
+        let mut contribution = Contribution {
+            scores: Vec::new(),
+            variances: Vec::new(),
+            information: Vec::new(),
+            cross: Vec::new(),
+            control: Vec::new(),
+        };
+        let mut signatures: Vec<Vec<f64>> = Vec::new();
+        let mut along_bias = Vec::new();
         for column in columns {
-            let Some((_, other)) = others.iter().find(|(effect, _)| *effect == column.effect) else {
-                continue;
-            };
-            let signature = column.signature(other, member, &values, &plain);
-            let mut weighted = self.hypothesis.weigh_signal(member, &signature);
-            nuisance.project(&mut weighted);
+            let other = others.iter().find(|(effect, _)| *effect == column.effect);
+            let signature = other.map_or_else(
+                || vec![0.0; plain.len()],
+                |(_, other)| column.signature(other, member, &values, &plain),
+            );
+            let mut z = hypothesis.weigh_signal(member, &signature);
+            nuisance.project(&mut z);
+            let (mut scores, mut variances) = (Vec::new(), Vec::new());
+            let mut information = 0.0;
             for range in self.units.ranges(count) {
-                let (z, r) = (&weighted[range.clone()], &residual[range.clone()]);
-                let information = dot(z, z);
-                let along_bias = bias.as_ref().map_or(0.0, |bias| dot(z, &bias[range.clone()]));
-                column.scores.push(dot(z, r));
-                column.variances.push(information + along_bias * along_bias);
-                column.information += information;
+                let (z, r) = (&z[range.clone()], &residual[range.clone()]);
+                let along = bias.as_ref().map_or(0.0, |bias| dot(z, &bias[range.clone()]));
+                let squares = dot(z, z);
+                scores.push(dot(z, r));
+                variances.push(squares + along * along);
+                information += squares;
             }
-            let shared = jacobian[own_count * count..].chunks_exact(count);
-            column.cross.resize(shared.len(), 0.0);
-            for (cross, z) in column.cross.iter_mut().zip(shared) {
-                // The Jacobian is that of the residual: minus the output's.
-                *cross -= dot(z, &weighted);
+            // The Jacobian is that of the residual: minus the output's.
+            let cross = shared.chunks_exact(count).map(|shared| -dot(shared, &z));
+            contribution.cross.push(cross.collect());
+            contribution.scores.push(scores);
+            contribution.variances.push(variances);
+            contribution.information.push(information);
+            if self.control.campaigns > 0 {
+                along_bias.push(bias.as_ref().map_or(0.0, |bias| dot(&z, bias)));
+                signatures.push(z);
             }
         }
+        if self.control.campaigns > 0 {
+            for column in shared.chunks_exact(count) {
+                along_bias.push(bias.as_ref().map_or(0.0, |bias| dot(column, bias)));
+                signatures.push(column.to_vec());
+            }
+            contribution.control = self.draw(member, &signatures, &along_bias);
+        }
+        contribution
+    }
+
+    /// Scores of campaigns that hold nothing but noise: normal with the signatures' own Gram matrix as covariance.
+    fn draw(&self, member: usize, signatures: &[Vec<f64>], along_bias: &[f64]) -> Vec<Vec<f64>> {
+        let size = signatures.len();
+        let mut gram = Square::zero(size);
+        for i in 0..size {
+            for j in 0..=i {
+                let value = dot(&signatures[i], &signatures[j]);
+                gram.set(i, j, value);
+                gram.set(j, i, value);
+            }
+        }
+        let root = gram.cholesky();
+        let mut random = ChaCha8Rng::seed_from_u64(self.control.seed);
+        random.set_stream(member as u64);
+        (0..self.control.campaigns)
+            .map(|_| {
+                let noise: Vec<f64> = (0..size).map(|_| StandardNormal.sample(&mut random)).collect();
+                let bias: f64 = StandardNormal.sample(&mut random);
+                (0..size)
+                    .map(|i| dot(&root[i * size..=i * size + i], &noise) + bias * along_bias[i])
+                    .collect()
+            })
+            .collect()
     }
 
     /// What one standard error of the bias taken out in the quiet part does to the weighted output.
@@ -213,20 +338,20 @@ impl<'a, 'h> Scorer<'a, 'h> {
     }
 
     /// Takes out of every column what the shared parameters of the model can imitate over all tightenings together.
-    fn project_shared(&self, columns: &mut [Column]) {
-        if self.fitted.shared.is_empty() || !self.units.are_whole() {
-            return;
-        }
-        let curvature = self.fitted.shared_curvature();
-        for column in columns {
-            let Some(b) = curvature.solve_scaled(&column.cross) else {
-                continue;
-            };
-            column.information -= dot(&b, &column.cross);
-            for (score, (_, gradient)) in column.scores.iter_mut().zip(self.fitted.profiles()) {
-                *score += dot(&b, gradient);
+    fn project_shared(&self, columns: &mut [Column], gradients: &[&[f64]]) {
+        if !self.fitted.shared.is_empty() && self.units.are_whole() {
+            let curvature = self.fitted.shared_curvature();
+            for column in columns.iter_mut() {
+                let Some(b) = curvature.solve_scaled(&column.cross) else {
+                    continue;
+                };
+                column.information -= dot(&b, &column.cross);
+                for (score, gradient) in column.scores.iter_mut().zip(gradients) {
+                    *score += dot(&b, gradient);
+                }
             }
         }
+        columns.iter_mut().for_each(Column::bound);
     }
 }
 

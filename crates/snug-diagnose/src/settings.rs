@@ -13,6 +13,8 @@ pub struct DiagnoseSettings {
     pub smallest_gain: f64,
     /// Starts from which each effect is refitted; default 3.
     pub starts: usize,
+    /// Campaigns of nothing but noise on which the ranking is tried as a negative control; default 200.
+    pub control_campaigns: usize,
     /// Seed of everything random; default 0.
     pub seed: u64,
 }
@@ -24,6 +26,7 @@ impl Default for DiagnoseSettings {
             level: 0.05,
             smallest_gain: 0.01,
             starts: 3,
+            control_campaigns: 200,
             seed: 0,
         }
     }
