@@ -2,13 +2,13 @@
 //!
 //! A force f(x, v) that the model lacks leaves the residual with which the base model answers to the torque −l f along the
 //! measured motion (the simulated one where x or v is not measured): its signature z, whitened like the residual w. Both
-//! are freed of what m, c and k can take up to first order (their sensitivities). With s = Σ ⟨z, w⟩ over tightenings, one shape of one size explains s² / Σ ⟨z, z⟩ of the
-//! excess. All shapes together predict a tightening with the sizes that the tightenings of other files ask for; with
+//! are freed of what m, c and k can take up to first order (their sensitivities). With s = Σ ⟨z, w⟩ over tightenings, one
+//! shape of one size explains s² / Σ ⟨z, z⟩ of the excess. All shapes together predict a tightening with the sizes that the tightenings of other files ask for; with
 //! that prediction p, Σ (2 ⟨p, w⟩ − ⟨p, p⟩) over the excess is the share that comes back.
 
 use super::residual::{Residuals, White};
 use rayon::prelude::*;
-use snug_campaign::{Intersample, Motion};
+use snug_campaign::{Intersample, Motion, Quantity};
 use snug_identify::Whitening;
 use snug_model::{BASE_PARAMETERS, Input, Model};
 use std::collections::BTreeMap;
@@ -204,28 +204,9 @@ fn sums(one: &White<'_>, residuals: &Residuals<'_>) -> Option<Sums> {
         let interval_s = tightening.time_base.interval_s;
         Input::new(torque, interval_s, Intersample::Linear)
     };
-    let samples = tightening.torque_nm.len();
-    let (mut output, mut slopes) = (vec![0.0; samples], vec![0.0; 3 * samples]);
-    model.sensitivities(
-        &values,
-        &[0, 1, 2],
-        &answer(&tightening.torque_nm),
-        residuals.quantity,
-        &mut output,
-        &mut slopes,
-    );
-    let mut taken: Vec<Vec<f64>> = Vec::new();
-    for slope in slopes.chunks_exact(samples) {
-        let mut direction = whiten.signal(slope);
-        let before = dot(&direction, &direction);
-        free_of(&mut direction, &taken);
-        free_of(&mut direction, &taken);
-        let norm = dot(&direction, &direction);
-        if norm > SPANNED * before {
-            direction.iter_mut().for_each(|d| *d /= norm.sqrt());
-            taken.push(direction);
-        }
-    }
+    let logged = answer(&tightening.torque_nm);
+    let taken = taken_up(&model, &values, &logged, residuals.quantity, &whiten);
+    let mut output = vec![0.0; tightening.torque_nm.len()];
     let signatures = SHAPES.map(|(_, shape)| {
         let torque: Vec<f64> = angle
             .iter()
@@ -256,6 +237,40 @@ fn sums(one: &White<'_>, residuals: &Residuals<'_>) -> Option<Sums> {
         .chain(sums.gram.iter().flatten())
         .all(|s| s.is_finite());
     finite.then_some(sums)
+}
+
+/// Orthonormal directions of the whitened residual that a change of m, c and k can take up.
+fn taken_up(
+    model: &Model,
+    values: &[f64],
+    input: &Input,
+    quantity: Quantity,
+    whiten: &Whiten,
+) -> Vec<Vec<f64>> {
+    let samples = input.samples();
+    let (mut output, mut slopes) = (vec![0.0; samples], vec![0.0; 3 * samples]);
+    model.sensitivities(
+        values,
+        &[0, 1, 2],
+        input,
+        quantity,
+        &mut output,
+        &mut slopes,
+    );
+    let mut taken: Vec<Vec<f64>> = Vec::new();
+    for slope in slopes.chunks_exact(samples) {
+        let mut direction = whiten.signal(slope);
+        let before = dot(&direction, &direction);
+        // Twice, because once leaves rounding of the long part in the short one.
+        free_of(&mut direction, &taken);
+        free_of(&mut direction, &taken);
+        let norm = dot(&direction, &direction);
+        if norm > SPANNED * before {
+            direction.iter_mut().for_each(|d| *d /= norm.sqrt());
+            taken.push(direction);
+        }
+    }
+    taken
 }
 
 /// What makes a signal comparable with a tightening's whitened residual.
