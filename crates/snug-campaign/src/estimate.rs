@@ -36,9 +36,9 @@ pub struct ParameterEstimate {
     pub unit: String,
     /// Estimated or fixed value.
     pub value: f64,
-    /// Standard error; `None` when fixed or on an active bound.
+    /// Standard error; `None` on an active bound, or when fixed at a value known exactly.
     pub standard_error: Option<f64>,
-    /// 95 % interval; `None` when fixed or on an active bound.
+    /// 95 % interval; `None` on an active bound, or when fixed at a value known exactly.
     pub interval: Option<Interval>,
     /// Whether it was held fixed.
     pub fixed: bool,

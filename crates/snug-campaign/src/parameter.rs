@@ -27,6 +27,9 @@ pub struct Parameter {
     pub maximum: f64,
     /// A fixed parameter is not identified.
     pub fixed: bool,
+    /// Standard error of a fixed value that was found elsewhere; `None` where it is known exactly or identified.
+    #[serde(default)]
+    pub standard_error: Option<f64>,
     /// Where the value comes from.
     pub source: ParameterSource,
 }

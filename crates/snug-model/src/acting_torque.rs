@@ -1,5 +1,5 @@
+use crate::assembly::Part;
 use crate::effect::{Instant, Law, LoggedTorque};
-use crate::model::Part;
 use crate::{Input, Number};
 
 /// The torque that acts on the joint, from the one that is logged.

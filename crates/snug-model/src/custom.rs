@@ -216,6 +216,7 @@ fn describe(settings: &CustomEffectSettings, program: &Program) -> &'static Desc
             kept(format!("whatever changes {}", used.join(", ")))
         },
         shows_as: kept(format!("misfit that follows {expression}")),
+        check: "Whether anything at the rig acts as this law says: the study's author knows what is meant.",
         source: "the study file",
     }))
 }

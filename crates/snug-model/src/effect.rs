@@ -64,6 +64,8 @@ pub struct Description {
     pub excited_by: &'static str,
     /// How it shows in the residual of a model without it.
     pub shows_as: &'static str,
+    /// What to check at the bench when it is suspected.
+    pub check: &'static str,
     /// Where it comes from in the literature.
     pub source: &'static str,
 }

@@ -136,6 +136,11 @@ macro_rules! catalogue {
     };
 }
 
+mod fatigue;
+
+/// Trends from tightening to tightening: they act between simulations, not within one, so none of them is an [`Effect`].
+pub const TRENDS: &[Description] = &[fatigue::DESCRIPTION];
+
 catalogue! {
     cubic_stiffness::CubicStiffness,
     quadratic_stiffness::QuadraticStiffness,

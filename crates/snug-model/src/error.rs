@@ -47,6 +47,16 @@ pub enum ModelError {
         /// Its largest allowed value.
         maximum: f64,
     },
+    /// A standard error was stated for a parameter that is not fixed, or is negative or not finite.
+    #[error(
+        "parameter `{name}`: the standard error {standard_error} must be zero or a positive number, and the parameter fixed"
+    )]
+    StandardError {
+        /// The parameter.
+        name: String,
+        /// Its stated standard error.
+        standard_error: f64,
+    },
     /// A custom effect's name cannot be used.
     #[error("custom effect: the name `{name}` {problem}")]
     CustomName {

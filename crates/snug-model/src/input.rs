@@ -17,6 +17,7 @@ pub struct Input {
     held: bool,
     rest_before_s: f64,
     onset_s: f64,
+    zero_at: Option<usize>,
 }
 
 impl Input {
@@ -37,6 +38,7 @@ impl Input {
             held: intersample == Intersample::ZeroOrder,
             rest_before_s: 0.0,
             onset_s: 0.0,
+            zero_at: None,
         }
     }
 
@@ -60,6 +62,21 @@ impl Input {
     /// When the pulse begins \[s after the first sample\].
     pub fn onset_s(&self) -> f64 {
         self.onset_s
+    }
+
+    /// States that the measured displacement was zeroed by taking its value at this sample off the whole signal.
+    ///
+    /// What the sensors' effects add to the simulated displacement is zeroed there, too. A sample beyond the last counts
+    /// as the last.
+    pub fn with_zero_at(mut self, sample: Option<usize>) -> Self {
+        self.zero_at = sample;
+        self
+    }
+
+    /// The sample at which the measured displacement was zeroed.
+    pub fn zero_at(&self) -> Option<usize> {
+        let last = self.samples.saturating_sub(1);
+        self.zero_at.map(|sample| sample.min(last))
     }
 
     /// Number of samples.

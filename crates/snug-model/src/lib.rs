@@ -2,6 +2,7 @@
 
 mod accelerometer;
 mod acting_torque;
+mod assembly;
 mod band_limited;
 mod custom;
 mod custom_settings;
@@ -15,6 +16,7 @@ mod expression;
 mod forces;
 mod history;
 mod input;
+mod invisible;
 mod linear;
 mod model;
 mod number;
@@ -23,7 +25,9 @@ mod plant;
 mod runge_kutta;
 mod sensors;
 mod settings;
+mod zeroed;
 
+pub use assembly::Assembly;
 pub use custom::CustomEffect;
 pub use custom_settings::{CustomEffectSettings, CustomParameterSettings, Place};
 pub use dual::Dual;
@@ -31,12 +35,13 @@ pub use effect::{
     Deflection, Delayed, Description, Instant, Kind, Kinematics, Law, LoggedTorque, ParameterSpec,
     Scope,
 };
-pub use effects::Effect;
+pub use effects::{Effect, TRENDS};
 pub use error::ModelError;
 pub use euler::euler_displacement;
 pub use forces::{inverse_dynamics_force, spring_damper_force};
 pub use input::Input;
-pub use model::{Assembly, BASE_PARAMETERS, MAXIMUM_FREE, Model, THESIS_START};
+pub use invisible::{INVISIBLE, Invisible};
+pub use model::{BASE_PARAMETERS, MAXIMUM_FREE, Model, THESIS_START};
 pub use number::Number;
 pub use oscillation::{
     damped_frequency_hz, damping_ratio, natural_frequency_hz, thesis_damping_ratio,

@@ -1,13 +1,8 @@
-use crate::dual::Dual;
-use crate::effect::{Kinematics, Law, ParameterSpec};
-use crate::linear::{self, Oscillator, Response};
-use crate::sensors::Sensors;
-use crate::{Effect, Input, ModelError, Number, runge_kutta};
+use crate::assembly::{Assembly, MAXIMUM_STATES, Part, select};
+use crate::effect::{Law, ParameterSpec};
+use crate::{Effect, Input, ModelError};
 use snug_campaign::{Motion, Parameter, ParameterSource, Quantity, Rig};
-use std::ops::Range;
 
-/// θ, ω and up to four states of effects.
-pub(crate) const MAXIMUM_STATES: usize = 6;
 /// Free parameters a simulation with sensitivities can carry.
 pub const MAXIMUM_FREE: usize = 16;
 
@@ -16,23 +11,6 @@ pub const BASE_PARAMETERS: [&str; 3] = ["mass_kg", "damping_kg_per_s", "stiffnes
 
 /// m, c, k as the thesis starts them \[kg, kg/s, N/m\].
 pub const THESIS_START: [f64; 3] = [1.76, 38.26, 1837.27];
-
-/// One effect's place in an assembly.
-#[derive(Debug, Clone)]
-pub(crate) struct Part {
-    pub effect: Effect,
-    pub parameters: Range<usize>,
-    pub states: Range<usize>,
-}
-
-/// The base model with its effects, laid out.
-#[derive(Debug, Clone)]
-pub struct Assembly {
-    rig: Rig,
-    parts: Vec<Part>,
-    parameter_count: usize,
-    state_count: usize,
-}
 
 /// (I_n + m l²) dω/dt = T − l F with F = k x + c v + effects, x = l θ, v = l ω: simulated, with sensitivities.
 ///
@@ -94,6 +72,55 @@ impl Model {
             },
             parameters,
         })
+    }
+
+    /// The same model with `effect` added; what is set of its other parameters stays.
+    ///
+    /// # Errors
+    /// As [`Model::new`].
+    pub fn with_effect(&self, effect: Effect) -> Result<Self, ModelError> {
+        let effects: Vec<Effect> = self.effects().chain([effect]).collect();
+        self.with_effects(&effects)
+    }
+
+    /// The same model without `effect`; what is set of its other parameters stays.
+    ///
+    /// # Errors
+    /// [`ModelError::UnknownEffect`] when the model does not have it.
+    pub fn without_effect(&self, effect: Effect) -> Result<Self, ModelError> {
+        let effects: Vec<Effect> = self.effects().filter(|known| *known != effect).collect();
+        if effects.len() == self.assembly.parts.len() {
+            return Err(ModelError::UnknownEffect {
+                name: effect.name().to_owned(),
+                known: effects.iter().map(Effect::name).collect(),
+            });
+        }
+        self.with_effects(&effects)
+    }
+
+    /// `effects` on the same rig; parameters are matched by their effect, since their names depend on its company.
+    fn with_effects(&self, effects: &[Effect]) -> Result<Self, ModelError> {
+        let mut model = Self::new(*self.rig(), effects)?;
+        let keep = |to: &mut [Parameter], from: &[Parameter]| {
+            for (to, from) in to.iter_mut().zip(from) {
+                let name = std::mem::take(&mut to.name);
+                *to = Parameter {
+                    name,
+                    ..from.clone()
+                };
+            }
+        };
+        let base = BASE_PARAMETERS.len();
+        keep(&mut model.parameters[..base], &self.parameters[..base]);
+        for part in &model.assembly.parts {
+            if let Some(old) = (self.assembly.parts.iter()).find(|old| old.effect == part.effect) {
+                keep(
+                    &mut model.parameters[part.parameters.clone()],
+                    &self.parameters[old.parameters.clone()],
+                );
+            }
+        }
+        Ok(model)
     }
 
     /// The rig's constants.
@@ -206,167 +233,6 @@ impl Model {
     }
 }
 
-impl Assembly {
-    pub(crate) fn rig(&self) -> &Rig {
-        &self.rig
-    }
-
-    pub(crate) fn parts(&self) -> &[Part] {
-        &self.parts
-    }
-
-    /// No effect at all: the fast exact path without dual numbers applies.
-    fn is_base(&self) -> bool {
-        self.parts.is_empty()
-    }
-
-    /// The motion itself is the base model's, whatever the sensors add.
-    fn moves_as_base(&self) -> bool {
-        self.parts.iter().all(|part| part.effect.measurement_only())
-    }
-
-    fn oscillator(&self, values: &[f64]) -> Oscillator {
-        let square = self.rig.lever_arm_m * self.rig.lever_arm_m;
-        Oscillator {
-            inertia_kg_m2: self.rig.known_inertia_kg_m2 + values[0] * square,
-            damping_nm_s_per_rad: values[1] * square,
-            stiffness_nm_per_rad: values[2] * square,
-        }
-    }
-
-    /// Simulates and hands every sample's measured motion to `sample`.
-    fn respond<N: Number + FromResponse>(
-        &self,
-        p: &[N],
-        input: &Input,
-        mut sample: impl FnMut(usize, &Kinematics<N>),
-    ) {
-        let mut sensors = Sensors::new(self, p, input);
-        self.move_tool(p, input, |index, motion| {
-            sample(index, &sensors.sample(index, motion));
-        });
-    }
-
-    /// The true motion: by the exact recursion where it is the base model's, else by Runge–Kutta.
-    fn move_tool<N: Number + FromResponse>(
-        &self,
-        p: &[N],
-        input: &Input,
-        mut sample: impl FnMut(usize, Kinematics<N>),
-    ) {
-        if !self.moves_as_base() {
-            return match self.state_count {
-                2 => runge_kutta::respond::<N, 2>(self, p, input, sample),
-                3 => runge_kutta::respond::<N, 3>(self, p, input, sample),
-                4 => runge_kutta::respond::<N, 4>(self, p, input, sample),
-                _ => runge_kutta::respond::<N, MAXIMUM_STATES>(self, p, input, sample),
-            };
-        }
-        let values: Vec<f64> = p.iter().map(|number| number.value()).collect();
-        let square = self.rig.lever_arm_m * self.rig.lever_arm_m;
-        // m, c, k enter through I, C, K, each times l².
-        let base = [p[0] * square, p[1] * square, p[2] * square];
-        linear::respond(&self.oscillator(&values), input, |index, response| {
-            sample(index, N::from_response(response, &base));
-        });
-    }
-
-    /// The exact recursion's own sensitivities, without dual numbers.
-    fn base_sensitivities(
-        &self,
-        values: &[f64],
-        free: &[usize],
-        input: &Input,
-        quantity: Quantity,
-        output: &mut [f64],
-        sensitivity: &mut [f64],
-    ) {
-        let (row, samples) = (quantity as usize, input.samples());
-        let square = self.rig.lever_arm_m * self.rig.lever_arm_m;
-        linear::respond(&self.oscillator(values), input, |index, response| {
-            output[index] = response.motion[row];
-            for (column, &parameter) in free.iter().enumerate() {
-                sensitivity[column * samples + index] =
-                    square * response.sensitivity[row][parameter];
-            }
-        });
-    }
-
-    /// Forward differentiation with `P` partial derivatives carried along.
-    fn carry<const P: usize>(
-        &self,
-        values: &[f64],
-        free: &[usize],
-        input: &Input,
-        quantity: Quantity,
-        output: &mut [f64],
-        sensitivity: &mut [f64],
-    ) {
-        let mut p: Vec<Dual<P>> = values.iter().map(|&value| Dual::from(value)).collect();
-        for (column, &parameter) in free.iter().enumerate() {
-            p[parameter] = Dual::parameter(values[parameter], column);
-        }
-        let samples = input.samples();
-        debug_assert_eq!(p.len(), self.parameter_count);
-        self.respond(&p, input, |index, motion| {
-            let number = select(motion, quantity);
-            output[index] = number.value;
-            for column in 0..free.len() {
-                sensitivity[column * samples + index] = number.partials[column];
-            }
-        });
-    }
-}
-
-/// A number that can be made from the exact recursion's response and its dependence on I, C, K.
-trait FromResponse: Sized {
-    fn from_response(response: &Response, base: &[Self; 3]) -> Kinematics<Self>;
-}
-
-impl FromResponse for f64 {
-    #[inline(always)]
-    fn from_response(response: &Response, _base: &[Self; 3]) -> Kinematics<Self> {
-        let [
-            displacement_rad,
-            velocity_rad_per_s,
-            acceleration_rad_per_s2,
-        ] = response.motion;
-        Kinematics {
-            displacement_rad,
-            velocity_rad_per_s,
-            acceleration_rad_per_s2,
-        }
-    }
-}
-
-impl<const P: usize> FromResponse for Dual<P> {
-    #[inline(always)]
-    fn from_response(response: &Response, base: &[Self; 3]) -> Kinematics<Self> {
-        let quantity = |row: usize| {
-            let slopes = &response.sensitivity[row];
-            Self {
-                value: response.motion[row],
-                partials: std::array::from_fn(|j| {
-                    (0..3).map(|i| slopes[i] * base[i].partials[j]).sum()
-                }),
-            }
-        };
-        Kinematics {
-            displacement_rad: quantity(0),
-            velocity_rad_per_s: quantity(1),
-            acceleration_rad_per_s2: quantity(2),
-        }
-    }
-}
-
-fn select<N: Number>(motion: &Kinematics<N>, quantity: Quantity) -> N {
-    match quantity {
-        Quantity::Displacement => motion.displacement_rad,
-        Quantity::Velocity => motion.velocity_rad_per_s,
-        Quantity::Acceleration => motion.acceleration_rad_per_s2,
-    }
-}
-
 fn check_rig(rig: &Rig) -> Result<(), ModelError> {
     let reject = |field, value, allowed| {
         Err(ModelError::Rig {
@@ -404,6 +270,7 @@ fn base_parameters() -> Vec<Parameter> {
             minimum: f64::NEG_INFINITY,
             maximum: f64::INFINITY,
             fixed: false,
+            standard_error: None,
             source: ParameterSource::Default,
         })
         .collect()
@@ -421,6 +288,7 @@ fn effect_parameter(spec: &ParameterSpec, qualified_by: Option<&str>) -> Paramet
         minimum: spec.minimum,
         maximum: spec.maximum,
         fixed: false,
+        standard_error: None,
         source: ParameterSource::Default,
     }
 }

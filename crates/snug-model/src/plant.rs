@@ -1,7 +1,7 @@
 use crate::acting_torque::{ActingTorque, with_added_torque};
+use crate::assembly::{Assembly, Part};
 use crate::effect::{Deflection, Delayed, Instant, Kinematics, Law};
 use crate::history::History;
-use crate::model::{Assembly, Part};
 use crate::{Input, Number};
 
 /// Tool, hand and arm of one simulation: the equations of motion with everything that stays the same worked out once.

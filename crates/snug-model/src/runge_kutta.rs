@@ -3,8 +3,8 @@
 //! At 10 kHz the error of a step is (h ω)⁵/120 ≈ 1e−15 of the amplitude for an arm at 30 rad/s; a band-limited input
 //! brings its own finer grid.
 
+use crate::assembly::Assembly;
 use crate::effect::Kinematics;
-use crate::model::Assembly;
 use crate::plant::{Drive, Plant};
 use crate::{Input, Number};
 

@@ -1,7 +1,7 @@
 use crate::accelerometer::Accelerometer;
 use crate::acting_torque::{ActingTorque, with_added_torque};
+use crate::assembly::{Assembly, Part};
 use crate::effect::{Instant, Kinematics, Law};
-use crate::model::{Assembly, Part};
 use crate::{Input, Number};
 
 /// From the true motion to the measured one: leaks and lag of the accelerometer, then what is added to its signals.
@@ -54,6 +54,11 @@ impl<'a, N: Number> Sensors<'a, N> {
             let own = &self.p[part.parameters.clone()];
             part.effect.measure(own, since_rest_s, motion)
         })
+    }
+
+    /// Whether an effect of the assembly changes what is measured of the motion.
+    pub fn are_heard(&self) -> bool {
+        self.parts.iter().any(|part| part.effect.measurement_only())
     }
 
     fn leak(&self, index: usize, motion: &Kinematics<N>) -> Option<N> {

@@ -29,6 +29,9 @@ pub struct ParameterSettings {
     pub maximum: Option<f64>,
     /// Held at its value instead of identified; default false.
     pub fixed: bool,
+    /// Standard error of a fixed value that was found elsewhere, in the parameter's unit: it widens the intervals of what
+    /// is identified beside it. Default none: the value is known exactly.
+    pub standard_error: Option<f64>,
 }
 
 impl Default for ModelSettings {
@@ -113,7 +116,16 @@ impl ParameterSettings {
         parameter.maximum = self.maximum.unwrap_or(parameter.maximum);
         parameter.value = self.value.unwrap_or(parameter.value);
         parameter.fixed = self.fixed;
+        parameter.standard_error = self.standard_error;
         parameter.source = ParameterSource::Study;
+        if let Some(standard_error) = self.standard_error
+            && !(self.fixed && standard_error >= 0.0 && standard_error.is_finite())
+        {
+            return Err(ModelError::StandardError {
+                name: name.to_owned(),
+                standard_error,
+            });
+        }
         let (value, minimum, maximum) = (parameter.value, parameter.minimum, parameter.maximum);
         if value.is_finite() && minimum < maximum && (minimum..=maximum).contains(&value) {
             Ok(())

@@ -27,6 +27,7 @@ impl Law for AccelerationBias {
             twins: &["initial_motion"],
             excited_by: "nothing: it is there at rest",
             shows_as: "a constant in the acceleration, a parabola in the displacement",
+            check: "Read the accelerometer with the tool at rest, cold and warm: it must show zero; if not, record a quiet part before each pulse.",
             source: "sensor zero offset",
         }
     }

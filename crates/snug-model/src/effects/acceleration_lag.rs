@@ -28,6 +28,7 @@ impl Law for AccelerationLag {
             twins: &["torque_delay", "torque_lag"],
             excited_by: "fast torque changes: shut-off, hard joints",
             shows_as: "misfit that follows the acceleration's slope",
+            check: "Look up the low-pass filter of the acceleration channel, and compare its step response with the torque channel's.",
             source: "low-pass filter of the accelerometer",
         }
     }

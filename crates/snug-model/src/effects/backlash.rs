@@ -36,6 +36,7 @@ impl Law for Backlash {
             twins: &["co_contraction"],
             excited_by: "any motion; relatively strongest in weak pulses",
             shows_as: "misfit at the onset and at every passage through rest, where the tool moves as if free",
+            check: "With the tool off, rock the handle and look for free play between tool, reaction bar, mounting and palm.",
             source: "dead zone, rounded over 0.05 mm",
         }
     }

@@ -39,6 +39,7 @@ impl Law for BoucWen {
             twins: &["maxwell_branch", "coulomb_friction"],
             excited_by: "reversals: a window that goes on long enough",
             shows_as: "misfit that steps at every reversal and builds up over a short way",
+            check: "Repeat with a bare hand and with a thick glove: soft tissue and padding give way and leave a loop at every reversal.",
             source: "Bouc 1967, Wen 1976",
         }
     }

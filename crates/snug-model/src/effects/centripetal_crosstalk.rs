@@ -28,6 +28,7 @@ impl Law for CentripetalCrosstalk {
             twins: &["quadratic_damping"],
             excited_by: "fast rotation: high target torque, light arms",
             shows_as: "misfit that follows the square of the velocity, the same sign on the way out and back",
+            check: "Check that the accelerometer's axis lies along the circle on which it moves: turned towards the joint, it feels the rotation itself.",
             source: "transverse sensitivity of the accelerometer",
         }
     }

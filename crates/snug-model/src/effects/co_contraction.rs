@@ -43,6 +43,7 @@ impl Law for CoContraction {
             twins: &["cubic_stiffness", "grip_slip"],
             excited_by: "displacement that lasts beyond the reaction time",
             shows_as: "late misfit in proportion to the displacement: the way back is quicker than the way out",
+            check: "Ask the operator to grip as firmly before the pulse as during it (watch the grip force): the stiffening should go away.",
             source: "Hogan 1984, antagonist co-activation",
         }
     }

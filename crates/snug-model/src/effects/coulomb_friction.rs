@@ -30,6 +30,7 @@ impl Law for CoulombFriction {
             twins: &["quadratic_damping"],
             excited_by: "any motion; relatively strongest in weak pulses",
             shows_as: "misfit that follows the sign of the velocity, with a step at every reversal",
+            check: "Move the handle slowly by hand with the tool off and feel or measure whether it needs a small force to move at all: look for rubbing sleeves, cables, hoses and the suspension.",
             source: "Coulomb friction, smoothed",
         }
     }

@@ -28,6 +28,7 @@ impl Law for CubicStiffness {
             twins: &["quadratic_stiffness", "co_contraction"],
             excited_by: "large displacements: high target torque, soft grip",
             shows_as: "misfit around the peak that grows as x^3 and only at big targets; fitted stiffness drifts with amplitude",
+            check: "Tighten at a low, a middle and a high target torque with the same grip: a spring that hardens gives a fitted stiffness that rises with the target.",
             source: "Duffing oscillator",
         }
     }

@@ -28,6 +28,7 @@ impl Law for DirectionalDamping {
             twins: &["quadratic_stiffness"],
             excited_by: "the rebound after the peak: a window that goes on long enough",
             shows_as: "misfit that starts at the peak displacement and follows the velocity on the way back only",
+            check: "Watch the handle come back after shut-off, on a film or in the recorded velocity: the hand brakes the return differently from the push.",
             source: "Hill, force-velocity relation of muscle",
         }
     }

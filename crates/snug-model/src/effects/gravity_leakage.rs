@@ -28,6 +28,7 @@ impl Law for GravityLeakage {
             twins: &["cubic_stiffness", "torque_dependent_stiffness"],
             excited_by: "large displacements",
             shows_as: "misfit that follows the displacement, in the acceleration without a force",
+            check: "Turn the tool slowly by hand and watch the acceleration: a reading that follows the angle is gravity, so look at how the sensor is mounted.",
             source: "static sensitivity of accelerometers",
         }
     }

@@ -28,6 +28,7 @@ impl Law for GripSlip {
             twins: &["coulomb_friction", "cubic_stiffness"],
             excited_by: "large forces: high target torque, weak grip",
             shows_as: "misfit where the force is largest: the tool goes further than the spring would let it",
+            check: "Mark handle and glove with a line and look after a high-torque tightening whether it has moved; repeat with a firmer grip.",
             source: "limit of friction, smoothed",
         }
     }

@@ -36,6 +36,7 @@ impl Law for InitialMotion {
             twins: &["acceleration_bias"],
             excited_by: "nothing: it is there at the start",
             shows_as: "a free, decaying oscillation from the first sample on, before the pulse",
+            check: "Hold the tool still for a second before each start, and check that the window begins before the pulse does.",
             source: "initial conditions",
         }
     }

@@ -37,6 +37,7 @@ impl Law for MaxwellBranch {
             twins: &["stretch_reflex"],
             excited_by: "fast changes: hard joints, short pulses",
             shows_as: "misfit that follows the velocity and decays over tau after each change",
+            check: "Repeat with a bare hand, with a glove and with another handle cover: a soft layer in between changes the misfit.",
             source: "Zener, standard linear solid",
         }
     }

@@ -20,12 +20,13 @@ impl Law for OutputOffset {
                 starts: &[0.0],
                 minimum: -10.0,
                 maximum: 10.0,
-                scope: Scope::Shared,
+                scope: Scope::PerTightening,
             }],
             states: &[],
             twins: &["torque_offset", "acceleration_bias"],
             excited_by: "nothing: it is there at rest",
             shows_as: "a constant in the fitted output",
+            check: "Read the fitted channel with the tool at rest: it must show zero.",
             source: "sensor zero offset",
         }
     }

@@ -28,6 +28,7 @@ impl Law for QuadraticDamping {
             twins: &["coulomb_friction", "torque_delay"],
             excited_by: "fast motion: high target torque, hard joints",
             shows_as: "misfit that follows v abs(v), largest where the velocity peaks; fitted damping drifts with amplitude",
+            check: "Compare a slow and a fast joint at the same target torque: damping of this kind grows with the speed of the handle, friction does not.",
             source: "velocity-squared damping",
         }
     }

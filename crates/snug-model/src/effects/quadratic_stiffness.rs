@@ -28,6 +28,7 @@ impl Law for QuadraticStiffness {
             twins: &["cubic_stiffness", "directional_damping"],
             excited_by: "large displacements: high target torque, soft grip",
             shows_as: "misfit around the peak that grows as x^2, with the same sign on both sides of rest",
+            check: "Let the tool pull the hand in the other direction once (left-hand thread or reversed tool): an uneven spring is stiffer one way than the other.",
             source: "asymmetric spring (Nayfeh and Mook 1979)",
         }
     }

@@ -46,6 +46,7 @@ impl Law for SecondMass {
             twins: &["torque_delay", "maxwell_branch"],
             excited_by: "short pulses: hard joints, fast shut-off",
             shows_as: "ringing at a second frequency, in the acceleration most",
+            check: "Repeat with the elbow supported and with the arm stretched out: ringing that changes comes from the forearm; ringing that stays comes from the mounting.",
             source: "two-degree-of-freedom hand-arm models (ISO 10068)",
         }
     }

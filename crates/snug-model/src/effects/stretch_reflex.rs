@@ -36,6 +36,7 @@ impl Law for StretchReflex {
             twins: &["maxwell_branch"],
             excited_by: "pulses shorter than the delay, and a window much longer",
             shows_as: "misfit that starts a fixed 20 to 120 ms after the motion and repeats it",
+            check: "Ask the operator to stay relaxed, then to resist: a reflex begins the same short time after the pulse and changes in size only.",
             source: "stretch reflex latencies of the arm",
         }
     }

@@ -27,6 +27,7 @@ impl Law for TorqueDelay {
             twins: &["torque_lag", "acceleration_lag"],
             excited_by: "fast torque changes: shut-off, hard joints",
             shows_as: "misfit that follows dT/dt",
+            check: "Feed one pulse to both channels and compare their edges; look for different filters or acquisition cards.",
             source: "channel timing",
         }
     }

@@ -28,6 +28,7 @@ impl Law for TorqueDependentStiffness {
             twins: &["co_contraction"],
             excited_by: "displacement while torque acts: soft joints, high target torque",
             shows_as: "misfit in proportion to torque times displacement: none after shut-off",
+            check: "Tighten at several target torques with the grip force recorded: if the hand stiffens with torque, grip force and torque rise together.",
             source: "grip force rises with load",
         }
     }

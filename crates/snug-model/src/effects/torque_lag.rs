@@ -28,6 +28,7 @@ impl Law for TorqueLag {
             twins: &["torque_delay", "acceleration_lag"],
             excited_by: "fast torque changes: shut-off, hard joints",
             shows_as: "misfit that follows dT/dt",
+            check: "Look up the low-pass filter of the torque channel, and compare its step response with the acceleration channel's.",
             source: "low-pass filter of the torque channel",
         }
     }

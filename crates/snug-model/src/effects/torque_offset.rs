@@ -27,6 +27,7 @@ impl Law for TorqueOffset {
             twins: &["voluntary_push", "output_offset"],
             excited_by: "nothing: it is there at rest",
             shows_as: "a small free oscillation from the first sample on, around a constant angle",
+            check: "Read the torque sensor with no load, before and after the run: it must show zero.",
             source: "sensor zero offset",
         }
     }

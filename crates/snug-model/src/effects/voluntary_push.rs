@@ -42,6 +42,7 @@ impl Law for VoluntaryPush {
             twins: &["torque_offset"],
             excited_by: "nothing: it comes with the person",
             shows_as: "misfit that is one-sided, comes late and stays",
+            check: "Let somebody else start the tool so that the operator does not know when: a push on purpose then comes later or not at all.",
             source: "voluntary reaction times",
         }
     }

@@ -1,0 +1,37 @@
+//! The arm tires: m, c, k of tightening number n are m0 (1 + s_m n), c0 (1 + s_c n), k0 (1 + s_k n).
+//!
+//! Within one tightening m, c, k are free, so nothing of it shows there: it is no law of motion but a trend of what was
+//! identified, over the tightening's number in its file. Excited by many tightenings in a row. In the residual of one
+//! tightening it leaves nothing; the fitted m, c, k drift. Source: muscle stiffness falls and posture sags as muscles tire.
+
+use crate::effect::{Description, Kind, ParameterSpec, Scope};
+
+const fn slope(name: &'static str) -> ParameterSpec {
+    ParameterSpec {
+        name,
+        unit: "1/tightening",
+        starts: &[0.0],
+        minimum: -0.1,
+        maximum: 0.1,
+        scope: Scope::Shared,
+    }
+}
+
+/// What people read about it.
+pub const DESCRIPTION: Description = Description {
+    name: "fatigue",
+    kind: Kind::Trend,
+    summary: "The arm tires: mass, damping and stiffness drift from one tightening to the next.",
+    equation: "m (1 + s_m n), c (1 + s_c n), k (1 + s_k n),  n: the tightening's number",
+    parameters: &[
+        slope("mass_slope_per_tightening"),
+        slope("damping_slope_per_tightening"),
+        slope("stiffness_slope_per_tightening"),
+    ],
+    states: &[],
+    twins: &[],
+    excited_by: "many tightenings in a row by the same person",
+    shows_as: "no misfit within a tightening; the fitted mass, damping and stiffness drift with its number",
+    check: "Repeat the first tightenings after a rest: values that come back to where they began show fatigue, values that stay show learning or a changed setup.",
+    source: "muscle fatigue; the pace of work and learning look alike",
+};
