@@ -23,9 +23,10 @@ pub(crate) struct Addition {
 pub(crate) struct Attempt {
     pub effect: Effect,
     pub removed: bool,
-    /// Growth of the squared residual without it, and its standard error over units.
+    /// Growth of the squared residual without it.
     pub loss: f64,
-    pub loss_error: f64,
+    /// The same as a share of the squared residual.
+    pub growth: f64,
 }
 
 /// How far the climb went.
@@ -36,8 +37,44 @@ pub(crate) struct Climb {
     pub attempts: Vec<Attempt>,
     /// The ranking against the last model.
     pub ranking: Ranking,
-    pub stopped: Stop,
+    /// The ranking's candidate that is supported and matters, where the climb ends without adding it.
+    pub chosen: Option<usize>,
+    /// Why nothing more was added; `None` where nobody tried.
+    pub stopped: Option<Stop>,
 }
+
+impl Climb {
+    /// A model that is not to be changed and nothing ranked beside it.
+    pub fn only(fitted: Fitted) -> Self {
+        Self {
+            rungs: vec![fitted],
+            additions: Vec::new(),
+            attempts: Vec::new(),
+            ranking: Ranking::default(),
+            chosen: None,
+            stopped: None,
+        }
+    }
+
+    /// The last model.
+    pub fn last(&self) -> &Fitted {
+        self.rungs.last().expect("a climb begins with a rung")
+    }
+
+    /// A candidate that is not supported, but might be with more tightenings.
+    pub fn is_promising(&self, settings: &DiagnoseSettings) -> Option<&Candidate> {
+        let squares = self.last().squares();
+        self.ranking.candidates.iter().find(|candidate| {
+            candidate.p_family > settings.level
+                && candidate.p_family < PROMISING_P
+                && candidate.gain() > 2.0 * settings.smallest_gain * squares
+                && candidate.clearness() > 1.0
+        })
+    }
+}
+
+/// Family-wise p below which a large but unsupported candidate leaves the verdict open.
+const PROMISING_P: f64 = 0.3;
 
 /// Why the climb stopped.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -96,6 +133,58 @@ pub(crate) fn candidates(cases: &[Case], current: &Fitted, custom: &[Effect]) ->
     Ok(all)
 }
 
+/// The study's own model and what could be missing beside it; nothing is added.
+pub(crate) fn rank_only(
+    cases: &[Case],
+    own: &[Effect],
+    custom: &[Effect],
+    units: Units,
+    settings: &DiagnoseSettings,
+    tell: &(dyn Fn(&str) + Sync),
+) -> Result<Climb, DiagnoseError> {
+    let mut climb = Climb::only(fit_effects(cases, own, None, units)?);
+    let search = Search { cases, custom, units, settings, tell };
+    climb.ranking = search.rank(climb.last(), settings.control_campaigns)?;
+    match justified(&climb.ranking, climb.last(), settings) {
+        Ok(best) => {
+            let steps = search.choose(climb.last(), &climb.ranking, best, MOST_EFFECTS)?;
+            let first = steps.first().map(|(addition, _)| addition.effect);
+            let all = &climb.ranking.candidates;
+            climb.chosen = all.iter().position(|candidate| Some(candidate.effect) == first);
+        }
+        Err(stop) => climb.stopped = Some(stop),
+    }
+    Ok(climb)
+}
+
+/// The study's own model with `effects` added one after the other, and what is missing then.
+pub(crate) fn add(
+    cases: &[Case],
+    own: &[Effect],
+    effects: &[Effect],
+    custom: &[Effect],
+    units: Units,
+    settings: &DiagnoseSettings,
+    tell: &(dyn Fn(&str) + Sync),
+) -> Result<Climb, DiagnoseError> {
+    let mut climb = Climb::only(fit_effects(cases, own, None, units)?);
+    let search = Search { cases, custom, units, settings, tell };
+    for &effect in effects {
+        let ranking = search.rank_these(climb.last(), effect)?;
+        let index = ranking.candidates.iter().position(|c| c.effect == effect);
+        let Some(index) = index else { continue };
+        let (addition, fitted) = step(&ranking, index, climb.last());
+        climb.additions.push(addition);
+        climb.rungs.push(fitted);
+    }
+    climb.ranking = search.rank(climb.last(), settings.control_campaigns)?;
+    match justified(&climb.ranking, climb.last(), settings) {
+        Ok(best) => climb.chosen = Some(search.single(&climb.ranking, best)),
+        Err(stop) => climb.stopped = Some(stop),
+    }
+    Ok(climb)
+}
+
 /// Climbs from the study's own effects as far as the data justify.
 pub(crate) fn climb(
     cases: &[Case],
@@ -105,37 +194,28 @@ pub(crate) fn climb(
     settings: &DiagnoseSettings,
     tell: &(dyn Fn(&str) + Sync),
 ) -> Result<Climb, DiagnoseError> {
-    let base = fit_effects(cases, own, None, units)?;
-    let mut climb = Climb {
-        rungs: vec![base],
-        additions: Vec::new(),
-        attempts: Vec::new(),
-        ranking: Ranking::default(),
-        stopped: Stop::Full,
-    };
+    let mut climb = Climb::only(fit_effects(cases, own, None, units)?);
+    let search = Search { cases, custom, units, settings, tell };
     loop {
-        let current = climb.rungs.last().expect("the climb begins with a rung").clone();
-        tell(&format!("ranking what is missing beside {}", list(&current.effects)));
-        climb.ranking = rank(cases, &current, &candidates(cases, &current, custom)?, units, settings, settings.control_campaigns)?;
-        show(&climb.ranking, tell);
+        climb.ranking = search.rank(climb.last(), settings.control_campaigns)?;
         if climb.additions.len() >= MOST_EFFECTS {
-            climb.stopped = Stop::Full;
+            climb.stopped = Some(Stop::Full);
             break;
         }
-        let best = match justified(&climb.ranking, &current, settings) {
+        let best = match justified(&climb.ranking, climb.last(), settings) {
             Ok(best) => best,
             Err(stop) => {
-                climb.stopped = stop;
+                climb.stopped = Some(stop);
                 break;
             }
         };
         let room = MOST_EFFECTS - climb.additions.len();
-        let steps = choose(cases, &current, &climb.ranking, best, custom, units, settings, room, tell)?;
-        for step in steps {
-            climb.additions.push(step.0);
-            climb.rungs.push(step.1);
+        for (addition, fitted) in search.choose(climb.last(), &climb.ranking, best, room)? {
+            climb.additions.push(addition);
+            climb.rungs.push(fitted);
         }
     }
+    search.try_removals(&mut climb)?;
     Ok(climb)
 }
 
@@ -160,72 +240,145 @@ fn step(ranking: &Ranking, index: usize, current: &Fitted) -> Step {
     (addition, candidate.fitted.clone())
 }
 
-/// What to add: one effect, or, where one leaves much, the two that together leave least. Of equals a catalogue effect
-/// comes before an unlisted term.
-#[allow(clippy::too_many_arguments)]
-fn choose(
-    cases: &[Case],
-    current: &Fitted,
-    ranking: &Ranking,
-    best: usize,
-    custom: &[Effect],
+/// What stays the same during a climb.
+struct Search<'a> {
+    cases: &'a [Case],
+    custom: &'a [Effect],
     units: Units,
-    settings: &DiagnoseSettings,
-    room: usize,
-    tell: &(dyn Fn(&str) + Sync),
-) -> Result<Vec<Step>, DiagnoseError> {
-    let listed = ranking
-        .candidates
-        .iter()
-        .position(|c| !is_unlisted(c.effect) && c.is_supported(settings));
-    let winner = &ranking.candidates[best];
-    let single = match listed {
-        Some(listed) if winner.ahead_of(&ranking.candidates[listed]) < EQUAL => listed,
-        _ => best,
-    };
-    let left = &ranking.candidates[single].fitted;
-    let leaves_much = misfit(left) > MUCH_LEFT * misfit(current)
-        && (!left.is_weighted || left.scale() > 1.0 + 2.0 * settings.smallest_gain);
-    let half = |listed: usize| ranking.candidates[listed].gain() > 0.5 * winner.gain();
-    let in_doubt = is_unlisted(winner.effect) && listed.is_some_and(half) || leaves_much;
-    if room < 2 || !in_doubt {
-        return Ok(vec![step(ranking, single, current)]);
+    settings: &'a DiagnoseSettings,
+    tell: &'a (dyn Fn(&str) + Sync),
+}
+
+impl Search<'_> {
+    fn rank(&self, current: &Fitted, control_campaigns: usize) -> Result<Ranking, DiagnoseError> {
+        (self.tell)(&format!("ranking what is missing beside {}", list(&current.effects)));
+        let all = candidates(self.cases, current, self.custom)?;
+        let ranking = rank(self.cases, current, &all, self.units, self.settings, control_campaigns)?;
+        show(&ranking, self.tell);
+        Ok(ranking)
     }
-    let heldout = current.heldout(&|unit| unit);
-    let mut pair: Option<(usize, Candidate, Step)> = None;
-    let seeds = (0..ranking.candidates.len())
-        .filter(|&index| {
-            let candidate = &ranking.candidates[index];
-            !is_unlisted(candidate.effect) && candidate.is_supported(settings)
-        })
-        .take(SEEDS);
-    for seed in seeds {
-        let first = &ranking.candidates[seed].fitted;
-        tell(&format!("looking ahead from {}", list(&first.effects)));
-        let mut seconds = candidates(cases, first, custom)?;
-        seconds.retain(|&effect| !is_unlisted(effect));
-        let next = rank(cases, first, &seconds, units, settings, 0)?;
-        show(&next, tell);
-        let Ok(second) = justified(&next, first, settings) else {
-            continue;
+
+    /// The ranking, with `effect` among the candidates whatever it is.
+    fn rank_these(&self, current: &Fitted, effect: Effect) -> Result<Ranking, DiagnoseError> {
+        let mut all = candidates(self.cases, current, self.custom)?;
+        if !all.contains(&effect) {
+            all.push(effect);
+        }
+        (self.tell)(&format!("adding {}", effect.name()));
+        rank(self.cases, current, &all, self.units, self.settings, 0)
+    }
+
+    /// The best candidate, or a supported catalogue effect that is as good.
+    fn single(&self, ranking: &Ranking, best: usize) -> usize {
+        match self.listed(ranking) {
+            Some(listed)
+                if ranking.candidates[best].ahead_of(&ranking.candidates[listed]) < EQUAL =>
+            {
+                listed
+            }
+            _ => best,
+        }
+    }
+
+    /// The first supported effect of the catalogue.
+    fn listed(&self, ranking: &Ranking) -> Option<usize> {
+        let all = &ranking.candidates;
+        all.iter()
+            .position(|c| !is_unlisted(c.effect) && c.is_supported(self.settings))
+    }
+
+    /// What to add: one effect, or, where one leaves much, the two that together leave least. Of equals a catalogue
+    /// effect comes before an unlisted term.
+    fn choose(
+        &self,
+        current: &Fitted,
+        ranking: &Ranking,
+        best: usize,
+        room: usize,
+    ) -> Result<Vec<Step>, DiagnoseError> {
+        let winner = &ranking.candidates[best];
+        let single = self.single(ranking, best);
+        let left = &ranking.candidates[single].fitted;
+        let leaves_much = misfit(left) > MUCH_LEFT * misfit(current)
+            && (!left.is_weighted || left.scale() > 1.0 + 2.0 * self.settings.smallest_gain);
+        let half = |listed: usize| ranking.candidates[listed].gain() > 0.5 * winner.gain();
+        let challenged = is_unlisted(winner.effect) && self.listed(ranking).is_some_and(half);
+        let alone = vec![step(ranking, single, current)];
+        if room < 2 || !(challenged || leaves_much) {
+            return Ok(alone);
+        }
+        let Some((seed, together, second)) = self.best_pair(current, ranking)? else {
+            return Ok(alone);
         };
-        let mut together = next.candidates[second].clone();
-        together.gains = gains(&heldout, &together.fitted);
-        if pair.as_ref().is_none_or(|(_, known, _)| together.gain() > known.gain()) {
-            pair = Some((seed, together, step(&next, second, first)));
-        }
+        let one = &ranking.candidates[single];
+        let better = together.gain() > one.gain() && together.ahead_of(one) > EQUAL;
+        // Two catalogue effects that leave as little as one unlisted term are the likelier story.
+        let as_good = is_unlisted(one.effect) && one.ahead_of(&together) < EQUAL;
+        Ok(match better || as_good {
+            true => vec![step(ranking, seed, current), second],
+            false => alone,
+        })
     }
-    let alone = &ranking.candidates[single];
-    Ok(match pair {
-        // Two catalogue effects that leave as little as one unlisted term are the simpler story.
-        Some((seed, together, second))
-            if together.gain() > alone.gain() && together.ahead_of(alone) > EQUAL
-                || is_unlisted(alone.effect) && alone.ahead_of(&together) < EQUAL =>
-        {
-            vec![step(ranking, seed, current), second]
+
+    /// The two catalogue effects that together explain most: where the first stands in the ranking, both, the second.
+    fn best_pair(
+        &self,
+        current: &Fitted,
+        ranking: &Ranking,
+    ) -> Result<Option<(usize, Candidate, Step)>, DiagnoseError> {
+        let heldout = current.heldout(&|unit| unit);
+        let mut pair: Option<(usize, Candidate, Step)> = None;
+        let all = ranking.candidates.iter().enumerate();
+        let seeds = all
+            .filter(|(_, c)| !is_unlisted(c.effect) && c.is_supported(self.settings))
+            .take(SEEDS);
+        for (seed, candidate) in seeds {
+            let first = &candidate.fitted;
+            (self.tell)(&format!("looking ahead from {}", list(&first.effects)));
+            let mut seconds = candidates(self.cases, first, self.custom)?;
+            seconds.retain(|&effect| !is_unlisted(effect));
+            let next = rank(self.cases, first, &seconds, self.units, self.settings, 0)?;
+            show(&next, self.tell);
+            let Ok(second) = justified(&next, first, self.settings) else {
+                continue;
+            };
+            let mut together = next.candidates[second].clone();
+            together.gains = gains(&heldout, &together.fitted);
+            if (pair.as_ref()).is_none_or(|(_, known, _)| together.gain() > known.gain()) {
+                pair = Some((seed, together, step(&next, second, first)));
+            }
         }
-        _ => vec![step(ranking, single, current)],
-    })
+        Ok(pair)
+    }
+
+    /// Tries to do without each added term once.
+    fn try_removals(&self, climb: &mut Climb) -> Result<(), DiagnoseError> {
+        if climb.additions.len() < 2 {
+            return Ok(());
+        }
+        let added: Vec<Effect> = climb.additions.iter().map(|one| one.effect).collect();
+        for effect in added {
+            let full = climb.last().clone();
+            (self.tell)(&format!("trying to do without {}", effect.name()));
+            let mut effects = full.effects.clone();
+            effects.retain(|known| *known != effect);
+            let without = fit_effects(self.cases, &effects, Some(&full), self.units)?;
+            let losses = gains(&without.heldout(&|unit| unit), &full);
+            let loss: f64 = losses.iter().sum();
+            let growth = loss / full.squares();
+            let removed = growth < self.settings.smallest_gain
+                || crate::evidence::clearness(&losses, full.scale()) < 1.0;
+            climb.attempts.push(Attempt { effect, removed, loss, growth });
+            if removed {
+                climb.additions.retain(|one| one.effect != effect);
+                climb.rungs.push(without);
+            }
+        }
+        if climb.attempts.iter().any(|attempt| attempt.removed) {
+            climb.ranking = self.rank(climb.last(), self.settings.control_campaigns)?;
+        }
+        Ok(())
+    }
 }
 
 /// Share of the misfit left by one effect beyond which two are tried together.

@@ -4,8 +4,11 @@
 mod case;
 mod climb;
 mod dense;
+mod detectability;
 mod error;
 mod evidence;
+mod examine;
+mod experiment;
 mod family;
 mod fitted;
 mod hypothesis;
@@ -16,9 +19,11 @@ mod settings;
 mod sizes;
 mod units;
 mod unlisted;
+mod wording;
 
 pub use case::Case;
 pub use error::DiagnoseError;
+pub use examine::{Answer, Goal, Question, RungModel, examine};
 pub use locate::{Seen, compare, drifts, locate};
 pub use settings::DiagnoseSettings;
 

@@ -110,6 +110,14 @@ impl Column {
         }
     }
 
+    /// Which of the effect's parameters the column is about, and the size that information counts in.
+    pub fn size(&self) -> (usize, f64) {
+        match self.along {
+            Some(parameter) => (parameter, 1.0),
+            None => (0, self.start[0]),
+        }
+    }
+
     fn sided(&self, sum: f64) -> f64 {
         if self.one_sided { sum.max(0.0) } else { sum.abs() }
     }

@@ -112,8 +112,7 @@ impl Fitted {
 /// The model of one case with everything but its own parameters held.
 pub(crate) fn held(case: &Case, fitted: &Fitted) -> Option<Model> {
     let mut model = case.model_with(&fitted.effects).ok()?;
-    let errors = fitted.shared_errors();
-    for (column, (name, value)) in fitted.shared_named().into_iter().enumerate() {
+    for (name, value) in fitted.shared_named() {
         let parameter = model.parameters_mut().iter_mut().find(|p| p.name == name)?;
         parameter.value = value;
         parameter.fixed = true;

@@ -1,0 +1,506 @@
+//! One verb of the diagnosis from tightenings to answer: compare, diagnose, add, improve.
+
+use crate::climb::{Addition, Attempt, Climb, add, climb, misfit, rank_only};
+use crate::experiment::separating_experiment;
+use crate::fitted::Fitted;
+use crate::ranking::{Candidate, Ranking, fit_effects};
+use crate::sizes::{held, parameters};
+use crate::unlisted::{declaration, is_unlisted};
+use crate::units::Units;
+use crate::wording::{self, Situation};
+use crate::{
+    Case, DiagnoseError, DiagnoseSettings, Seen, compare, detectability, drifts, locate,
+};
+use snug_campaign::{
+    AddedEffect, CorrectedEffect, Diagnosis, EffectParameter, Estimate, NegativeControl,
+    NoiseSource, NoiseStatement, Quantity, RankedEffect, Removal, Rung, UnlistedTerm, Verdict,
+};
+use snug_identify::{IdentifySettings, identify};
+use snug_model::{CustomEffectSettings, Effect, Kind, Law};
+
+/// What is asked of the data.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Goal {
+    /// Model against measurement, and where it fails.
+    Compare,
+    /// The same, and which effect is missing; nothing is changed.
+    Diagnose,
+    /// These effects are added, whatever the ranking says of them.
+    Add(Vec<Effect>),
+    /// Effects are added as long as the data justify it.
+    Improve,
+}
+
+/// A question to the data.
+#[derive(Debug, Clone)]
+pub struct Question<'a> {
+    /// The tightenings.
+    pub cases: &'a [Case],
+    /// Effects of the study's own model.
+    pub effects: Vec<Effect>,
+    /// Effects that the study declares but does not use: candidates, too.
+    pub custom: Vec<Effect>,
+    /// What is asked.
+    pub goal: Goal,
+}
+
+/// The model of one rung.
+#[derive(Debug, Clone)]
+pub struct RungModel {
+    /// Its effects.
+    pub effects: Vec<String>,
+    /// Declarations of those effects that the study does not know yet.
+    pub declarations: Vec<CustomEffectSettings>,
+    /// Sizes of the effects, shared ones and each tightening's own.
+    pub parameters: Vec<EffectParameter>,
+}
+
+/// What the data answer.
+#[derive(Debug, Clone)]
+pub struct Answer {
+    /// Everything but what only a whole run of the study can tell of each rung.
+    pub diagnosis: Diagnosis,
+    /// The model of each rung of the ladder.
+    pub models: Vec<RungModel>,
+}
+
+/// Answers a question.
+///
+/// `tell` hears of each stage as it begins.
+///
+/// # Errors
+/// [`DiagnoseError::NothingToCompare`] without tightenings, otherwise what the model or the fit refuses.
+pub fn examine(
+    question: &Question<'_>,
+    settings: &DiagnoseSettings,
+    tell: &(dyn Fn(&str) + Sync),
+) -> Result<Answer, DiagnoseError> {
+    let cases = question.cases;
+    if cases.is_empty() {
+        return Err(DiagnoseError::NothingToCompare {
+            tightenings: 0,
+            reason: "every tightening was left out; the findings say why",
+        });
+    }
+    let units = Units::of(cases);
+    let own = &question.effects;
+    let climbed = match &question.goal {
+        Goal::Compare => Climb::only(fit_effects(cases, own, None, units)?),
+        Goal::Diagnose => rank_only(cases, own, &question.custom, units, settings, tell)?,
+        Goal::Add(effects) => add(cases, own, effects, &question.custom, units, settings, tell)?,
+        Goal::Improve => climb(cases, own, &question.custom, units, settings, tell)?,
+    };
+    tell("looking where the model fails");
+    Examination {
+        question,
+        settings,
+        climb: climbed,
+        tell,
+    }
+    .answer()
+}
+
+struct Examination<'a> {
+    question: &'a Question<'a>,
+    settings: &'a DiagnoseSettings,
+    climb: Climb,
+    tell: &'a (dyn Fn(&str) + Sync),
+}
+
+impl Examination<'_> {
+    fn answer(self) -> Result<Answer, DiagnoseError> {
+        let cases = self.question.cases;
+        let (first, last) = (&self.climb.rungs[0], self.climb.last());
+        let estimates = estimates(cases, first)?;
+        let seen = Sight::new(cases, first, estimates);
+        let base = seen.seen();
+        let changed = last.effects != first.effects;
+        let final_location = if changed {
+            let sight = Sight::new(cases, last, self::estimates(cases, last)?);
+            Some(locate(&sight.seen(), self.settings.seed))
+        } else {
+            None
+        };
+        let location = locate(&base, self.settings.seed);
+        let verdict = self.verdict(final_location.as_ref().unwrap_or(&location).repeatable_share);
+        let ranking = self.ranking();
+        let situation = Situation {
+            verb: self.verb(),
+            verdict,
+            tightenings: cases.len(),
+            before: first,
+            after: last,
+            additions: &self.climb.additions,
+            chosen: self.climb.chosen.map(|index| &self.climb.ranking.candidates[index]),
+            ranking: &ranking,
+            stopped: self.climb.stopped,
+            cases,
+            settings: self.settings,
+        };
+        let experiment = match situation.twin_pair() {
+            Some((first, second)) => {
+                (self.tell)("looking for the experiment that tells the twins apart");
+                separating_experiment(cases, first, second)
+            }
+            None => None,
+        };
+        let diagnosis = Diagnosis {
+            verb: self.verb().to_owned(),
+            verdict,
+            headline: wording::headline(&situation),
+            reasons: wording::reasons(&situation),
+            stopped: wording::stopped(&situation),
+            tightenings: cases.len(),
+            noise: noise(cases),
+            compared_output: quantity_name(cases[0].quantity).to_owned(),
+            added: self.added(),
+            corrected: corrected(cases),
+            ladder: self.climb.rungs.iter().map(|rung| ladder_rung(cases, rung)).collect(),
+            ranking,
+            removals: self.climb.attempts.iter().map(removal).collect(),
+            comparison: compare(&base),
+            drift: drifts(&base),
+            location,
+            final_location,
+            detectability: detectability::cards(&self.climb.ranking, last, self.settings),
+            control: self.control(),
+            unlisted: self.unlisted(),
+            experiment,
+            showcase: None,
+        };
+        Ok(Answer {
+            diagnosis,
+            models: self.climb.rungs.iter().map(|rung| rung_model(cases, rung)).collect(),
+        })
+    }
+
+    fn verb(&self) -> &'static str {
+        match self.question.goal {
+            Goal::Compare => "compare",
+            Goal::Diagnose => "diagnose",
+            Goal::Add(_) => "add",
+            Goal::Improve => "improve",
+        }
+    }
+
+    fn verdict(&self, repeatable: Option<f64>) -> Verdict {
+        let last = self.climb.last();
+        let added_unlisted = self.climb.additions.iter().any(|one| is_unlisted(one.effect));
+        if self.climb.ranking.candidates.is_empty() {
+            return match last.is_weighted && last.error() < AT_FLOOR {
+                true => Verdict::Adequate,
+                false => Verdict::Undecided,
+            };
+        }
+        if let Some(chosen) = self.climb.chosen {
+            return match is_unlisted(self.climb.ranking.candidates[chosen].effect) {
+                true => Verdict::UnlistedEffect,
+                false => Verdict::MissingEffect,
+            };
+        }
+        if added_unlisted {
+            return Verdict::UnlistedEffect;
+        }
+        if last.is_weighted && last.error() > AT_FLOOR && repeatable.is_some_and(|r| r > REPEATS) {
+            return Verdict::UnlistedEffect;
+        }
+        match self.climb.is_promising(self.settings) {
+            Some(_) => Verdict::Undecided,
+            None => Verdict::Adequate,
+        }
+    }
+
+    fn ranking(&self) -> Vec<RankedEffect> {
+        let ranking = &self.climb.ranking;
+        let mut order: Vec<usize> = (0..ranking.candidates.len()).collect();
+        if let Some(chosen) = self.climb.chosen {
+            order.retain(|&index| index != chosen);
+            order.insert(0, chosen);
+        }
+        let whole = misfit(self.climb.last());
+        let first = order.first().map(|&index| &ranking.candidates[index]);
+        order
+            .iter()
+            .map(|&index| self.ranked(ranking, index, whole, first))
+            .collect()
+    }
+
+    fn ranked(
+        &self,
+        ranking: &Ranking,
+        index: usize,
+        misfit: f64,
+        first: Option<&Candidate>,
+    ) -> RankedEffect {
+        let candidate = &ranking.candidates[index];
+        let sizes = parameters(self.question.cases, &candidate.fitted, candidate.effect);
+        let supported = candidate.is_supported(self.settings);
+        let twins = match supported {
+            true => crate::climb::twins(ranking, index),
+            false => Vec::new(),
+        };
+        RankedEffect {
+            effect: candidate.effect.name().to_owned(),
+            kind: kind_name(candidate.effect).to_owned(),
+            unlisted: is_unlisted(candidate.effect),
+            score: candidate.score,
+            p_family: candidate.p_family,
+            heldout_gain: candidate.gain() / misfit,
+            heldout_gain_error: candidate.gain_error() / misfit,
+            error_over_noise: candidate.fitted.is_weighted.then(|| candidate.fitted.error()),
+            behind_first: first.map_or(0.0, |first| first.ahead_of(candidate)),
+            likeness: None,
+            twins: twins.iter().map(|twin| twin.name().to_owned()).collect(),
+            plausible: sizes.iter().all(|s| s.value > s.minimum && s.value < s.maximum),
+            explanation: wording::explanation(candidate.effect, &sizes),
+            parameters: sizes,
+        }
+    }
+
+    fn added(&self) -> Vec<AddedEffect> {
+        let (cases, last) = (self.question.cases, self.climb.last());
+        let known = self.climb.rungs[0].effects.iter().map(|&effect| (effect, None));
+        let added = self.climb.additions.iter().map(|one| (one.effect, Some(one)));
+        known
+            .chain(added)
+            .filter(|(effect, _)| last.effects.contains(effect))
+            .map(|(effect, one): (Effect, Option<&Addition>)| {
+                let sizes = parameters(cases, last, effect);
+                AddedEffect {
+                    effect: effect.name().to_owned(),
+                    kind: kind_name(effect).to_owned(),
+                    expression: declaration(effect.name()).map(|d| d.expression),
+                    twins: one.map_or_else(Vec::new, |one| {
+                        one.twins.iter().map(|twin| twin.name().to_owned()).collect()
+                    }),
+                    p_family: one.map(|one| one.p_family),
+                    heldout_gain: one.map(|one| one.heldout_gain),
+                    needed: (self.climb.attempts.iter())
+                        .find(|attempt| attempt.effect == effect)
+                        .map(|attempt| attempt.loss / last.squares()),
+                    explanation: wording::explanation(effect, &sizes),
+                    parameters: sizes,
+                }
+            })
+            .collect()
+    }
+
+    fn control(&self) -> Option<NegativeControl> {
+        let (campaigns, false_alarms) = self.climb.ranking.control;
+        if campaigns == 0 {
+            return None;
+        }
+        let interval = snug_statistics::proportion::wilson(false_alarms, campaigns, 0.95).ok()?.interval;
+        Some(NegativeControl {
+            campaigns,
+            false_alarms,
+            nominal_rate: self.settings.level,
+            rate_low: interval.low,
+            rate_high: interval.high,
+        })
+    }
+
+    /// The unlisted term that was added or that the ranking chose.
+    fn unlisted(&self) -> Option<UnlistedTerm> {
+        let added = self.climb.additions.iter().find(|one| is_unlisted(one.effect));
+        let chosen = self.climb.chosen.map(|index| &self.climb.ranking.candidates[index]);
+        let (effect, gain, fitted) = match (added, chosen) {
+            (Some(one), _) => (one.effect, one.heldout_gain, self.climb.last()),
+            (None, Some(one)) if is_unlisted(one.effect) => (
+                one.effect,
+                one.gain() / misfit(self.climb.last()),
+                &one.fitted,
+            ),
+            _ => return None,
+        };
+        let declared = declaration(effect.name())?;
+        let sizes = parameters(self.question.cases, fitted, effect);
+        Some(UnlistedTerm {
+            statement: wording::unlisted(&declared, gain, &sizes),
+            ron: wording::paste(&declared, &sizes),
+            expression: declared.expression,
+            heldout_gain: gain,
+        })
+    }
+}
+
+/// Error over noise below which nothing but noise is left to look for.
+pub(crate) const AT_FLOOR: f64 = 1.02;
+/// Share of the misfit that must repeat before it is called an effect.
+const REPEATS: f64 = 0.2;
+
+/// Motion and estimate of every case under one fitted model.
+struct Sight<'a> {
+    cases: &'a [Case],
+    simulated: Vec<snug_campaign::Motion>,
+    estimates: Vec<Estimate>,
+}
+
+impl<'a> Sight<'a> {
+    fn new(cases: &'a [Case], fitted: &Fitted, estimates: Vec<Estimate>) -> Self {
+        let simulated = cases
+            .iter()
+            .zip(&estimates)
+            .map(|(case, estimate)| {
+                let values: Vec<f64> = estimate.parameters.iter().map(|p| p.value).collect();
+                held(case, fitted).map_or_else(Default::default, |model| {
+                    model.simulate(&values, &case.input)
+                })
+            })
+            .collect();
+        Self {
+            cases,
+            simulated,
+            estimates,
+        }
+    }
+
+    fn seen(&self) -> Vec<Seen<'_>> {
+        self.cases
+            .iter()
+            .zip(&self.simulated)
+            .zip(&self.estimates)
+            .map(|((case, simulated), estimate)| Seen {
+                tightening: &case.tightening,
+                simulated,
+                estimate,
+                unscored: case.unscored,
+            })
+            .collect()
+    }
+}
+
+/// Each tightening's estimate with the shared parameters held where all tightenings together put them.
+fn estimates(cases: &[Case], fitted: &Fitted) -> Result<Vec<Estimate>, DiagnoseError> {
+    cases
+        .iter()
+        .map(|case| {
+            let model = held(case, fitted).unwrap_or_else(|| case.model.clone());
+            let settings = IdentifySettings {
+                fitted_output: case.quantity,
+                constraints: case.constraints.clone(),
+                unscored_samples: case.unscored,
+                ..IdentifySettings::default()
+            };
+            Ok(identify(&model, &case.input, &case.tightening, &settings)?)
+        })
+        .collect()
+}
+
+fn ladder_rung(cases: &[Case], fitted: &Fitted) -> Rung {
+    let squares = fitted.squares();
+    let target = |unit: usize| {
+        let target = cases[fitted.members[unit]].tightening.target_torque_nm;
+        if target.is_finite() { target.round() as usize } else { 0 }
+    };
+    let names: Vec<Option<&String>> = {
+        let all = cases.iter().map(|case| case.tightening.conditions.participant.as_ref());
+        all.collect()
+    };
+    let person = |unit: usize| {
+        let own = names[fitted.members[unit]];
+        names.iter().position(|name| *name == own).unwrap_or(0)
+    };
+    let relative = |heldout: Vec<f64>| fitted.error() * (heldout.iter().sum::<f64>() / squares).sqrt();
+    let several = |group: &dyn Fn(usize) -> usize| {
+        let groups: std::collections::BTreeSet<usize> = (0..fitted.blocks.len()).map(group).collect();
+        groups.len() > 1
+    };
+    let weighted = fitted.is_weighted;
+    Rung {
+        effects: fitted.effects.iter().map(|effect| effect.name().to_owned()).collect(),
+        error_over_noise: weighted.then(|| fitted.error()),
+        heldout_error_over_noise: weighted.then(|| relative(fitted.heldout(&|unit| unit))),
+        heldout_target_error_over_noise: (weighted && several(&target))
+            .then(|| relative(fitted.heldout(&target))),
+        heldout_participant_error_over_noise: (weighted && several(&person))
+            .then(|| relative(fitted.heldout(&person))),
+        rms_fitted_output: if weighted { f64::NAN } else { fitted.error() },
+        rms_displacement_rad: None,
+        fit_percent_median: None,
+        selected_fraction: f64::NAN,
+    }
+}
+
+fn rung_model(cases: &[Case], fitted: &Fitted) -> RungModel {
+    RungModel {
+        effects: fitted.effects.iter().map(|effect| effect.name().to_owned()).collect(),
+        declarations: fitted.effects.iter().filter_map(|effect| declaration(effect.name())).collect(),
+        parameters: fitted
+            .effects
+            .iter()
+            .flat_map(|&effect| parameters(cases, fitted, effect))
+            .collect(),
+    }
+}
+
+fn removal(attempt: &Attempt) -> Removal {
+    Removal {
+        effect: attempt.effect.name().to_owned(),
+        removed: attempt.removed,
+        statement: wording::removal(attempt),
+    }
+}
+
+fn corrected(cases: &[Case]) -> Vec<CorrectedEffect> {
+    let mut corrected: Vec<CorrectedEffect> = Vec::new();
+    let all = || cases.iter().flat_map(|case| &case.tightening.corrections);
+    for correction in all() {
+        if corrected.iter().any(|known| known.effect == correction.effect) {
+            continue;
+        }
+        let same: Vec<_> = all().filter(|other| other.effect == correction.effect).collect();
+        let significant: Vec<f64> = (same.iter().filter(|c| c.significant)).map(|c| c.value).collect();
+        if significant.is_empty() {
+            continue;
+        }
+        let squares: f64 = significant.iter().map(|value| value * value).sum();
+        corrected.push(CorrectedEffect {
+            effect: correction.effect.clone(),
+            share: significant.len() as f64 / same.len() as f64,
+            size: (squares / significant.len() as f64).sqrt(),
+            unit: correction.unit.clone(),
+        });
+    }
+    corrected
+}
+
+fn noise(cases: &[Case]) -> NoiseStatement {
+    let floors: Vec<_> = cases.iter().filter_map(|case| case.tightening.noise.as_ref()).collect();
+    let source = floors.first().map_or(NoiseSource::Residual, |floor| floor.source);
+    let squares: Vec<f64> = floors
+        .iter()
+        .filter(|floor| floor.quantity == Quantity::Acceleration)
+        .map(|floor| floor.standard_deviation.powi(2))
+        .collect();
+    NoiseStatement {
+        source: match source {
+            NoiseSource::PreRoll => "pre_roll",
+            NoiseSource::Repeats => "repeats",
+            NoiseSource::Declared => "declared",
+            NoiseSource::Residual => "residual",
+        }
+        .to_owned(),
+        acceleration_rad_per_s2: (!squares.is_empty())
+            .then(|| (squares.iter().sum::<f64>() / squares.len() as f64).sqrt()),
+    }
+}
+
+pub(crate) fn quantity_name(quantity: Quantity) -> &'static str {
+    match quantity {
+        Quantity::Displacement => "displacement",
+        Quantity::Velocity => "velocity",
+        Quantity::Acceleration => "acceleration",
+    }
+}
+
+pub(crate) fn kind_name(effect: Effect) -> &'static str {
+    match effect.description().kind {
+        Kind::Mechanical => "mechanical",
+        Kind::Muscular => "muscular",
+        Kind::Measurement => "measurement",
+        Kind::Trend => "trend",
+        Kind::Custom => "custom",
+    }
+}
+

@@ -1,0 +1,267 @@
+//! The words in which verdicts are told: for someone who knows nutrunners, not statistics.
+
+use crate::Case;
+use crate::DiagnoseSettings;
+use crate::climb::{Addition, Attempt, Stop};
+use crate::examine::AT_FLOOR;
+use crate::fitted::Fitted;
+use crate::ranking::Candidate;
+use crate::unlisted::{declaration, is_unlisted};
+use snug_campaign::{EffectParameter, RankedEffect, Verdict};
+use snug_model::{CustomEffectSettings, Effect, Law};
+
+/// What the words are about.
+pub(crate) struct Situation<'a> {
+    pub verb: &'static str,
+    pub verdict: Verdict,
+    pub tightenings: usize,
+    pub before: &'a Fitted,
+    pub after: &'a Fitted,
+    pub additions: &'a [Addition],
+    /// The candidate that is supported and not in the model.
+    pub chosen: Option<&'a Candidate>,
+    pub ranking: &'a [RankedEffect],
+    pub stopped: Option<Stop>,
+    pub cases: &'a [Case],
+    pub settings: &'a DiagnoseSettings,
+}
+
+impl Situation<'_> {
+    /// Two effects that are to be told apart by an experiment, if there are.
+    pub fn twin_pair(&self) -> Option<(&Fitted, Effect)> {
+        let chosen = self.chosen?;
+        let first = self.ranking.first()?;
+        let twin = Effect::named(first.twins.first()?)?;
+        Some((&chosen.fitted, twin))
+    }
+}
+
+/// A value with three significant digits and its unit.
+pub(crate) fn amount(value: f64, unit: &str) -> String {
+    let number = number(value);
+    match unit {
+        "" | "1" | "-" => number,
+        unit => format!("{number} {unit}"),
+    }
+}
+
+fn number(value: f64) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return format!("{value}");
+    }
+    let decimals = 2 - value.abs().log10().floor() as i32;
+    match decimals {
+        ..=-4 => format!("{value:.2e}"),
+        -3..=0 => format!("{value:.0}"),
+        1..=5 => format!("{value:.*}", decimals as usize),
+        _ => format!("{value:.2e}"),
+    }
+}
+
+/// `fc_n = 1.18 N (1.14 to 1.23)`.
+fn size(parameter: &EffectParameter) -> String {
+    let value = format!("{} = {}", parameter.name, amount(parameter.value, &parameter.unit));
+    let range = match (parameter.low, parameter.high) {
+        (Some(low), Some(high)) => format!(" ({} to {})", number(low), number(high)),
+        _ => " (at the edge of its plausible range)".to_owned(),
+    };
+    let own = match parameter.spread {
+        Some(spread) => format!(", different in every tightening by {}", amount(spread, &parameter.unit)),
+        None => String::new(),
+    };
+    value + &range + &own
+}
+
+fn sizes(parameters: &[EffectParameter]) -> String {
+    parameters.iter().map(size).collect::<Vec<_>>().join(", ")
+}
+
+fn spoken(effect: Effect) -> String {
+    match declaration(effect.name()) {
+        Some(declared) => format!("a force {}", declared.expression),
+        None => effect.name().replace('_', " "),
+    }
+}
+
+fn error(fitted: &Fitted) -> String {
+    match fitted.is_weighted {
+        true => format!("{:.3} times the measurement noise", fitted.error()),
+        false => format!("{} rms", number(fitted.error())),
+    }
+}
+
+fn joined(effects: &[String]) -> String {
+    match effects {
+        [] => String::new(),
+        [one] => one.clone(),
+        [some @ .., last] => format!("{} and {last}", some.join(", ")),
+    }
+}
+
+/// The verdict in one sentence.
+pub(crate) fn headline(situation: &Situation<'_>) -> String {
+    let (before, after) = (error(situation.before), error(situation.after));
+    let added: Vec<String> = situation.additions.iter().map(|one| spoken(one.effect)).collect();
+    match (situation.verdict, situation.chosen) {
+        (Verdict::MissingEffect | Verdict::UnlistedEffect, Some(chosen)) => {
+            let known = match is_unlisted(chosen.effect) {
+                true => "A law that is not in the catalogue is missing",
+                false => "The model lacks",
+            };
+            let name = spoken(chosen.effect);
+            let with = error(&chosen.fitted);
+            match is_unlisted(chosen.effect) {
+                true => format!("{known}, best described as {name}: with it the error falls from {after} to {with}."),
+                false => format!("{known} {name}: with it the error falls from {after} to {with}."),
+            }
+        }
+        (Verdict::UnlistedEffect, None) if !added.is_empty() => format!(
+            "Something that is not in the catalogue acts here; {} describes it, and the error falls from {before} to {after}.",
+            joined(&added)
+        ),
+        (Verdict::UnlistedEffect, None) => format!(
+            "Misfit that repeats from tightening to tightening remains ({after}), and no effect of the catalogue explains it."
+        ),
+        (Verdict::Adequate, _) if !added.is_empty() => format!(
+            "With {} the model is complete: the error fell from {before} to {after}, and nothing more is justified.",
+            joined(&added)
+        ),
+        (Verdict::Adequate, _) => format!("The model is adequate: it leaves {after}, and nothing more is justified."),
+        (Verdict::Undecided, _) if situation.verb == "compare" => {
+            format!("The model leaves {after}; `diagnose` says what could be missing.")
+        }
+        (Verdict::Undecided | Verdict::MissingEffect, _) => format!(
+            "These {} tightenings are too few to say: the model leaves {after}, and the best candidate could still be chance.",
+            situation.tightenings
+        ),
+    }
+}
+
+/// Why, in plain words.
+pub(crate) fn reasons(situation: &Situation<'_>) -> Vec<String> {
+    let mut reasons = Vec::new();
+    let floor = situation.after.is_weighted;
+    if floor {
+        let error = situation.after.error();
+        reasons.push(match error < AT_FLOOR {
+            true => format!(
+                "Over {} tightenings the model's error is {error:.3} times the sensor noise measured in the quiet part before each pulse; 1 means that only noise is left.",
+                situation.tightenings
+            ),
+            false => format!(
+                "Over {} tightenings the model's error is {error:.2} times the sensor noise measured in the quiet part before each pulse; with a complete model it would be 1.",
+                situation.tightenings
+            ),
+        });
+    } else {
+        reasons.push(format!(
+            "The noise of this signal is not known, so the error ({}) is judged by whether candidates predict stretches that took no part in fitting them.",
+            self::error(situation.after)
+        ));
+    }
+    for one in situation.additions {
+        reasons.push(evidence(&spoken(one.effect), one.heldout_gain, one.p_family));
+    }
+    if let (Some(chosen), Some(first)) = (situation.chosen, situation.ranking.first()) {
+        reasons.push(evidence(&spoken(chosen.effect), first.heldout_gain, first.p_family));
+        reasons.push(format!("Its size: {}.", sizes(&first.parameters)));
+        let twins: Vec<String> = first.twins.iter().map(|twin| twin.replace('_', " ")).collect();
+        if !twins.is_empty() {
+            reasons.push(format!(
+                "These data cannot tell it from {}; they are named together.",
+                joined(&twins)
+            ));
+        }
+    }
+    if situation.verdict == Verdict::Undecided && situation.verb != "compare" {
+        if let Some(first) = situation.ranking.first() {
+            let wanted = (4.0 / first.score.max(0.5)).powi(2) * situation.tightenings as f64;
+            reasons.push(format!(
+                "The best candidate is {} (chance alone does as well in {} of 100 campaigns). About {} tightenings like these would decide.",
+                first.effect.replace('_', " "),
+                (first.p_family * 100.0).ceil(),
+                (wanted / 4.0).ceil() * 4.0
+            ));
+        }
+    }
+    reasons
+}
+
+fn evidence(name: &str, gain: f64, p: f64) -> String {
+    let chance = match p {
+        p if p <= 0.001 => "less than once in 1000 campaigns".to_owned(),
+        p => format!("in about {:.1} of 100 campaigns", 100.0 * p),
+    };
+    let gain = (gain * 100.0).clamp(0.0, 100.0);
+    format!(
+        "{name} removes {gain:.0} % of what was beyond the noise in tightenings that took no part in finding its size; chance alone would do that {chance}."
+    )
+}
+
+/// Why the climb stopped.
+pub(crate) fn stopped(situation: &Situation<'_>) -> Option<String> {
+    Some(match situation.stopped? {
+        Stop::NothingSupported { best_p } => format!(
+            "No further effect is supported: the best of the rest is matched by chance in {:.0} of 100 campaigns ({:.0} of 100 is the limit).",
+            best_p * 100.0,
+            situation.settings.level * 100.0
+        ),
+        Stop::TooSmall { share } => format!(
+            "The best of the rest would lower the squared error by {:.2} %, less than the {:.0} % that matter here: that much is within reach of noise in the torque signal and of the timing between samples.",
+            share * 100.0,
+            situation.settings.smallest_gain * 100.0
+        ),
+        Stop::Full => "The model carries as many effects as can be told apart; look at the data before adding more.".to_owned(),
+    })
+}
+
+/// What an effect is, how it shows here, what to check at the bench.
+pub(crate) fn explanation(effect: Effect, parameters: &[EffectParameter]) -> Vec<String> {
+    let description = effect.description();
+    if let Some(declared) = declaration(effect.name()) {
+        return vec![
+            format!("A term in no catalogue: the hand's force gains {}.", declared.expression),
+            format!("Its size in these data: {}.", sizes(parameters)),
+        ];
+    }
+    let mut sentences = vec![
+        description.summary.to_owned(),
+        format!("How it shows: {}.", description.shows_as),
+        format!("Its size in these data: {}.", sizes(parameters)),
+        description.check.to_owned(),
+    ];
+    sentences.retain(|sentence| !sentence.is_empty());
+    sentences
+}
+
+/// What became of an attempt to do without a term.
+pub(crate) fn removal(attempt: &Attempt) -> String {
+    let name = spoken(attempt.effect);
+    match attempt.removed {
+        true => format!("Without {name} the model predicts as well: it was taken out again."),
+        false => format!(
+            "Without {name} the squared error grows by {:.1} %: it stays.",
+            attempt.growth * 100.0
+        ),
+    }
+}
+
+/// The unlisted term in words.
+pub(crate) fn unlisted(declared: &CustomEffectSettings, gain: f64, parameters: &[EffectParameter]) -> String {
+    format!(
+        "The simplest term that describes it is a force {} with {}; it removes {:.0} % of the misfit in tightenings that took no part in finding its size. It describes; what causes it is for the bench to find out.",
+        declared.expression,
+        sizes(parameters),
+        (gain * 100.0).clamp(0.0, 100.0)
+    )
+}
+
+/// RON for the study's `model.custom` list.
+pub(crate) fn paste(declared: &CustomEffectSettings, parameters: &[EffectParameter]) -> String {
+    let unit = parameters.first().map_or("", |parameter| parameter.unit.as_str());
+    let start = parameters.first().map_or(0.0, |parameter| parameter.value);
+    format!(
+        "(name: \"{}\", place: Force, expression: \"{}\", parameters: [(name: \"p\", unit: \"{unit}\", start: {start:.4e})])",
+        declared.name, declared.expression
+    )
+}
