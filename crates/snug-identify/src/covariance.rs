@@ -54,6 +54,18 @@ impl Fit {
 }
 
 impl Covariance {
+    /// Adds σ² g gᵀ: an independent error of size σ that moves the estimate along g.
+    pub(crate) fn widen(&mut self, along: &[f64], standard_error: f64) {
+        let n = along.len();
+        for (row, &here) in along.iter().enumerate() {
+            let factor = standard_error * standard_error * here;
+            add_scaled(&mut self.matrix[row * n..(row + 1) * n], factor, along);
+        }
+        for (index, error) in self.standard_errors.iter_mut().enumerate() {
+            *error = error.map(|_| self.matrix[index * n + index].max(0.0).sqrt());
+        }
+    }
+
     /// Two-sided interval value ± quantile · standard error of one parameter; `confidence` in (0, 1).
     ///
     /// `None` where there is no standard error or no degree of freedom.

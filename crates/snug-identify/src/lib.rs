@@ -12,6 +12,7 @@ mod difference_residual;
 mod error;
 mod faces;
 mod fit;
+mod fixed_uncertainty;
 mod identifiability;
 mod least_squares;
 mod linearization;

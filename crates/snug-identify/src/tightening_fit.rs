@@ -7,7 +7,8 @@ use crate::{
 };
 use serde::{Deserialize, Serialize};
 use snug_campaign::{
-    Estimate, FitStatus, Identifiability, Interval, ParameterEstimate, Quantity, Tightening,
+    Estimate, FitStatus, Identifiability, Interval, Parameter, ParameterEstimate, Quantity,
+    Tightening,
 };
 use snug_model::{Input, Model};
 
@@ -41,7 +42,8 @@ impl Default for IdentifySettings {
 /// The residual is measured − simulated of the fitted output. Where the noise floor is of that output, the residual is
 /// whitened with it (generalised least squares); otherwise all samples weigh the same. Either way the covariance is that
 /// of the estimate under the measured noise, with the uncertainty of what was corrected in the quiet part, and widened
-/// where the residual holds more than noise.
+/// where the residual holds more than noise. A fixed parameter with a standard error widens it, too, and keeps that error
+/// and its interval in the estimate.
 ///
 /// # Errors
 /// [`IdentifyError::MissingOutput`] when the tightening does not hold the fitted output, [`IdentifyError::TooShort`]
@@ -76,7 +78,8 @@ pub fn identify(
     let fit = solve_from_starts(&mut problem, &starts(model), &set, &settings.solver)?;
     let mut residual = problem.into_inner();
     let noise = noise_of(&mut residual, tightening, input, &fit);
-    let covariance = fit.covariance(noise.as_residual_noise());
+    let mut covariance = fit.covariance(noise.as_residual_noise());
+    residual.widen_by_fixed(&fit, &mut covariance);
     Ok(estimate(model, &set, &fit, &covariance))
 }
 
@@ -90,31 +93,29 @@ fn starts(model: &Model) -> Vec<Vec<f64>> {
         .collect()
 }
 
+/// Of every interval.
+const CONFIDENCE: f64 = 0.95;
+/// Standard errors to either side that hold 95 % of a normal distribution.
+const NORMAL_QUANTILE: f64 = 1.959_963_984_540_054;
+
 /// The fit in the words everyone shares; intervals end where a parameter's own bounds do.
 fn estimate(model: &Model, set: &Constraints, fit: &Fit, covariance: &Covariance) -> Estimate {
     let free = model.free();
-    let parameters = model
-        .parameters()
-        .iter()
-        .enumerate()
-        .map(|(index, parameter)| {
-            let column = free.iter().position(|&free| free == index);
-            ParameterEstimate {
-                name: parameter.name.clone(),
-                unit: parameter.unit.clone(),
-                value: column.map_or(parameter.value, |column| fit.values[column]),
-                standard_error: column.and_then(|column| covariance.standard_errors[column]),
-                interval: column.and_then(|column| {
-                    let (low, high) = covariance.interval(column, fit.values[column], 0.95)?;
-                    let (minimum, maximum) = set.bounds_of(column);
-                    Some(Interval {
-                        low: low.max(minimum),
-                        high: high.min(maximum),
-                    })
-                }),
-                fixed: column.is_none(),
-            }
-        })
+    let parameters = (model.parameters().iter().enumerate())
+        .map(
+            |(index, parameter)| match free.iter().position(|&free| free == index) {
+                Some(column) => ParameterEstimate {
+                    value: fit.values[column],
+                    standard_error: covariance.standard_errors[column],
+                    interval: covariance
+                        .interval(column, fit.values[column], CONFIDENCE)
+                        .map(|ends| within(ends, set.bounds_of(column))),
+                    fixed: false,
+                    ..as_fixed(parameter)
+                },
+                None => as_fixed(parameter),
+            },
+        )
         .collect();
     let name = |column: usize| model.parameters()[free[column]].name.clone();
     Estimate {
@@ -138,6 +139,32 @@ fn estimate(model: &Model, set: &Constraints, fit: &Fit, covariance: &Covariance
         iterations: fit.work.iterations,
         evaluations: fit.work.evaluations + fit.work.linearizations,
         conic_solves: fit.work.conic_solves,
+    }
+}
+
+/// A fixed parameter with what is stated about it.
+fn as_fixed(parameter: &Parameter) -> ParameterEstimate {
+    let value = parameter.value;
+    ParameterEstimate {
+        name: parameter.name.clone(),
+        unit: parameter.unit.clone(),
+        value,
+        standard_error: parameter.standard_error,
+        interval: parameter.standard_error.map(|error| {
+            let half = NORMAL_QUANTILE * error;
+            within(
+                (value - half, value + half),
+                (parameter.minimum, parameter.maximum),
+            )
+        }),
+        fixed: true,
+    }
+}
+
+fn within((low, high): (f64, f64), (minimum, maximum): (f64, f64)) -> Interval {
+    Interval {
+        low: low.max(minimum),
+        high: high.min(maximum),
     }
 }
 

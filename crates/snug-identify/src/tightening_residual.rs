@@ -95,6 +95,35 @@ impl<'a> TighteningResidual<'a> {
 }
 
 impl TighteningResidual<'_> {
+    /// The fixed parameters that are not known exactly: index in the model and standard error.
+    pub(crate) fn uncertain(&self) -> Vec<(usize, f64)> {
+        let parameters = self.model.parameters().iter().enumerate();
+        parameters
+            .filter(|(_, parameter)| parameter.fixed)
+            .filter_map(|(index, parameter)| Some((index, parameter.standard_error?)))
+            .collect()
+    }
+
+    /// ∂r/∂p of any parameter of the model at the values last evaluated, weighted as the residual.
+    pub(crate) fn column_of(&self, parameter: usize) -> Vec<f64> {
+        let samples = self.samples();
+        let (mut output, mut column) = (vec![0.0; samples], vec![0.0; samples]);
+        self.model.sensitivities(
+            &self.values,
+            &[parameter],
+            self.input,
+            self.quantity,
+            &mut output,
+            &mut column,
+        );
+        for value in &mut column {
+            *value = -*value;
+        }
+        let mut weighted = vec![0.0; self.residual_count()];
+        self.weigh(&column, &mut weighted);
+        weighted
+    }
+
     /// Measured − simulated of every sample and, where asked, its Jacobian (column-major, samples × free).
     fn subtract(&self, residual: &mut [f64], jacobian: Option<&mut [f64]>) {
         match jacobian {
