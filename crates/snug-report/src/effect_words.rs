@@ -52,7 +52,7 @@ pub fn size(parameter: &EffectParameter) -> Markup {
             None => { " " span.interval title="on the edge of its range, or not determined by the data" { "no interval" } }
         }
         @if parameter.per_tightening {
-            " " span.interval {
+            " " span.own {
                 "on average; every tightening has its own"
                 @if let Some(spread) = parameter.spread { ", spread " (significant(spread, 2)) "\u{a0}" (unit) }
             }

@@ -149,7 +149,7 @@ fn the_numbers_are_those_found_to_the_last_digit() {
     );
     assert!(
         file.get("showcase").is_none(),
-        "signals belong into the recording"
+        "signals are drawn, not listed"
     );
 }
 
