@@ -1,6 +1,6 @@
 use snug_campaign::EffectParameter;
 
-/// Four significant digits, without a tail of zeros that says nothing.
+/// Four significant digits; a power of ten for what is very large or small.
 pub fn significant(value: f64) -> String {
     if value == 0.0 || (1e-3..1e5).contains(&value.abs()) {
         let digits = 3 - value.abs().max(1e-9).log10().floor() as i32;
