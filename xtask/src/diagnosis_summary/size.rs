@@ -89,6 +89,9 @@ pub fn by_chance(p: f64) -> String {
             100.0 * p
         );
     }
-    let one_in = (1.0 / p.max(1e-6)).round();
+    if p < 0.001 {
+        return "chance alone would do this less than once in 1000 cases".into();
+    }
+    let one_in = (1.0 / p).round();
     format!("chance alone would do this once in {one_in:.0} cases")
 }
