@@ -49,6 +49,7 @@ struct Page {
 
 impl Page {
     fn line(&mut self, line: &str) {
+        let line = line.replace('\u{a0}', " ");
         writeln!(self.text, "{}", line.trim_end()).expect("a string takes every write");
     }
 
@@ -64,7 +65,9 @@ impl Page {
     fn paragraph(&mut self, lead: &str, words: &str) {
         let indent = " ".repeat(lead.chars().count());
         let mut line = lead.to_owned();
-        for word in words.split_whitespace() {
+        // A number and its percent sign stay on one line.
+        let words = words.replace(" %", "\u{a0}%");
+        for word in words.split([' ', '\n']).filter(|word| !word.is_empty()) {
             let used = line.chars().count();
             if used > indent.len() && used + 1 + word.chars().count() > WIDTH {
                 self.line(&line);

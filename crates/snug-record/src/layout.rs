@@ -8,16 +8,18 @@ const BLUE: &str = "#1f77b4";
 const GREEN: &str = "#2ca02c";
 const GREY: &str = "#7f7f7f";
 
-/// The layout as JSON, to be imported in the viewer: three tabs.
+/// The layout as JSON, to be imported in the viewer: four tabs.
 ///
 /// - *Tightening*: torque; displacement and acceleration, measured against simulated; residual; forces; the estimate.
 /// - *Parameters*: each of `parameters` (names as in the estimates, for example `mass_kg`) over the recording's time.
 /// - *Campaign*: tests, conditions, findings.
+/// - *Missing effect*: the verdict, the error ladder, the candidates (empty when nobody asked for a diagnosis).
 pub fn layout(parameters: &[&str]) -> String {
     let mut panels = Map::new();
     let tightening = tightening_tab(&mut panels);
     let parameters = parameters_tab(&mut panels, parameters);
     let campaign = campaign_tab(&mut panels);
+    let diagnosis = diagnosis_tab(&mut panels);
     panels.insert(
         "Tab!snug".into(),
         json!({
@@ -26,6 +28,7 @@ pub fn layout(parameters: &[&str]) -> String {
                 {"title": "Tightening", "layout": tightening},
                 {"title": "Parameters", "layout": parameters},
                 {"title": "Campaign", "layout": campaign},
+                {"title": "Missing effect", "layout": diagnosis},
             ],
         }),
     );
@@ -180,6 +183,46 @@ fn campaign_tab(panels: &mut Map<String, Value>) -> Value {
     split("row", column(&tables), log, 60.0)
 }
 
+fn diagnosis_tab(panels: &mut Map<String, Value>) -> Value {
+    let rung = |name: &str, label: &str, color: &str| {
+        series(&format!("{}.{name}", topic::LADDER), label, color, true)
+    };
+    let gain = series(
+        &format!("{}.heldout_gain", topic::RANKING),
+        "misfit removed, held out",
+        BLUE,
+        false,
+    );
+    let plots = [
+        plot(
+            panels,
+            "ladder",
+            "Error over noise, model by model (1 = nothing but noise)",
+            vec![
+                rung("error_over_noise", "all tightenings", BLUE),
+                rung("heldout_error_over_noise", "held out", RED),
+            ],
+        ),
+        plot(
+            panels,
+            "selected",
+            "Share of tightenings selected, model by model",
+            vec![rung("selected_fraction", "selected", GREEN)],
+        ),
+        plot(
+            panels,
+            "ranking",
+            "Share of the misfit that each candidate removes",
+            vec![gain],
+        ),
+    ];
+    let messages = [
+        raw(panels, "verdict", "Verdict", topic::VERDICT),
+        raw(panels, "candidate", "Candidate", topic::RANKING),
+    ];
+    split("row", column(&plots), column(&messages), 55.0)
+}
+
 fn series(value: &str, label: &str, color: &str, line: bool) -> Value {
     json!({
         "value": value,
@@ -318,6 +361,8 @@ mod tests {
             (topic::TESTS, &crate::statistics::TESTS),
             (topic::CONDITIONS, &crate::statistics::CONDITIONS),
             (topic::LOG, &crate::finding::LOG),
+            (topic::LADDER, &crate::diagnosis::LADDER),
+            (topic::RANKING, &crate::diagnosis::RANKING),
         ];
         let layout: Value =
             serde_json::from_str(&layout(&["mass_kg"])).expect("the layout is JSON");
@@ -335,6 +380,8 @@ mod tests {
             }
         }
         assert!(paths.len() > 20, "only {} paths", paths.len());
+        // The verdict's schema is made from the message itself, and the layout shows it whole.
+        paths.retain(|path| path != topic::VERDICT);
         for path in paths {
             let (topic, field) = path.split_once('.').unwrap_or((&path, ""));
             let (_, message) = messages

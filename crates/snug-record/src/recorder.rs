@@ -2,14 +2,14 @@ use crate::schema::Message;
 use crate::shape::{Shape, tidy};
 use crate::signals::{self, Columns};
 use crate::{Compression, RecordError, RecordSettings, Window, topic};
-use crate::{estimate, finding, measurement, statistics, window};
+use crate::{diagnosis, estimate, finding, measurement, statistics, window};
 use mcap::records::{MessageHeader, Metadata};
 use mcap::write::NoSeek;
 use mcap::{Attachment, WriteOptions, Writer};
 use serde::Serialize;
 use serde_json::Value;
 use snug_campaign::{
-    ConditionSummary, Finding, Quantity, Recording, TestRow, TighteningResult, Traces,
+    ConditionSummary, Diagnosis, Finding, Quantity, Recording, TestRow, TighteningResult, Traces,
 };
 use std::borrow::Cow;
 use std::collections::{BTreeMap, HashMap};
@@ -19,6 +19,8 @@ use std::path::Path;
 
 /// The recording's time axis begins here, because some viewers take a time of zero for "no time".
 const START_NS: u64 = 1_000_000_000;
+/// Distance of neighbouring rungs, and of neighbouring candidates, on the time axis.
+const PLACE_NS: u64 = 100_000_000;
 
 /// Writes one recording, tightening by tightening.
 ///
@@ -210,6 +212,32 @@ impl<W: Write> Recorder<W> {
         self.known(topic::CONDITIONS, &statistics::CONDITIONS, &conditions)?;
         let tests = BTreeMap::from([("rows", tests)]);
         self.known(topic::TESTS, &statistics::TESTS, &tests)
+    }
+
+    /// Writes what is missing in the model: the verdict, then every rung of the ladder and every candidate of the ranking.
+    ///
+    /// Rungs follow one another on the time axis by a tenth of a second, and so do candidates, so that plots show them
+    /// side by side.
+    ///
+    /// # Errors
+    /// [`RecordError::Write`], [`RecordError::Json`].
+    pub fn diagnosis(&mut self, found: &Diagnosis) -> Result<(), RecordError> {
+        let verdict = diagnosis::verdict(found);
+        self.json(topic::VERDICT, "snug.Verdict", &verdict)?;
+        let start_ns = self.cursor_ns;
+        for (place, entry) in (1..).zip(&found.ladder) {
+            let rung = diagnosis::Placed { place, entry };
+            self.known(topic::LADDER, &diagnosis::LADDER, &rung)?;
+            self.cursor_ns = self.cursor_ns.saturating_add(PLACE_NS);
+        }
+        let ladder_end_ns = std::mem::replace(&mut self.cursor_ns, start_ns);
+        for (place, entry) in (1..).zip(&found.ranking) {
+            let candidate = diagnosis::Placed { place, entry };
+            self.known(topic::RANKING, &diagnosis::RANKING, &candidate)?;
+            self.cursor_ns = self.cursor_ns.saturating_add(PLACE_NS);
+        }
+        self.cursor_ns = self.cursor_ns.max(ladder_end_ns);
+        self.flush()
     }
 
     /// Writes anything else as JSON, with a schema made from the value itself.

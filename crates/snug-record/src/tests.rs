@@ -1,6 +1,7 @@
 #![allow(clippy::unwrap_used)]
 //! A small campaign with every mantissa bit in use, for the tests below.
 
+mod diagnosis;
 mod interruption;
 mod messages;
 mod round_trip;

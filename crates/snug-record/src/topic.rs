@@ -14,6 +14,12 @@ pub const LOG: &str = "/log";
 pub const CONDITIONS: &str = "/statistics/conditions";
 /// Tests per quantity and factor.
 pub const TESTS: &str = "/statistics/tests";
+/// What is missing in the model, and why.
+pub const VERDICT: &str = "/verdict";
+/// One message per model of the error ladder, the study's own first.
+pub const LADDER: &str = "/ladder";
+/// One message per candidate for what the model lacks, best first.
+pub const RANKING: &str = "/ranking";
 /// Whole measurement files: what they are.
 pub const MEASUREMENT_FILE: &str = "/measurement/file";
 /// Whole measurement files: their samples in blocks.

@@ -52,7 +52,7 @@ pub fn size(parameter: &EffectParameter) -> Markup {
             None => { " " span.interval title="on the edge of its range, or not determined by the data" { "no interval" } }
         }
         @if parameter.per_tightening {
-            " " span.interval {
+            " " span.own {
                 "on average; every tightening has its own"
                 @if let Some(spread) = parameter.spread { ", spread " (significant(spread, 2)) "\u{a0}" (unit) }
             }
@@ -74,6 +74,9 @@ pub fn by_chance(p: f64) -> String {
     if !p.is_finite() {
         return "it is not known how often chance would do as well".into();
     }
+    if p < 0.001 {
+        return "chance alone does as well in fewer than 1 of 1000 cases".into();
+    }
     if p >= 0.1 {
         return format!(
             "chance alone does as well in {} of 100 cases",
@@ -82,7 +85,7 @@ pub fn by_chance(p: f64) -> String {
     }
     format!(
         "chance alone does as well in 1 of {} cases",
-        fixed((1.0 / p.max(1e-6)).round(), 0)
+        fixed((1.0 / p).round(), 0)
     )
 }
 
@@ -115,6 +118,7 @@ mod tests {
             by_chance(0.43),
             "chance alone does as well in 43 of 100 cases"
         );
+        assert!(by_chance(0.0).ends_with("fewer than 1 of 1000 cases"));
         assert!(by_chance(f64::NAN).contains("not known"));
     }
 

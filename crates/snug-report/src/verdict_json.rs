@@ -33,7 +33,7 @@ struct VerdictFile<'a> {
     final_location: Option<&'a Location>,
 }
 
-/// Everything a diagnosis found but the signals of its example, which the recording holds.
+/// Everything a diagnosis found but the signals of its example tightening, which the report draws.
 ///
 /// `format` is 1; intervals are 95 %; a number that is unknown or not finite is `null`.
 pub fn verdict_json(diagnosis: &Diagnosis) -> String {

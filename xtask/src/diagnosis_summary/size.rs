@@ -1,6 +1,6 @@
 use snug_campaign::EffectParameter;
 
-/// Four significant digits, without a tail of zeros that says nothing.
+/// Four significant digits; a power of ten for what is very large or small.
 pub fn significant(value: f64) -> String {
     if value == 0.0 || (1e-3..1e5).contains(&value.abs()) {
         let digits = 3 - value.abs().max(1e-9).log10().floor() as i32;
@@ -89,6 +89,9 @@ pub fn by_chance(p: f64) -> String {
             100.0 * p
         );
     }
-    let one_in = (1.0 / p.max(1e-6)).round();
+    if p < 0.001 {
+        return "chance alone would do this less than once in 1000 cases".into();
+    }
+    let one_in = (1.0 / p).round();
     format!("chance alone would do this once in {one_in:.0} cases")
 }

@@ -1,5 +1,7 @@
 use super::DiagnosisSection;
-use crate::effect_words::{by_chance, effect_name, effect_names, sizes, unit_text};
+use crate::effect_words::{
+    by_chance, effect_name, effect_names, share_with_error, sizes, unit_text,
+};
 use crate::number::{fixed, percent, significant};
 use maud::{Markup, html};
 use snug_campaign::{AddedEffect, CampaignResult, CorrectedEffect, Diagnosis, Verdict};
@@ -23,6 +25,7 @@ fn render(diagnosis: &Diagnosis, result: &CampaignResult) -> Option<Markup> {
             h3 { "What the model has beyond mass, damper and spring" }
             div.effects { @for effect in &diagnosis.added { (added(effect, result)) } }
         }
+        (missing(diagnosis, result))
         (unlisted(diagnosis))
         (experiment(diagnosis))
         (corrected(&diagnosis.corrected))
@@ -62,6 +65,34 @@ fn added(effect: &AddedEffect, result: &CampaignResult) -> Markup {
             @if !effect.explanation.is_empty() {
                 ul { @for sentence in &effect.explanation { li { (sentence) } } }
             }
+        }
+    }
+}
+
+/// The effect that the verdict names, while it is not yet in the model.
+fn missing(diagnosis: &Diagnosis, result: &CampaignResult) -> Markup {
+    let first = diagnosis
+        .ranking
+        .first()
+        .filter(|_| diagnosis.verdict == Verdict::MissingEffect);
+    html! {
+        @if let Some(first) = first {
+            h3 { "What is missing" }
+            div.effects { div.effect {
+                h4 { (effect_name(&first.effect)) " " span.nature { (first.kind) } }
+                p.sizes { (sizes(&first.parameters, result)) }
+                p { "It removes " strong { (share_with_error(first.heldout_gain, first.heldout_gain_error)) }
+                    " of the misfit in tightenings that its size was not fitted to." }
+                p { "How sure: " (by_chance(first.p_family)) "." }
+                @if !first.twins.is_empty() {
+                    p.attention { "These data cannot tell it from " strong { (effect_names(&first.twins)) } "." }
+                }
+                @if !first.plausible { p.attention { "Its size lies on the edge of what is plausible." } }
+                @if !first.explanation.is_empty() {
+                    ul { @for sentence in &first.explanation { li { (sentence) } } }
+                }
+            } }
+            p { "To add it and see the error before and after: " code { "cargo xtask add " (first.effect) } }
         }
     }
 }

@@ -86,7 +86,7 @@ pub fn figure(map: &ForceMap) -> Markup {
         "Over displacement and velocity",
         html! { (drawing.svg()) (key(step, &used)) },
         Some(
-            "Grey: the 95 % band is wider than the force, so nothing is proven there. White: no sample.",
+            "Grey: the 95 % band is wider than the force, so nothing is proven there. Empty: no sample.",
         ),
     )
 }
