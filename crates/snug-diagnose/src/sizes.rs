@@ -112,10 +112,12 @@ impl Fitted {
 /// The model of one case with everything but its own parameters held.
 pub(crate) fn held(case: &Case, fitted: &Fitted) -> Option<Model> {
     let mut model = case.model_with(&fitted.effects).ok()?;
-    for (name, value) in fitted.shared_named() {
+    let errors = fitted.shared_errors();
+    for (column, (name, value)) in fitted.shared_named().into_iter().enumerate() {
         let parameter = model.parameters_mut().iter_mut().find(|p| p.name == name)?;
         parameter.value = value;
         parameter.fixed = true;
+        parameter.standard_error = errors.as_ref().map(|errors| errors[column]);
     }
     Some(model)
 }
