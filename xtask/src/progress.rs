@@ -16,6 +16,8 @@ pub struct Progress {
 /// What the plain lines need to know.
 struct Plain {
     started: Instant,
+    /// Since when files are evaluated.
+    evaluating: Instant,
     last: Instant,
     files_done: usize,
     files: usize,
@@ -40,6 +42,7 @@ impl Progress {
         let plain = (!quiet && !terminal).then(|| {
             Mutex::new(Plain {
                 started: now,
+                evaluating: now,
                 last: now,
                 files_done: 0,
                 files: 0,
@@ -82,7 +85,11 @@ impl Progress {
 impl Plain {
     fn report(&mut self, event: ProgressEvent<'_>) {
         match event {
-            ProgressEvent::Started { files } => self.files = files,
+            ProgressEvent::Started { files } => {
+                self.files = files;
+                self.files_done = 0;
+                self.evaluating = Instant::now();
+            }
             ProgressEvent::FileDone { tightenings } => {
                 self.files_done += 1;
                 self.tightenings = tightenings;
@@ -99,7 +106,7 @@ impl Plain {
     }
 
     fn line(&self) {
-        let elapsed = self.started.elapsed().as_secs_f64();
+        let elapsed = self.evaluating.elapsed().as_secs_f64();
         let rate = self.tightenings as f64 / elapsed;
         let left = elapsed / self.files_done as f64 * (self.files - self.files_done) as f64;
         eprintln!(

@@ -9,7 +9,7 @@ use crate::unlisted::{declaration, is_unlisted};
 use crate::units::Units;
 use crate::wording::{self, Situation};
 use crate::{
-    Case, DiagnoseError, DiagnoseSettings, Seen, compare, detectability, drifts, locate,
+    Case, DiagnoseError, DiagnoseSettings, Seen, compare, detectability, drifts, locate, trend,
 };
 use snug_campaign::{
     AddedEffect, CorrectedEffect, Diagnosis, EffectParameter, Estimate, NegativeControl,
@@ -123,7 +123,11 @@ impl Examination<'_> {
         };
         let location = locate(&base, self.settings.seed);
         let verdict = self.verdict(final_location.as_ref().unwrap_or(&location).repeatable_share);
-        let ranking = self.ranking();
+        let drift = drifts(&base);
+        let mut ranking = self.ranking();
+        if !ranking.is_empty() {
+            ranking.extend(trend::fatigue(&drift, cases));
+        }
         let corrected = corrected(cases);
         let situation = Situation {
             verb: self.verb(),
@@ -166,7 +170,7 @@ impl Examination<'_> {
             ranking,
             removals: self.climb.attempts.iter().map(removal).collect(),
             comparison: compare(&base),
-            drift: drifts(&base),
+            drift,
             location,
             final_location,
             detectability: detectability::cards(&self.climb.ranking, last, self.settings),

@@ -16,6 +16,7 @@ mod ranking;
 mod score;
 mod settings;
 mod sizes;
+mod trend;
 mod units;
 mod unlisted;
 mod wording;

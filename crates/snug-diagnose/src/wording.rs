@@ -74,7 +74,8 @@ fn size(parameter: &EffectParameter) -> String {
     value + &range + &own
 }
 
-fn sizes(parameters: &[EffectParameter]) -> String {
+/// Values with their ranges, one after the other.
+pub(crate) fn sizes(parameters: &[EffectParameter]) -> String {
     parameters.iter().map(size).collect::<Vec<_>>().join(", ")
 }
 
@@ -174,6 +175,13 @@ pub(crate) fn reasons(situation: &Situation<'_>) -> Vec<String> {
                 joined(&twins)
             ));
         }
+    }
+    if let Some(trend) = situation.ranking.iter().find(|one| one.kind == "trend" && one.p_family <= situation.settings.level) {
+        reasons.push(format!(
+            "Beside the misfit, mass, damping or stiffness drift with the tightening's number ({}): {}.",
+            trend.effect,
+            sizes(&trend.parameters)
+        ));
     }
     for one in situation.corrected {
         reasons.push(format!(
