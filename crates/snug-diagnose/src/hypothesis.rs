@@ -8,7 +8,7 @@ use snug_identify::{
     Constraints, EvaluationError, Linearization, PooledResidual, PooledSettings, Whitening,
     convex_set, solve_pooled,
 };
-use snug_model::{BASE_PARAMETERS, Effect, Law, Model, Scope};
+use snug_model::{BASE_PARAMETERS, Effect, Input, Law, Model, Scope};
 
 /// A set of effects, ready to be fitted to all tightenings together.
 pub(crate) struct Hypothesis<'a> {
@@ -222,23 +222,29 @@ impl<'a> Hypothesis<'a> {
         )
     }
 
-    /// The compared output of one member.
-    pub fn output(&self, member: usize, values: &[f64]) -> Vec<f64> {
+    /// The compared output of one member under `input`.
+    pub fn output(&self, member: usize, input: &Input, values: &[f64]) -> Vec<f64> {
         let case = &self.cases[member];
         let mut output = vec![0.0; case.measured().len()];
-        self.models[member].output(values, &case.input, case.quantity, &mut output);
+        self.models[member].output(values, input, case.quantity, &mut output);
         output
     }
 
     /// Its derivative to one parameter.
-    pub fn derivative(&self, member: usize, values: &[f64], parameter: usize) -> Vec<f64> {
+    pub fn derivative(
+        &self,
+        member: usize,
+        input: &Input,
+        values: &[f64],
+        parameter: usize,
+    ) -> Vec<f64> {
         let case = &self.cases[member];
         let samples = case.measured().len();
         let (mut output, mut derivative) = (vec![0.0; samples], vec![0.0; samples]);
         self.models[member].sensitivities(
             values,
             &[parameter],
-            &case.input,
+            input,
             case.quantity,
             &mut output,
             &mut derivative,

@@ -13,7 +13,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 use rayon::prelude::*;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
-use snug_model::{Effect, Law, ParameterSpec, Scope};
+use snug_model::{Effect, Input, Law, ParameterSpec, Scope};
 
 /// One direction in which an effect could push: the derivative to a parameter, or one of its starts against none.
 #[derive(Debug, Clone)]
@@ -46,6 +46,9 @@ pub(crate) struct Scorer<'a, 'h> {
     /// Campaigns of nothing but noise that are scored beside the measured one.
     control: Control,
 }
+
+/// Samples on either side over which the torque is averaged for the signatures.
+const NOISE_REACH: usize = 5;
 
 /// How many campaigns of nothing but noise are drawn, and from which seed.
 #[derive(Debug, Clone, Copy, Default)]
@@ -96,14 +99,15 @@ impl Column {
         &self,
         with: &Hypothesis<'_>,
         member: usize,
+        input: &Input,
         values: &[f64],
         plain: &[f64],
     ) -> Vec<f64> {
         let all = [values, &self.start].concat();
         match self.along {
-            Some(parameter) => with.derivative(member, &all, values.len() + parameter),
+            Some(parameter) => with.derivative(member, input, &all, values.len() + parameter),
             None => {
-                let mut output = with.output(member, &all);
+                let mut output = with.output(member, input, &all);
                 output.iter_mut().zip(plain).for_each(|(y, p)| *y -= p);
                 output
             }
@@ -257,7 +261,10 @@ impl<'a, 'h> Scorer<'a, 'h> {
             nuisance.project(column);
         }
         let bias = self.bias_signature(member, &nuisance);
-        let plain = hypothesis.output(member, &values);
+        // What an effect does is worked out from a torque without the noise that the residual has from it: a delay or a
+        // lag would otherwise be seen to remove that noise.
+        let input = hypothesis.cases[member].input.smoothed(NOISE_REACH);
+        let plain = hypothesis.output(member, &input, &values);
         let mut contribution = Contribution {
             scores: Vec::new(),
             variances: Vec::new(),
@@ -271,7 +278,7 @@ impl<'a, 'h> Scorer<'a, 'h> {
             let other = others.iter().find(|(effect, _)| *effect == column.effect);
             let signature = other.map_or_else(
                 || vec![0.0; plain.len()],
-                |(_, other)| column.signature(other, member, &values, &plain),
+                |(_, other)| column.signature(other, member, &input, &values, &plain),
             );
             let mut z = hypothesis.weigh_signal(member, &signature);
             nuisance.project(&mut z);

@@ -9,6 +9,23 @@ use std::f64::consts::PI;
 /// Returns `factor · (n − 1) + 1` values; the images beyond the grid's own half rate are weakened by at least
 /// (2·factor − 1)² and then filtered by the plant.
 pub fn straight_pieces(samples: &[f64], factor: usize) -> Vec<f64> {
+    refined(samples, factor, |angle| {
+        let sinc = if angle == 0.0 {
+            1.0
+        } else {
+            angle.sin() / angle
+        };
+        1.0 / (sinc * sinc)
+    })
+}
+
+/// The samples and, `factor − 1` between each two, what a signal without anything above half the sampling rate has there.
+pub fn between_samples(samples: &[f64], factor: usize) -> Vec<f64> {
+    refined(samples, factor, |_| 1.0)
+}
+
+/// A grid `factor` times as fine; a spectral line of π f Δ, Δ its interval, is weighed by `lift`.
+fn refined(samples: &[f64], factor: usize, lift: impl Fn(f64) -> f64) -> Vec<f64> {
     let n = samples.len();
     if n < 2 {
         return samples.to_vec();
@@ -30,9 +47,8 @@ pub fn straight_pieces(samples: &[f64], factor: usize) -> Vec<f64> {
     let mut fine_lines = fine.make_input_vec();
     for (index, line) in lines.iter().enumerate() {
         let angle = PI * index as f64 / (period * factor) as f64;
-        let sinc = if index == 0 { 1.0 } else { angle.sin() / angle };
         let half = if index == period / 2 { 0.5 } else { 1.0 };
-        fine_lines[index] = line * (half / (period as f64 * sinc * sinc));
+        fine_lines[index] = line * (half * lift(angle) / period as f64);
     }
     // A reflected record is even, so its lines are real; rounding may leave an imaginary rest where none is allowed.
     fine_lines[0].im = 0.0;

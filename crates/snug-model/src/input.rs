@@ -1,8 +1,11 @@
 use crate::band_limited;
 use snug_campaign::Intersample;
+use std::sync::OnceLock;
 
 /// How much finer than the samples a band-limited input is represented.
 const BAND_LIMITED_SUBSTEPS: usize = 8;
+/// Samples on either side over which the slope of the torque is taken.
+const SLOPE_REACH: usize = 5;
 
 /// The input (torque) of one simulation, prepared once and used for every trial of the parameters.
 ///
@@ -18,6 +21,10 @@ pub struct Input {
     rest_before_s: f64,
     onset_s: f64,
     zero_at: Option<usize>,
+    /// Made when an effect first asks for the torque between samples.
+    between: OnceLock<Vec<f64>>,
+    /// Made when an effect first asks for the torque's slope.
+    slopes: OnceLock<Vec<f64>>,
 }
 
 impl Input {
@@ -39,6 +46,49 @@ impl Input {
             rest_before_s: 0.0,
             onset_s: 0.0,
             zero_at: None,
+            between: OnceLock::new(),
+            slopes: OnceLock::new(),
+        }
+    }
+
+    /// The same input with every value replaced by the mean over it and `reach` samples on either side.
+    ///
+    /// What is computed from it knows the torque's course, but hardly the noise of any one sample.
+    pub fn smoothed(&self, reach: usize) -> Self {
+        let reach = reach * self.substeps;
+        let mut sums = vec![0.0];
+        for value in &self.grid {
+            sums.push(sums[sums.len() - 1] + value);
+        }
+        let last = self.grid.len().saturating_sub(1);
+        let mean = |index: usize| {
+            let reach = reach.min(index).min(last - index);
+            (sums[index + reach + 1] - sums[index - reach]) / (2 * reach + 1) as f64
+        };
+        Self {
+            grid: (0..self.grid.len()).map(mean).collect(),
+            between: OnceLock::new(),
+            slopes: OnceLock::new(),
+            ..self.clone()
+        }
+    }
+
+    /// The same input with `noise` \[Nm\], one value per sample, on top.
+    pub fn with_added(&self, noise: &[f64]) -> Self {
+        let noise = match self.substeps {
+            1 => noise.to_vec(),
+            factor => band_limited::straight_pieces(noise, factor),
+        };
+        let sum = self
+            .grid
+            .iter()
+            .zip(noise)
+            .map(|(torque, more)| torque + more);
+        Self {
+            grid: sum.collect(),
+            between: OnceLock::new(),
+            slopes: OnceLock::new(),
+            ..self.clone()
         }
     }
 
@@ -86,24 +136,53 @@ impl Input {
 
     /// Torque \[Nm\] and its slope \[Nm/s\] at `time_s` after the first sample; the ends are held.
     ///
-    /// Straight between grid points for a held input too: shifted by part of an interval, a held input has the straight
-    /// line's values as its means over the intervals.
+    /// Between samples it is what a torque without anything above half the sampling rate has there: that keeps the
+    /// power of the torque's noise, where a straight line between samples takes half of it away and a shift by half a
+    /// sample would always fit better than none. A held input is straight: shifted by part of an interval, it has the
+    /// straight line's values as its means over the intervals.
     pub fn at(&self, time_s: f64) -> (f64, f64) {
-        self.straight(time_s, |index| self.grid[index])
+        if self.held {
+            return self.straight(time_s, |index| self.grid[index]);
+        }
+        let between = match self.substeps {
+            1 => self
+                .between
+                .get_or_init(|| band_limited::between_samples(&self.grid, BAND_LIMITED_SUBSTEPS)),
+            _ => &self.grid,
+        };
+        curved(
+            between,
+            time_s,
+            self.grid_interval_s * self.substeps as f64 / BAND_LIMITED_SUBSTEPS as f64,
+        )
     }
 
     /// Slope of the torque \[Nm/s\] and how fast it changes \[Nm/s²\] at `time_s` after the first sample.
     ///
-    /// Straight between the grid points' own slopes, which are those from one neighbour to the other.
+    /// Straight between the grid points' own slopes, which are those of the straight lines that fit five samples on
+    /// either side best: a slope from one neighbour to the other would be mostly noise.
     pub fn slope_at(&self, time_s: f64) -> (f64, f64) {
-        self.straight(time_s, |index| {
-            let (before, after) = (
-                index.saturating_sub(1),
-                (index + 1).min(self.grid.len() - 1),
-            );
-            let span = (after - before).max(1) as f64 * self.grid_interval_s;
-            (self.grid[after] - self.grid[before]) / span
-        })
+        let slopes = self.slopes.get_or_init(|| self.fitted_slopes());
+        self.straight(time_s, |index| slopes[index])
+    }
+
+    /// Σ j y(i + j) / (Σ j² Δ) over as many points on either side as there are.
+    fn fitted_slopes(&self) -> Vec<f64> {
+        let (n, reach) = (self.grid.len(), SLOPE_REACH * self.substeps);
+        (0..n)
+            .map(|index| {
+                let from = index.saturating_sub(reach);
+                let to = (index + reach).min(n - 1);
+                let middle = 0.5 * (from + to) as f64;
+                let (mut along, mut squares) = (0.0, 0.0);
+                for point in from..=to {
+                    let offset = point as f64 - middle;
+                    along += offset * self.grid[point];
+                    squares += offset * offset;
+                }
+                along / (squares * self.grid_interval_s).max(f64::MIN_POSITIVE)
+            })
+            .collect()
     }
 
     /// Value and slope at `time_s` of the line through `of(index)` at the grid points; the ends are held.
@@ -150,5 +229,98 @@ impl Input {
     /// Time since the integration of the sensor's signal began, at sample `index` \[s\].
     pub(crate) fn since_rest_s(&self, index: usize) -> f64 {
         self.rest_before_s + index as f64 * self.grid_interval_s * self.substeps as f64
+    }
+}
+
+/// Value and slope at `time_s` of the cubics that meet at the `points`, `interval_s` apart, with the slopes from one
+/// neighbour to the other; the ends are held.
+fn curved(points: &[f64], time_s: f64, interval_s: f64) -> (f64, f64) {
+    let Some(last) = points.len().checked_sub(1) else {
+        return (0.0, 0.0);
+    };
+    let position = time_s / interval_s;
+    if position < 0.0 {
+        return (points[0], 0.0);
+    }
+    let index = position as usize;
+    if index >= last {
+        return (points[last], 0.0);
+    }
+    let u = position - index as f64;
+    let (here, next) = (points[index], points[index + 1]);
+    let slope_here = 0.5 * (next - points[index.saturating_sub(1)]);
+    let slope_next = 0.5 * (points[(index + 2).min(last)] - here);
+    // Hermite form: here + u (m + u (b + u a)).
+    let a = 2.0 * (here - next) + slope_here + slope_next;
+    let b = 3.0 * (next - here) - 2.0 * slope_here - slope_next;
+    (
+        here + u * (slope_here + u * (b + u * a)),
+        (slope_here + u * (2.0 * b + 3.0 * u * a)) / interval_s,
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Independent values, evenly spread, with a variance of 1 (Knuth's congruential generator).
+    fn noise(count: usize) -> Vec<f64> {
+        let mut state = 11_u64;
+        let mut draw = || {
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            ((state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5) * 12.0_f64.sqrt()
+        };
+        (0..count).map(|_| draw()).collect()
+    }
+
+    fn power(values: impl Iterator<Item = f64>) -> f64 {
+        let (mut sum, mut count) = (0.0, 0);
+        for value in values {
+            sum += value * value;
+            count += 1;
+        }
+        sum / f64::from(count)
+    }
+
+    /// A straight line between two independent samples has half their power in its middle.
+    #[test]
+    fn a_shift_by_half_a_sample_keeps_the_power_of_noise() {
+        let samples = noise(20_000);
+        let input = Input::new(&samples, 1e-4, Intersample::Linear);
+        let shifted = power((100..19_900).map(|i| input.at((i as f64 + 0.5) * 1e-4).0));
+        let there = power((100..19_900).map(|i| input.at(i as f64 * 1e-4).0));
+        assert!(
+            (there - 1.0).abs() < 0.03 && (shifted / there - 1.0).abs() < 0.02,
+            "{there} {shifted}"
+        );
+    }
+
+    /// The slope at a sample says nothing about that sample's noise, so that a small delay cannot take it away.
+    #[test]
+    fn the_slope_at_a_sample_does_not_know_its_noise() {
+        let samples = noise(20_000);
+        let input = Input::new(&samples, 1.0, Intersample::Linear);
+        let product: f64 = (100..19_900)
+            .map(|i| input.at(i as f64).1 * samples[i])
+            .sum();
+        // Σ of 19 800 products of spread 0.7 and mean 0; a line to the next sample would give −19 800.
+        assert!(product.abs() < 4.0 * 0.8 * 19_800_f64.sqrt(), "{product}");
+    }
+
+    #[test]
+    fn slopes_of_a_parabola_are_exact_and_noise_hardly_disturbs_them() {
+        let parabola: Vec<f64> = (0..200).map(|i| (0.01 * f64::from(i)).powi(2)).collect();
+        let input = Input::new(&parabola, 0.01, Intersample::Linear);
+        let (slope, change) = input.slope_at(1.234);
+        assert!(
+            (slope - 2.468).abs() < 1e-12 && (change - 2.0).abs() < 1e-9,
+            "{slope} {change}"
+        );
+        let noise = Input::new(&noise(20_000), 1.0, Intersample::Linear);
+        // Least squares over ±5: variance 1/Σ j² = 1/110.
+        let found = power((100..19_900).map(|i| noise.slope_at(i as f64).0));
+        assert!((found * 110.0 - 1.0).abs() < 0.1, "{found}");
     }
 }
