@@ -1,4 +1,4 @@
-use super::{Section, counted, nothing};
+use super::{Section, counted, fitted, nothing};
 use crate::figure::{Axis, Bar, Figure, Mark, Segment, captioned, legend, round_step};
 use crate::number::significant;
 use crate::quantity;
@@ -17,6 +17,8 @@ pub const SECTION: Section = Section {
 
 /// About how many bars a histogram has.
 const BARS: usize = 18;
+/// Width of an axis over the values it shows, at the least.
+const SPAN_RATIO: f64 = 0.02;
 
 fn render(result: &CampaignResult) -> Markup {
     let mut columns = vec![
@@ -63,9 +65,7 @@ fn always_shown(column: &str) -> Option<(f64, f64)> {
 /// `None` where no tightening has a value.
 fn histogram(column: &str, result: &CampaignResult) -> Option<Markup> {
     let split = |wanted: bool| -> Vec<f64> {
-        result
-            .tightenings
-            .iter()
+        fitted(result)
             .filter(|tightening| tightening.selection.selected() == wanted)
             .filter_map(|tightening| value(tightening, column))
             .collect()
@@ -168,7 +168,8 @@ impl Edges {
         let (from, to) = always.unwrap_or((f64::INFINITY, f64::NEG_INFINITY));
         let low = all.minimum.max((bulk.low - reach).min(from));
         let high = all.maximum.min((bulk.high + reach).max(to));
-        let span = (high - low).max(1e-9 * high.abs().max(1e-9));
+        // Equal values stand in one bar of an axis that a reader can still tell numbers apart on.
+        let span = (high - low).max(SPAN_RATIO * high.abs().max(1e-9));
         let width = round_step(span, BARS);
         let first = (low / width - 1e-9).floor();
         let last = (high / width + 1e-9).floor() + 1.0;

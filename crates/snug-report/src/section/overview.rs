@@ -1,10 +1,10 @@
-use super::{Section, counted};
+use super::{Section, counted, fitted};
 use crate::number::{fixed, missing, percent, percent_interval, plain, rounded, share, short};
 use crate::quantity::{self, capitalised};
 use crate::quartiles::Quartiles;
 use maud::{Markup, html};
 use snug_campaign::{
-    CampaignResult, Conditions, FitMeasures, QuantitySummary, Rejection, Severity, TighteningResult,
+    CampaignResult, Conditions, FitMeasures, QuantitySummary, Severity, TighteningResult,
 };
 use std::collections::BTreeSet;
 
@@ -81,16 +81,6 @@ fn usable(result: &CampaignResult, all: usize) -> String {
         "{selected} of {} ({share}) are usable with {model}; {agreement}.",
         counted(all, "tightening")
     )
-}
-
-/// The tightenings that were fitted or should have been: all but those kept for validation.
-fn fitted(result: &CampaignResult) -> impl Iterator<Item = &TighteningResult> {
-    result.tightenings.iter().filter(|tightening| {
-        !tightening
-            .selection
-            .rejections
-            .contains(&Rejection::Validation)
-    })
 }
 
 fn model_words(result: &CampaignResult) -> String {

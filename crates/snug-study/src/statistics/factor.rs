@@ -1,4 +1,4 @@
-use snug_campaign::TighteningResult;
+use snug_campaign::{SignalUnits, TighteningResult};
 use std::collections::BTreeMap;
 
 /// A condition by which tightenings are grouped.
@@ -12,14 +12,19 @@ pub enum Factor {
 }
 
 impl Factor {
-    /// In the order of the thesis' tables.
-    pub const ALL: [Self; 5] = [
-        Self::Strategy,
-        Self::Joint,
-        Self::Pace,
-        Self::Participant,
-        Self::TargetTorque,
-    ];
+    /// In the order of the thesis' tables; a rig whose input is no torque has no target torque.
+    pub fn of(units: &SignalUnits) -> impl Iterator<Item = Self> + use<> {
+        let torque = units.input_is_torque();
+        [
+            Self::Strategy,
+            Self::Joint,
+            Self::Pace,
+            Self::Participant,
+            Self::TargetTorque,
+        ]
+        .into_iter()
+        .filter(move |factor| torque || *factor != Self::TargetTorque)
+    }
 
     /// Name as in files.
     pub fn name(self) -> &'static str {
