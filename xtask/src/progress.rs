@@ -50,7 +50,7 @@ impl Progress {
     }
 
     /// Takes what a run reports.
-    pub fn report(&self, event: ProgressEvent) {
+    pub fn report(&self, event: ProgressEvent<'_>) {
         if let Some(bar) = &self.bar {
             match event {
                 ProgressEvent::Started { files } => bar.set_length(files as u64),
@@ -59,6 +59,7 @@ impl Progress {
                     let rate = tightenings as f64 / bar.elapsed().as_secs_f64().max(1e-3);
                     bar.set_message(format!("{tightenings} tightenings, {rate:.0} a second"));
                 }
+                ProgressEvent::Stage { what } => bar.set_message(what.to_owned()),
                 ProgressEvent::Writing { what } => bar.set_message(format!("writing {what}")),
             }
         }
@@ -79,7 +80,7 @@ impl Progress {
 }
 
 impl Plain {
-    fn report(&mut self, event: ProgressEvent) {
+    fn report(&mut self, event: ProgressEvent<'_>) {
         match event {
             ProgressEvent::Started { files } => self.files = files,
             ProgressEvent::FileDone { tightenings } => {
@@ -89,6 +90,9 @@ impl Plain {
                     self.last = Instant::now();
                     self.line();
                 }
+            }
+            ProgressEvent::Stage { what } => {
+                eprintln!("{:.0} s: {what}", self.started.elapsed().as_secs_f64());
             }
             ProgressEvent::Writing { .. } => {}
         }

@@ -407,7 +407,7 @@ pub(crate) fn twins(ranking: &Ranking, index: usize) -> Vec<Effect> {
                 && !is_unlisted(other.effect)
                 && other.gain() > 0.0
                 && other.clearness() > 1.0
-                && chosen.ahead_of(other) < EQUAL
+                && chosen.ahead_of(other).abs() < EQUAL
         })
         .map(|other| other.effect)
         .collect()

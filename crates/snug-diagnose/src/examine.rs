@@ -415,11 +415,33 @@ fn ladder_rung(cases: &[Case], fitted: &Fitted) -> Rung {
             .then(|| relative(fitted.heldout(&target))),
         heldout_participant_error_over_noise: (weighted && several(&person))
             .then(|| relative(fitted.heldout(&person))),
-        rms_fitted_output: if weighted { f64::NAN } else { fitted.error() },
+        rms_fitted_output: rms_residual(cases, fitted),
         rms_displacement_rad: None,
         fit_percent_median: None,
         selected_fraction: f64::NAN,
     }
+}
+
+/// Root mean square of measured − simulated of the compared output, in its unit.
+fn rms_residual(cases: &[Case], fitted: &Fitted) -> f64 {
+    let (mut squares, mut count) = (0.0, 0_usize);
+    for (member, case) in cases.iter().enumerate() {
+        let Some(model) = held(case, fitted) else {
+            continue;
+        };
+        let mut values: Vec<f64> = model.parameters().iter().map(|p| p.value).collect();
+        for (name, value) in fitted.own_named(member) {
+            if let Some(index) = model.parameters().iter().position(|p| p.name == name) {
+                values[index] = value;
+            }
+        }
+        let mut output = vec![0.0; case.measured().len()];
+        model.output(&values, &case.input, case.quantity, &mut output);
+        let scored = output.iter().zip(case.measured()).skip(case.unscored);
+        squares += scored.map(|(s, m)| (m - s).powi(2)).sum::<f64>();
+        count += output.len() - case.unscored;
+    }
+    (squares / count.max(1) as f64).sqrt()
 }
 
 fn rung_model(cases: &[Case], fitted: &Fitted) -> RungModel {

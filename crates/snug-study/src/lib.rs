@@ -1,19 +1,23 @@
 #![doc = include_str!("../README.md")]
 
-mod error;
 mod cases;
+mod diagnosis;
+mod error;
 mod evaluation;
 mod examples;
 mod file_evaluation;
 mod position;
 mod progress;
+mod rewriting;
 mod run;
 mod selection;
 mod statistics;
 mod study;
 
+pub use diagnosis::{DiagnosisSettings, Verb, diagnose};
 pub use error::StudyError;
 pub use progress::ProgressEvent;
+pub use rewriting::rewrite_effects;
 pub use run::{Outcome, RunSettings, run};
 pub use selection::SelectionSettings;
 pub use snug_preprocess::Preset;
