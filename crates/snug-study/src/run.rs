@@ -6,8 +6,8 @@ use crate::file_evaluation::{FileEvaluation, evaluate_file, other, outcomes};
 use crate::{ProgressEvent, Study, StudyError, statistics};
 use rayon::prelude::*;
 use snug_campaign::{
-    CampaignResult, Diagnosis, Finding, PresetSummary, Rejection, RejectionCount, Severity, TighteningId,
-    TighteningResult,
+    CampaignResult, Diagnosis, Finding, PresetSummary, Rejection, RejectionCount, Severity,
+    TighteningId, TighteningResult,
 };
 use snug_record::Recorder;
 use std::collections::BTreeMap;

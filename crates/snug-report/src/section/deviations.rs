@@ -75,7 +75,11 @@ const DEVIATIONS: [(&str, &str, &str); 11] = [
 ];
 
 fn render(result: &CampaignResult) -> Markup {
-    if !result.presets.iter().any(|preset| preset.preset == "thesis") {
+    if !result
+        .presets
+        .iter()
+        .any(|preset| preset.preset == "thesis")
+    {
         return nothing(
             "The preset thesis is for nutrunner campaigns; it was not applied to this rig.",
         );

@@ -3,9 +3,7 @@ use crate::number::{fixed, missing, percent, percent_interval, plain, rounded, s
 use crate::quantity::{self, capitalised};
 use crate::quartiles::Quartiles;
 use maud::{Markup, html};
-use snug_campaign::{
-    CampaignResult, Conditions, FitMeasures, QuantitySummary, Severity, TighteningResult,
-};
+use snug_campaign::{CampaignResult, Conditions, FitMeasures, QuantitySummary, Severity};
 use std::collections::BTreeSet;
 
 /// What was measured, what came out, the key numbers.
