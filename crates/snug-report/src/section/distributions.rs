@@ -105,7 +105,12 @@ fn histogram(column: &str, result: &CampaignResult) -> Option<Markup> {
         let all = Quartiles::of(selected.iter().chain(&rejected).copied());
         let (low, high) = all.map_or((f64::NAN, f64::NAN), |all| (all.minimum, all.maximum));
         format!(
-            "{outside} values lie beyond the axis; the smallest is {}, the largest {}{}.",
+            "{} beyond the axis; the smallest is {}, the largest {}{}.",
+            if outside == 1 {
+                "1 value lies".to_owned()
+            } else {
+                format!("{outside} values lie")
+            },
             significant(low, 3),
             significant(high, 3),
             if name.unit.is_empty() {

@@ -130,7 +130,9 @@ fn measured(result: &CampaignResult) -> String {
     if !paces.is_empty() {
         text += &format!("; {} per minute", paces.join(", "));
     }
-    let targets = numbers(result.tightenings.iter().map(|t| t.target_torque_nm));
+    // Without a pulse there is no target: its torque rounds to zero.
+    let pulses = result.tightenings.iter().map(|t| t.target_torque_nm);
+    let targets = numbers(pulses.filter(|target| *target != 0.0));
     if !targets.is_empty() && result.units.input_is_torque() {
         text += &format!("; target torque {} Nm", targets.join(", "));
     }
