@@ -58,8 +58,14 @@ fn usable(result: &CampaignResult, all: usize) -> String {
         );
     }
     let agreement = match error_over_noise(result) {
+        // The verdict, right below, judges all tightenings together, and is the better judge.
+        Some(ratio) if result.diagnosis.is_some() => format!(
+            "in half of them the model leaves {} times the measurement noise or less",
+            fixed(ratio, 2)
+        ),
         Some(ratio) if ratio <= 1.1 => format!(
-            "what the model leaves unexplained there is as small as the measurement noise ({} times)",
+            "what the model leaves unexplained there is hardly more than the measurement noise ({} times); whether a faint \
+             effect hides in it, “cargo xtask diagnose” tells",
             fixed(ratio, 2)
         ),
         Some(ratio) if ratio <= 2.0 => format!(

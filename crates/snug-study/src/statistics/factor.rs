@@ -46,8 +46,9 @@ impl Factor {
             Self::Pace => conditions.pace_per_min.map(|pace| pace.to_string()),
             Self::Participant => conditions.participant.clone(),
             // Without a pulse there is no target: its torque rounds to zero, or is unknown.
-            Self::TargetTorque => (tightening.target_torque_nm > 0.0)
-                .then(|| tightening.target_torque_nm.to_string()),
+            Self::TargetTorque => {
+                (tightening.target_torque_nm > 0.0).then(|| tightening.target_torque_nm.to_string())
+            }
         }
     }
 
