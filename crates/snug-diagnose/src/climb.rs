@@ -219,14 +219,6 @@ pub(crate) fn climb(
     Ok(climb)
 }
 
-fn show(ranking: &Ranking, tell: &(dyn Fn(&str) + Sync)) {
-        if std::env::var("SHOW").is_ok() {
-            for c in ranking.candidates.iter().take(8) {
-                tell(&format!("   {:28} T {:6.2} p {:.4} gain {:10.1} ± {:7.1} z {:.1} err {:.4} conv {} lin {} {:?}", c.effect.name(), c.score, c.p_family, c.gain(), c.gain_error(), c.clearness(), c.fitted.error(), c.fitted.converged, c.fitted.linearizations, c.fitted.shared_named()));
-            }
-        }
-}
-
 type Step = (Addition, Fitted);
 
 fn step(ranking: &Ranking, index: usize, current: &Fitted) -> Step {
@@ -253,9 +245,7 @@ impl Search<'_> {
     fn rank(&self, current: &Fitted, control_campaigns: usize) -> Result<Ranking, DiagnoseError> {
         (self.tell)(&format!("ranking what is missing beside {}", list(&current.effects)));
         let all = candidates(self.cases, current, self.custom)?;
-        let ranking = rank(self.cases, current, &all, self.units, self.settings, control_campaigns)?;
-        show(&ranking, self.tell);
-        Ok(ranking)
+        rank(self.cases, current, &all, self.units, self.settings, control_campaigns)
     }
 
     /// The ranking, with `effect` among the candidates whatever it is.
@@ -338,7 +328,6 @@ impl Search<'_> {
             let mut seconds = candidates(self.cases, first, self.custom)?;
             seconds.retain(|&effect| !is_unlisted(effect));
             let next = rank(self.cases, first, &seconds, self.units, self.settings, 0)?;
-            show(&next, self.tell);
             let Ok(second) = justified(&next, first, self.settings) else {
                 continue;
             };
@@ -385,6 +374,13 @@ impl Search<'_> {
 const MUCH_LEFT: f64 = 0.1;
 /// Effects from which a second is looked for.
 const SEEDS: usize = 3;
+
+/// Squared residual beyond the noise of each unit; where the noise is not known, all of it.
+pub(crate) fn misfits(fitted: &Fitted) -> Vec<f64> {
+    let noise = |count: usize| if fitted.is_weighted { count as f64 } else { 0.0 };
+    let blocks = fitted.blocks.iter();
+    blocks.map(|block| block.squares - noise(block.count)).collect()
+}
 
 /// Squared residual beyond the noise; where the noise is not known, all of it.
 pub(crate) fn misfit(fitted: &Fitted) -> f64 {

@@ -118,18 +118,6 @@ impl Square {
         lower
     }
 
-    /// Lower factor L with L Lᵀ = A, row-major.
-    pub fn cholesky(&self) -> Vec<f64> {
-        let unit = self.units();
-        let mut lower = self.scaled_cholesky(&unit);
-        for (row, unit) in lower.chunks_exact_mut(self.size.max(1)).zip(&unit) {
-            if *unit > 0.0 {
-                row.iter_mut().for_each(|value| *value /= unit);
-            }
-        }
-        lower
-    }
-
     /// The inverse, column by column.
     pub fn inverse(&self) -> Option<Self> {
         let mut inverse = Self::zero(self.size);

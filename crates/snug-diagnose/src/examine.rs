@@ -1,6 +1,6 @@
 //! One verb of the diagnosis from tightenings to answer: compare, diagnose, add, improve.
 
-use crate::climb::{Addition, Attempt, Climb, add, climb, misfit, rank_only};
+use crate::climb::{Addition, Attempt, Climb, add, climb, misfit, misfits, rank_only};
 use crate::experiment::separating_experiment;
 use crate::fitted::Fitted;
 use crate::ranking::{Candidate, Ranking, fit_effects};
@@ -124,6 +124,7 @@ impl Examination<'_> {
         let location = locate(&base, self.settings.seed);
         let verdict = self.verdict(final_location.as_ref().unwrap_or(&location).repeatable_share);
         let ranking = self.ranking();
+        let corrected = corrected(cases);
         let situation = Situation {
             verb: self.verb(),
             verdict,
@@ -134,7 +135,8 @@ impl Examination<'_> {
             chosen: self.climb.chosen.map(|index| &self.climb.ranking.candidates[index]),
             ranking: &ranking,
             stopped: self.climb.stopped,
-            cases,
+            impossible: &self.climb.ranking.impossible,
+            corrected: &corrected,
             settings: self.settings,
         };
         let experiment = match situation.twin_pair() {
@@ -144,17 +146,22 @@ impl Examination<'_> {
             }
             None => None,
         };
+        let (headline, reasons, stopped) = (
+            wording::headline(&situation),
+            wording::reasons(&situation),
+            wording::stopped(&situation),
+        );
         let diagnosis = Diagnosis {
             verb: self.verb().to_owned(),
             verdict,
-            headline: wording::headline(&situation),
-            reasons: wording::reasons(&situation),
-            stopped: wording::stopped(&situation),
+            headline,
+            reasons,
+            stopped,
             tightenings: cases.len(),
             noise: noise(cases),
             compared_output: quantity_name(cases[0].quantity).to_owned(),
             added: self.added(),
-            corrected: corrected(cases),
+            corrected,
             ladder: self.climb.rungs.iter().map(|rung| ladder_rung(cases, rung)).collect(),
             ranking,
             removals: self.climb.attempts.iter().map(removal).collect(),
@@ -246,12 +253,13 @@ impl Examination<'_> {
             score: candidate.score,
             p_family: candidate.p_family,
             heldout_gain: candidate.gain() / misfit,
-            heldout_gain_error: candidate.gain_error() / misfit,
+            heldout_gain_error: candidate.share_error(&misfits(self.climb.last())),
             error_over_noise: candidate.fitted.is_weighted.then(|| candidate.fitted.error()),
             behind_first: first.map_or(0.0, |first| first.ahead_of(candidate)),
             likeness: None,
             twins: twins.iter().map(|twin| twin.name().to_owned()).collect(),
-            plausible: sizes.iter().all(|s| s.value > s.minimum && s.value < s.maximum),
+            plausible: candidate.fitted.converged
+                && sizes.iter().all(|s| s.value > s.minimum && s.value < s.maximum),
             explanation: wording::explanation(candidate.effect, &sizes),
             parameters: sizes,
         }

@@ -42,7 +42,6 @@ pub(crate) struct Fitted {
     profiles: Vec<(Square, Vec<f64>)>,
     /// Parameters that every tightening has of its own, beyond the base model's.
     pub own_effect_count: usize,
-    pub linearizations: usize,
 }
 
 impl Fitted {
@@ -69,7 +68,6 @@ impl Fitted {
             member_curvature: Vec::new(),
             profiles,
             own_effect_count: hypothesis.own.iter().filter(|&&index| index >= 3).count(),
-            linearizations: fit.work.linearizations,
             own: fit.own,
             shared: fit.shared,
         };

@@ -42,9 +42,13 @@ impl Candidate {
         clearness(&differences, self.fitted.scale())
     }
 
-    /// Its standard error over units.
-    pub fn gain_error(&self) -> f64 {
-        spread_of_sum(&self.gains)
+    /// Standard error over units of the share of `misfit` (per unit) that it removes: that of the ratio of two sums.
+    pub fn share_error(&self, misfit: &[f64]) -> f64 {
+        let whole: f64 = misfit.iter().sum();
+        let share = self.gain() / whole;
+        let pairs = self.gains.iter().zip(misfit);
+        let rest: Vec<f64> = pairs.map(|(gain, misfit)| gain - share * misfit).collect();
+        spread_of_sum(&rest) / whole.abs()
     }
 }
 
@@ -52,6 +56,8 @@ impl Candidate {
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Ranking {
     pub candidates: Vec<Candidate>,
+    /// Effects whose starts this rig cannot be simulated with.
+    pub impossible: Vec<Effect>,
     /// What every candidate was scored with.
     pub columns: Vec<Column>,
     /// Campaigns of nothing but noise, and in how many of them something was called supported.
@@ -102,28 +108,45 @@ pub(crate) fn rank(
         })
         .count();
     let heldout = current.heldout(&|unit| unit);
-    let refitted: Vec<Result<Candidate, DiagnoseError>> = candidates
+    let refitted: Vec<Result<Option<Candidate>, DiagnoseError>> = candidates
         .par_iter()
         .map(|&effect| {
-            let fitted = refit(cases, current, effect, &columns, units, settings)?;
+            let fitted = refit(cases, current, effect, &columns, units, settings);
+            let Some(fitted) = possible(fitted)? else {
+                return Ok(None);
+            };
             let gains = gains(&heldout, &fitted);
             let own = columns.iter().filter(|column| column.effect == effect);
-            Ok(Candidate {
+            Ok(Some(Candidate {
                 effect,
                 score: own.map(Column::statistic).fold(0.0, f64::max),
                 p_family: family.p(&columns, effect),
                 fitted,
                 gains,
-            })
+            }))
         })
         .collect();
-    let mut candidates = refitted.into_iter().collect::<Result<Vec<_>, _>>()?;
+    let refitted = refitted.into_iter().collect::<Result<Vec<_>, _>>()?;
+    let outcomes = candidates.iter().zip(&refitted);
+    let impossible = outcomes.filter(|(_, outcome)| outcome.is_none());
+    let impossible = impossible.map(|(&effect, _)| effect).collect();
+    let mut candidates: Vec<Candidate> = refitted.into_iter().flatten().collect();
     candidates.sort_by(|a, b| b.gain().total_cmp(&a.gain()));
     Ok(Ranking {
         candidates,
+        impossible,
         columns,
         control: (control.len(), false_alarms),
     })
+}
+
+/// A refit, or nothing where this rig cannot be simulated with the effect's starts: they are meant for a hand on a tool.
+fn possible(refitted: Result<Fitted, DiagnoseError>) -> Result<Option<Fitted>, DiagnoseError> {
+    match refitted {
+        Ok(fitted) if fitted.squares().is_finite() => Ok(Some(fitted)),
+        Ok(_) | Err(DiagnoseError::Identify(_)) => Ok(None),
+        Err(other) => Err(other),
+    }
 }
 
 /// What held-out units lose in squared residual.
@@ -187,7 +210,9 @@ fn rough(
     for values in starts {
         let mut start = with_effect(&hypothesis, &current.only(&few), effect, values);
         start.own.truncate(some.len());
-        let end = hypothesis.fit(&start, &settings)?;
+        let Ok(end) = hypothesis.fit(&start, &settings) else {
+            continue;
+        };
         if best.as_ref().is_none_or(|best| end.fit.cost() < best.cost()) {
             best = Some(end.fit);
         }

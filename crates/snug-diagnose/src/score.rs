@@ -4,7 +4,7 @@
 //! z̃ = z − J (JᵀJ)⁻¹ Jᵀ z, s_ij = z̃ᵀ r_i, I_ij = z̃ᵀ z̃; predicted size Σ s / Σ I.
 
 use crate::DiagnoseError;
-use crate::dense::{Square, dot};
+use crate::dense::dot;
 use crate::fitted::Fitted;
 use crate::hypothesis::{Hypothesis, Room};
 use crate::units::Units;
@@ -306,26 +306,19 @@ impl<'a, 'h> Scorer<'a, 'h> {
         contribution
     }
 
-    /// Scores of campaigns that hold nothing but noise: normal with the signatures' own Gram matrix as covariance.
+    /// Scores of campaigns that hold nothing but noise: white noise, seen through what the signatures span.
     fn draw(&self, member: usize, signatures: &[Vec<f64>], along_bias: &[f64]) -> Vec<Vec<f64>> {
-        let size = signatures.len();
-        let mut gram = Square::zero(size);
-        for i in 0..size {
-            for j in 0..=i {
-                let value = dot(&signatures[i], &signatures[j]);
-                gram.set(i, j, value);
-                gram.set(j, i, value);
-            }
-        }
-        let root = gram.cholesky();
+        let coordinates = coordinates(signatures);
+        let most = coordinates.iter().map(Vec::len).max().unwrap_or(0);
         let mut random = ChaCha8Rng::seed_from_u64(self.control.seed);
-        random.set_stream(member as u64);
+        // Stream 0 flips signs.
+        random.set_stream(1 + member as u64);
         (0..self.control.campaigns)
             .map(|_| {
-                let noise: Vec<f64> = (0..size).map(|_| StandardNormal.sample(&mut random)).collect();
+                let noise: Vec<f64> = (0..most).map(|_| StandardNormal.sample(&mut random)).collect();
                 let bias: f64 = StandardNormal.sample(&mut random);
-                (0..size)
-                    .map(|i| dot(&root[i * size..=i * size + i], &noise) + bias * along_bias[i])
+                (coordinates.iter().zip(along_bias))
+                    .map(|(own, along)| dot(own, &noise) + bias * along)
                     .collect()
             })
             .collect()
@@ -363,6 +356,21 @@ impl<'a, 'h> Scorer<'a, 'h> {
     }
 }
 
+/// Coordinates of each signal in an orthonormal basis of all of them.
+fn coordinates(signals: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    let mut span = Nuisance { basis: Vec::new() };
+    let along = |span: &Nuisance, signal: &[f64]| -> Vec<f64> {
+        span.basis.iter().map(|direction| dot(direction, signal)).collect()
+    };
+    for signal in signals {
+        span.extend(signal, SAME_DIRECTION);
+    }
+    signals.iter().map(|signal| along(&span, signal)).collect()
+}
+
+/// Squared share of a signal below which what is new in it is rounding.
+const SAME_DIRECTION: f64 = 1e-12;
+
 /// Orthonormal basis of what the own parameters can imitate.
 struct Nuisance {
     basis: Vec<Vec<f64>>,
@@ -373,18 +381,23 @@ impl Nuisance {
     fn new(jacobian: &[f64], count: usize, columns: usize) -> Self {
         let mut nuisance = Self { basis: Vec::new() };
         for column in jacobian.chunks_exact(count.max(1)).take(columns) {
-            let mut rest = column.to_vec();
-            let before = dot(&rest, &rest);
-            nuisance.project(&mut rest);
-            nuisance.project(&mut rest);
-            let length = dot(&rest, &rest);
-            if length > 1e-20 * before && length > 0.0 {
-                let scale = 1.0 / length.sqrt();
-                rest.iter_mut().for_each(|value| *value *= scale);
-                nuisance.basis.push(rest);
-            }
+            nuisance.extend(column, 1e-20);
         }
         nuisance
+    }
+
+    /// Adds what is new in a signal, if that is more than `least` of its squared length.
+    fn extend(&mut self, signal: &[f64], least: f64) {
+        let mut rest = signal.to_vec();
+        let before = dot(&rest, &rest);
+        self.project(&mut rest);
+        self.project(&mut rest);
+        let length = dot(&rest, &rest);
+        if length > least * before && length > 0.0 && length.is_finite() {
+            let scale = 1.0 / length.sqrt();
+            rest.iter_mut().for_each(|value| *value *= scale);
+            self.basis.push(rest);
+        }
     }
 
     fn project(&self, signal: &mut [f64]) {

@@ -1,13 +1,12 @@
 //! The words in which verdicts are told: for someone who knows nutrunners, not statistics.
 
-use crate::Case;
 use crate::DiagnoseSettings;
 use crate::climb::{Addition, Attempt, Stop};
 use crate::examine::AT_FLOOR;
 use crate::fitted::Fitted;
 use crate::ranking::Candidate;
 use crate::unlisted::{declaration, is_unlisted};
-use snug_campaign::{EffectParameter, RankedEffect, Verdict};
+use snug_campaign::{CorrectedEffect, EffectParameter, RankedEffect, Verdict};
 use snug_model::{CustomEffectSettings, Effect, Law};
 
 /// What the words are about.
@@ -22,7 +21,10 @@ pub(crate) struct Situation<'a> {
     pub chosen: Option<&'a Candidate>,
     pub ranking: &'a [RankedEffect],
     pub stopped: Option<Stop>,
-    pub cases: &'a [Case],
+    /// Candidates that cannot be simulated on this rig.
+    pub impossible: &'a [Effect],
+    /// What preparation took out.
+    pub corrected: &'a [CorrectedEffect],
     pub settings: &'a DiagnoseSettings,
 }
 
@@ -172,6 +174,21 @@ pub(crate) fn reasons(situation: &Situation<'_>) -> Vec<String> {
                 joined(&twins)
             ));
         }
+    }
+    for one in situation.corrected {
+        reasons.push(format!(
+            "Before the fit, {} was measured in the quiet part and taken out: about {} in {:.0} % of the tightenings.",
+            one.effect.replace('_', " "),
+            amount(one.size, &one.unit),
+            one.share * 100.0
+        ));
+    }
+    if !situation.impossible.is_empty() {
+        let names: Vec<String> = situation.impossible.iter().map(|&effect| spoken(effect)).collect();
+        reasons.push(format!(
+            "Not tried, because this rig cannot be simulated with sizes meant for a hand on a tool: {}.",
+            joined(&names)
+        ));
     }
     if situation.verdict == Verdict::Undecided && situation.verb != "compare" {
         if let Some(first) = situation.ranking.first() {
