@@ -225,6 +225,7 @@ mod tests {
     fn equal_values_make_one_bar() {
         let edges = Edges::around(&[2.0; 7], &[], None).expect("there are values");
         assert_eq!(edges.counts(&[2.0; 7]).iter().max(), Some(&7));
+        assert!(edges.width > 1e-4 * 2.0, "{}", edges.width);
         let zeros = Edges::around(&[0.0], &[], None).expect("there is a value");
         assert_eq!(zeros.counts(&[0.0]).iter().sum::<usize>(), 1);
     }
