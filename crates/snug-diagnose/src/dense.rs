@@ -93,7 +93,9 @@ impl Square {
     /// 1/√diagonal, 0 where the diagonal is not positive.
     fn units(&self) -> Vec<f64> {
         let diagonal = (0..self.size).map(|i| self.at(i, i));
-        diagonal.map(|d| if d > 0.0 { 1.0 / d.sqrt() } else { 0.0 }).collect()
+        diagonal
+            .map(|d| if d > 0.0 { 1.0 / d.sqrt() } else { 0.0 })
+            .collect()
     }
 
     /// Lower Cholesky factor of the matrix scaled to a diagonal of 1; directions that are rounding have zero pivots.

@@ -6,8 +6,8 @@ use crate::file_evaluation::{FileEvaluation, evaluate_file, other, outcomes};
 use crate::{ProgressEvent, Study, StudyError, statistics};
 use rayon::prelude::*;
 use snug_campaign::{
-    CampaignResult, Diagnosis, Finding, PresetSummary, Rejection, RejectionCount, Severity, TighteningId,
-    TighteningResult,
+    CampaignResult, Diagnosis, Finding, PresetSummary, Rejection, RejectionCount, Severity,
+    TighteningId, TighteningResult,
 };
 use snug_record::Recorder;
 use std::collections::BTreeMap;
@@ -181,8 +181,9 @@ impl Collected {
             .iter()
             .filter(|t| !t.selection.rejections.contains(&Rejection::Validation))
             .collect();
-        let conditions = statistics::summaries(&fitted);
-        let tests = statistics::rows(&fitted, study.seed);
+        let units = study.source.units(study.preprocess.rig.lever_arm_m);
+        let conditions = statistics::summaries(&fitted, &units);
+        let tests = statistics::rows(&fitted, &units, study.seed);
         let mut presets = vec![preset_summary(study, self.here)];
         presets.extend(other(study).map(|other| preset_summary(&other, self.there)));
         CampaignResult {
@@ -190,7 +191,7 @@ impl Collected {
             study_ron,
             preset: study.preprocess.preset.name().to_owned(),
             fitted_output: format!("{:?}", study.identify.fitted_output).to_lowercase(),
-            units: study.source.units(study.preprocess.rig.lever_arm_m),
+            units,
             effects: study.model.effects.clone(),
             presets,
             conditions,
