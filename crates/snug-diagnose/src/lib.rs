@@ -1,4 +1,4 @@
-//! Where a model fails, which physical effect is missing, and how sure that is.
+#![doc = include_str!("../README.md")]
 
 mod case;
 mod climb;
@@ -11,10 +11,13 @@ mod experiment;
 mod family;
 mod fitted;
 mod hypothesis;
+mod ladder;
 mod locate;
+mod preparation;
 mod ranking;
 mod score;
 mod settings;
+mod sight;
 mod sizes;
 mod trend;
 mod units;

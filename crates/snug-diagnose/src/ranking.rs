@@ -1,8 +1,8 @@
 //! Every candidate scored, refitted and held out; best first.
 
 use crate::DiagnoseError;
-use crate::family::Family;
 use crate::evidence::{clearness, spread_of_sum};
+use crate::family::Family;
 use crate::fitted::Fitted;
 use crate::hypothesis::{Hypothesis, Start};
 use crate::score::{Column, Control, Scored, Scorer};
@@ -104,7 +104,9 @@ pub(crate) fn rank(
         .par_iter()
         .filter(|columns| {
             let family = Family::new(columns, CONTROL_FLIPS, settings.seed);
-            candidates.iter().any(|&effect| family.p(columns, effect) <= settings.level)
+            candidates
+                .iter()
+                .any(|&effect| family.p(columns, effect) <= settings.level)
         })
         .count();
     let heldout = current.heldout(&|unit| unit);
@@ -152,7 +154,11 @@ fn possible(refitted: Result<Fitted, DiagnoseError>) -> Result<Option<Fitted>, D
 /// What held-out units lose in squared residual.
 pub(crate) fn gains(heldout: &[f64], fitted: &Fitted) -> Vec<f64> {
     let with = fitted.heldout(&|unit| unit);
-    heldout.iter().zip(with).map(|(before, after)| before - after).collect()
+    heldout
+        .iter()
+        .zip(with)
+        .map(|(before, after)| before - after)
+        .collect()
 }
 
 /// Refits one effect from its most promising starts, first roughly on a few tightenings; the lowest cost wins.
@@ -213,7 +219,10 @@ fn rough(
         let Ok(end) = hypothesis.fit(&start, &settings) else {
             continue;
         };
-        if best.as_ref().is_none_or(|best| end.fit.cost() < best.cost()) {
+        if best
+            .as_ref()
+            .is_none_or(|best| end.fit.cost() < best.cost())
+        {
             best = Some(end.fit);
         }
     }
@@ -235,7 +244,11 @@ fn with_effect(
         .map(|effect| effect.description().parameters.len())
         .sum();
     let first = BASE_PARAMETERS.len() + before;
-    for (offset, (&value, spec)) in values.iter().zip(effect.description().parameters).enumerate() {
+    for (offset, (&value, spec)) in values
+        .iter()
+        .zip(effect.description().parameters)
+        .enumerate()
+    {
         let index = first + offset;
         match spec.scope {
             Scope::Shared => {

@@ -11,13 +11,20 @@ use snug_model::{BASE_PARAMETERS, TRENDS};
 /// times three. `None` where no slope could be tested.
 pub(crate) fn fatigue(drifts: &[Drift], cases: &[Case]) -> Option<RankedEffect> {
     let description = TRENDS.iter().find(|trend| trend.name == "fatigue")?;
-    let numbers = || cases.iter().map(|case| f64::from(case.tightening.id.number));
+    let numbers = || {
+        cases
+            .iter()
+            .map(|case| f64::from(case.tightening.id.number))
+    };
     let range = numbers().fold(f64::MIN, f64::max) - numbers().fold(f64::MAX, f64::min);
     let over_number = |parameter: &str| {
         let mut all = drifts.iter();
         all.find(|drift| drift.parameter == parameter && drift.against == "trial_number")
     };
-    let tested: Vec<&Drift> = BASE_PARAMETERS.iter().filter_map(|name| over_number(name)).collect();
+    let tested: Vec<&Drift> = BASE_PARAMETERS
+        .iter()
+        .filter_map(|name| over_number(name))
+        .collect();
     let smallest = tested.iter().filter_map(|drift| drift.p).reduce(f64::min)?;
     let per_tightening = |percent: f64| percent / 100.0 / range;
     let parameters: Vec<EffectParameter> = (description.parameters.iter().zip(BASE_PARAMETERS))

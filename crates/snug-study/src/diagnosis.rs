@@ -41,14 +41,43 @@ impl DiagnosisSettings {
     pub fn check(&self) -> Result<(), StudyError> {
         let search = &self.search;
         let checks = [
-            ("diagnosis.most_tightenings", self.most_tightenings as f64, self.most_tightenings >= 8, "at least 8"),
-            ("diagnosis.search.sign_flips", search.sign_flips as f64, search.sign_flips >= 99, "at least 99"),
-            ("diagnosis.search.level", search.level, search.level > 0.0 && search.level < 1.0, "between 0 and 1"),
-            ("diagnosis.search.smallest_gain", search.smallest_gain, (0.0..1.0).contains(&search.smallest_gain), "0 or more and below 1"),
-            ("diagnosis.search.starts", search.starts as f64, search.starts >= 1, "at least 1"),
+            (
+                "diagnosis.most_tightenings",
+                self.most_tightenings as f64,
+                self.most_tightenings >= 8,
+                "at least 8",
+            ),
+            (
+                "diagnosis.search.sign_flips",
+                search.sign_flips as f64,
+                search.sign_flips >= 99,
+                "at least 99",
+            ),
+            (
+                "diagnosis.search.level",
+                search.level,
+                search.level > 0.0 && search.level < 1.0,
+                "between 0 and 1",
+            ),
+            (
+                "diagnosis.search.smallest_gain",
+                search.smallest_gain,
+                (0.0..1.0).contains(&search.smallest_gain),
+                "0 or more and below 1",
+            ),
+            (
+                "diagnosis.search.starts",
+                search.starts as f64,
+                search.starts >= 1,
+                "at least 1",
+            ),
         ];
         match checks.into_iter().find(|(_, _, is_allowed, _)| !is_allowed) {
-            Some((setting, value, _, allowed)) => Err(StudyError::Setting { setting, value, allowed }),
+            Some((setting, value, _, allowed)) => Err(StudyError::Setting {
+                setting,
+                value,
+                allowed,
+            }),
             None => Ok(()),
         }
     }
@@ -93,9 +122,12 @@ pub fn diagnose(
 ) -> Result<Outcome, StudyError> {
     study.check()?;
     let listing = snug_ingest::list(&study.source, &study.source.path)?;
-    progress(ProgressEvent::Stage { what: "reading tightenings" });
+    progress(ProgressEvent::Stage {
+        what: "reading tightenings",
+    });
     let pool = pool(settings.threads)?;
-    let (cases, _) = pool.install(|| cases(study, &listing.files, study.diagnosis.most_tightenings))?;
+    let (cases, _) =
+        pool.install(|| cases(study, &listing.files, study.diagnosis.most_tightenings))?;
     if interrupted.load(Ordering::Relaxed) {
         return Err(StudyError::Interrupted);
     }
@@ -115,7 +147,8 @@ pub fn diagnose(
     let tell = |what: &str| progress(ProgressEvent::Stage { what });
     let answer = pool.install(|| examine(&question, &search, &tell))?;
     drop(cases);
-    let (last, diagnosis) = pool.install(|| climb(study, answer, &listing.files, progress, interrupted))?;
+    let (last, diagnosis) =
+        pool.install(|| climb(study, answer, &listing.files, progress, interrupted))?;
     run_with(&last, Some(diagnosis), settings, progress, interrupted)
 }
 
@@ -134,7 +167,11 @@ fn climb(
     interrupted: &AtomicBool,
 ) -> Result<(Study, Diagnosis), StudyError> {
     let mut diagnosis = answer.diagnosis;
-    let shown = diagnosis.comparison.tightenings.first().map(|worst| worst.id.clone());
+    let shown = diagnosis
+        .comparison
+        .tightenings
+        .first()
+        .map(|worst| worst.id.clone());
     let changes = answer.models.len() > 1;
     let mut showcase: Vec<Option<Traces>> = Vec::new();
     let mut last = study.clone();
@@ -150,7 +187,10 @@ fn climb(
         progress(ProgressEvent::Stage { what: &text });
         showcase.push(measure(&last, files, rung, shown.as_ref())?);
     }
-    let ends = (showcase.first_mut().and_then(Option::take), showcase.last_mut().and_then(Option::take));
+    let ends = (
+        showcase.first_mut().and_then(Option::take),
+        showcase.last_mut().and_then(Option::take),
+    );
     if let (Some(id), (Some(before), Some(after))) = (shown, ends) {
         diagnosis.showcase = Some(Showcase { id, before, after });
     }
@@ -165,7 +205,12 @@ fn with_model(study: &Study, model: &RungModel, changes: bool) -> Study {
     }
     study.model.effects.clone_from(&model.effects);
     for declaration in &model.declarations {
-        if !study.model.custom.iter().any(|known| known.name == declaration.name) {
+        if !study
+            .model
+            .custom
+            .iter()
+            .any(|known| known.name == declaration.name)
+        {
             study.model.custom.push(declaration.clone());
         }
     }
@@ -173,8 +218,11 @@ fn with_model(study: &Study, model: &RungModel, changes: bool) -> Study {
         if parameter.per_tightening {
             continue;
         }
-        let told: &mut ParameterSettings =
-            study.model.parameters.entry(parameter.name.clone()).or_default();
+        let told: &mut ParameterSettings = study
+            .model
+            .parameters
+            .entry(parameter.name.clone())
+            .or_default();
         if told.fixed && told.standard_error.is_none() {
             continue;
         }
@@ -202,16 +250,27 @@ fn measure(
             Ok(all)
         })
         .collect();
-    let (mut squares, mut fits, mut selected, mut count) = (Vec::new(), Vec::new(), 0_usize, 0_usize);
+    let (mut squares, mut fits, mut selected, mut count) =
+        (Vec::new(), Vec::new(), 0_usize, 0_usize);
     let mut traces = None;
     for file in evaluated {
         for one in file? {
-            if one.result.selection.rejections.contains(&Rejection::Validation) {
+            if one
+                .result
+                .selection
+                .rejections
+                .contains(&Rejection::Validation)
+            {
                 continue;
             }
             count += 1;
             selected += usize::from(one.result.selection.selected());
-            squares.extend(one.result.measures.rms_displacement_rad.map(|rms| rms * rms));
+            squares.extend(
+                one.result
+                    .measures
+                    .rms_displacement_rad
+                    .map(|rms| rms * rms),
+            );
             fits.extend(one.result.measures.fit_percent);
             traces = traces.or(one.traces);
         }
@@ -219,8 +278,8 @@ fn measure(
     fits.sort_by(f64::total_cmp);
     rung.selected_fraction = selected as f64 / count.max(1) as f64;
     rung.fit_percent_median = median(&fits);
-    rung.rms_displacement_rad = (!squares.is_empty())
-        .then(|| (squares.iter().sum::<f64>() / squares.len() as f64).sqrt());
+    rung.rms_displacement_rad =
+        (!squares.is_empty()).then(|| (squares.iter().sum::<f64>() / squares.len() as f64).sqrt());
     Ok(traces)
 }
 

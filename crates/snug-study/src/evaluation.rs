@@ -2,13 +2,13 @@
 
 use crate::{Study, StudyError};
 use snug_campaign::{
-    Estimate, FitMeasures, FitStatus, Motion, Quantity, Recording, Rejection, Segment, Selection, Tightening,
-    TighteningId, TighteningResult, Traces,
+    Estimate, FitMeasures, FitStatus, Motion, Quantity, Recording, Rejection, Segment, Selection,
+    Tightening, TighteningId, TighteningResult, Traces,
 };
 use snug_identify::{agreement, derived, identify};
 use snug_model::{
-    BASE_PARAMETERS, Input, Law, Model, euler_displacement, inverse_dynamics_force, spring_damper_force,
-    thesis_damping_ratio,
+    BASE_PARAMETERS, Input, Law, Model, euler_displacement, inverse_dynamics_force,
+    spring_damper_force, thesis_damping_ratio,
 };
 use snug_preprocess::{Prepared, Preset, ThesisChecks, target_torque_nm};
 

@@ -14,6 +14,8 @@ mod selection;
 mod statistics;
 mod study;
 
+#[doc(hidden)]
+pub use cases::cases;
 pub use diagnosis::{DiagnosisSettings, Verb, diagnose};
 pub use error::StudyError;
 pub use progress::ProgressEvent;
@@ -22,5 +24,3 @@ pub use run::{Outcome, RunSettings, run};
 pub use selection::SelectionSettings;
 pub use snug_preprocess::Preset;
 pub use study::{Study, ValidationSettings};
-#[doc(hidden)]
-pub use cases::cases;

@@ -31,12 +31,14 @@ pub fn rewrite_effects(path: &Path, effects: &[String]) -> Result<(), StudyError
 }
 
 fn parse(path: &Path, text: &str) -> Result<Study, StudyError> {
-    options().from_str(text).map_err(|source| StudyError::Syntax {
-        path: path.to_path_buf(),
-        line: source.span.start.line,
-        column: source.span.start.col,
-        message: source.code.to_string(),
-    })
+    options()
+        .from_str(text)
+        .map_err(|source| StudyError::Syntax {
+            path: path.to_path_buf(),
+            line: source.span.start.line,
+            column: source.span.start.col,
+            message: source.code.to_string(),
+        })
 }
 
 /// The text with the model's list of effects replaced or put in.
@@ -46,8 +48,15 @@ fn with_effects(text: &str, effects: &[String]) -> Option<String> {
     let Some(model) = text.find("model:") else {
         let end = text.rfind(')')?;
         let (before, after) = text.split_at(end);
-        let comma = if before.trim_end().ends_with([',', '(']) { "" } else { "," };
-        return Some(format!("{}{comma}\n    model: ({list}),\n{after}", before.trim_end()));
+        let comma = if before.trim_end().ends_with([',', '(']) {
+            ""
+        } else {
+            ","
+        };
+        return Some(format!(
+            "{}{comma}\n    model: ({list}),\n{after}",
+            before.trim_end()
+        ));
     };
     let open = model + text[model..].find('(')? + 1;
     let Some(old) = text[open..].find("effects:").map(|at| open + at) else {

@@ -17,13 +17,17 @@ pub fn diagnose(options: &RunOptions, verb: &Verb) -> ExitCode {
             return exit::bad_arguments();
         }
     };
-    carry_out(options, &repeated(options), |settings, progress, interrupted| {
-        let outcome = snug_study::diagnose(&study, verb, settings, progress, interrupted)?;
-        if let (Some(path), Verb::Add(_) | Verb::Improve) = (&options.study, verb) {
-            write_model(path, &outcome.result.effects)?;
-        }
-        Ok(outcome)
-    })
+    carry_out(
+        options,
+        &repeated(options),
+        |settings, progress, interrupted| {
+            let outcome = snug_study::diagnose(&study, verb, settings, progress, interrupted)?;
+            if let (Some(path), Verb::Add(_) | Verb::Improve) = (&options.study, verb) {
+                write_model(path, &outcome.result.effects)?;
+            }
+            Ok(outcome)
+        },
+    )
 }
 
 /// Takes an effect out of a study file's model.
@@ -46,7 +50,10 @@ pub fn remove(study: &Path, effect: &str) -> ExitCode {
                 [] => "the base model".to_owned(),
                 some => some.join(" + "),
             };
-            println!("{}: {effect} is taken out; the model is {left}", study.display());
+            println!(
+                "{}: {effect} is taken out; the model is {left}",
+                study.display()
+            );
             exit::DONE
         }
         Err(error) => {
