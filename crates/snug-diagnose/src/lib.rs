@@ -17,6 +17,7 @@ mod ranking;
 mod score;
 mod settings;
 mod sizes;
+mod torque_noise;
 mod units;
 mod unlisted;
 mod wording;
