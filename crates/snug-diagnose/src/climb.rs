@@ -195,7 +195,7 @@ pub(crate) fn add(
         let Some(index) = index else { continue };
         let (addition, fitted) = step(&ranking, index, climb.last());
         climb.additions.push(addition);
-        climb.rungs.push(fitted);
+        climb.rungs.push(search.settled(&fitted)?);
     }
     climb.ranking = search.rank(climb.last(), settings.control_campaigns)?;
     match justified(&climb.ranking, climb.last(), settings) {
@@ -238,7 +238,7 @@ pub(crate) fn climb(
         let room = MOST_EFFECTS - climb.additions.len();
         for (addition, fitted) in search.choose(climb.last(), &climb.ranking, best, room)? {
             climb.additions.push(addition);
-            climb.rungs.push(fitted);
+            climb.rungs.push(search.settled(&fitted)?);
         }
     }
     search.try_removals(&mut climb)?;
@@ -282,6 +282,11 @@ impl Search<'_> {
             self.settings,
             control_campaigns,
         )
+    }
+
+    /// The same effects, fitted from there to the end.
+    fn settled(&self, fitted: &Fitted) -> Result<Fitted, DiagnoseError> {
+        fit_effects(self.cases, &fitted.effects, Some(fitted), self.units)
     }
 
     /// The ranking, with `effect` among the candidates whatever it is.
@@ -352,7 +357,7 @@ impl Search<'_> {
         current: &Fitted,
         ranking: &Ranking,
     ) -> Result<Option<(usize, Candidate, Step)>, DiagnoseError> {
-        let heldout = current.heldout(&|unit| unit);
+        let heldout = current.heldout_beyond_torque_noise();
         let mut pair: Option<(usize, Candidate, Step)> = None;
         let all = ranking.candidates.iter().enumerate();
         let seeds = all
@@ -388,7 +393,7 @@ impl Search<'_> {
             let mut effects = full.effects.clone();
             effects.retain(|known| *known != effect);
             let without = fit_effects(self.cases, &effects, Some(&full), self.units)?;
-            let losses = gains(&without.heldout(&|unit| unit), &full);
+            let losses = gains(&without.heldout_beyond_torque_noise(), &full);
             let loss: f64 = losses.iter().sum();
             let growth = loss / full.squares();
             let removed = growth < self.settings.smallest_gain

@@ -3,6 +3,7 @@
 use crate::DiagnoseError;
 use crate::dense::{Square, dot};
 use crate::hypothesis::{Hypothesis, Room};
+use crate::torque_noise::passed_on;
 use crate::units::Units;
 use snug_identify::PooledFit;
 use snug_model::Effect;
@@ -33,6 +34,8 @@ pub(crate) struct Fitted {
     pub blocks: Vec<Block>,
     /// Which tightening a unit belongs to.
     pub members: Vec<usize>,
+    /// Σ r² of each unit that the noise of the logged torque alone makes.
+    torque_noise: Vec<f64>,
     units: Units,
     /// Whether residuals are in units of a measured noise.
     pub is_weighted: bool,
@@ -68,6 +71,7 @@ impl Fitted {
             converged: fit.converged,
             blocks: Vec::new(),
             members: Vec::new(),
+            torque_noise: Vec::new(),
             units: *units,
             is_weighted: hypothesis.is_weighted(),
             member_curvature: Vec::new(),
@@ -91,6 +95,9 @@ impl Fitted {
         };
         let mut room = Room::default();
         for member in 0..self.own.len() {
+            let values = hypothesis.values(member, &self.own[member], &self.shared);
+            self.torque_noise
+                .extend(passed_on(hypothesis, member, &values, &self.units));
             if self.units.are_whole() {
                 let (curvature, gradient) = self.profiles[member].clone();
                 self.blocks.push(Block {
@@ -102,7 +109,6 @@ impl Fitted {
                 self.members.push(member);
                 continue;
             }
-            let values = hypothesis.values(member, &self.own[member], &self.shared);
             let (residual, jacobian) = hypothesis.weighted(member, &values, &order, &mut room);
             let count = residual.len();
             let mut whole = Square::zero(order.len());
@@ -232,6 +238,15 @@ impl Fitted {
     /// Projected curvature and gradient of each tightening over the shared parameters.
     pub fn profiles(&self) -> &[(Square, Vec<f64>)] {
         &self.profiles
+    }
+
+    /// The same without what torque noise alone makes of each unit: what models are compared by.
+    pub fn heldout_beyond_torque_noise(&self) -> Vec<f64> {
+        let squares = self.heldout(&|unit| unit).into_iter();
+        squares
+            .zip(&self.torque_noise)
+            .map(|(squares, noise)| squares - noise)
+            .collect()
     }
 
     /// Σ r² of each unit as predicted for sizes that were fixed without its group: δ = (S − S_g)⁻¹ g_g, then

@@ -19,6 +19,7 @@ mod score;
 mod settings;
 mod sight;
 mod sizes;
+mod torque_noise;
 mod trend;
 mod units;
 mod unlisted;
