@@ -4,6 +4,7 @@
 
 mod bad_input;
 mod campaign;
+mod interruption;
 mod intervals;
 mod layers;
 mod other_rigs;

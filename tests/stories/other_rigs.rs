@@ -2,7 +2,8 @@
 
 use crate::campaign::{run_study, study_file};
 use snug_campaign::Rejection;
-use snug_study::Study;
+use snug_study::{Outcome, Study};
+use tempfile::TempDir;
 
 /// Published root-mean-square errors of linear models \[V\], on multisine test, arrow without extrapolation, full arrow.
 const WITHOUT_OFFSET: [f64; 3] = [8.63e-3, 8.41e-3, 15.32e-3];
@@ -20,7 +21,8 @@ fn silverbox_reaches_the_published_linear_result() {
         let mut study = Study::read(&study_file("silverbox.ron")).unwrap();
         study.set_data(&data.join("silverbox/SNLS80mV.csv"));
         study.model.effects = effects.into_iter().map(str::to_owned).collect();
-        let (outcome, _out) = run_study(&study).unwrap();
+        let (outcome, out) = run_study(&study).unwrap();
+        volts_are_no_torques(&outcome, &out);
         let errors: Vec<f64> = outcome
             .result
             .tightenings
@@ -35,6 +37,24 @@ fn silverbox_reaches_the_published_linear_result() {
                 "{error} against {expected}"
             );
         }
+    }
+}
+
+fn volts_are_no_torques(outcome: &Outcome, out: &TempDir) {
+    let by_target = |factor: &str| factor == "target_torque_nm";
+    assert!(
+        !outcome
+            .result
+            .conditions
+            .iter()
+            .any(|c| by_target(&c.factor))
+    );
+    let page = std::fs::read_to_string(out.path().join("report.html")).unwrap();
+    assert!(page.contains("output [V]") && !page.contains("angle θ [rad]"));
+    assert!(!page.contains("target torque [Nm]"));
+    let table = std::fs::read_to_string(out.path().join("tightenings.csv")).unwrap();
+    for row in table.lines().skip(1) {
+        assert_eq!(row.split(',').nth(6), Some(""), "target torque of {row}");
     }
 }
 

@@ -13,6 +13,10 @@ Examples:
   cargo xtask run --data DIR                   your folder of MAT files (or a folder of recordings)
   cargo xtask run --data DIR --preset thesis   the same, as the original program did it
   cargo xtask run --study rig.ron              any rig described in a study file
+  cargo xtask compare --data DIR               where the model fails
+  cargo xtask diagnose --data DIR              which physical effect is missing
+  cargo xtask add coulomb_friction --data DIR  the error before and after
+  cargo xtask improve --data DIR               all of that, until only noise is left
   cargo xtask effects cubic_stiffness          one effect of the catalogue in full
 
 Exit codes: 0 done, 1 failed, 2 bad arguments, 3 done but some data was left out (see findings.json)."
@@ -55,6 +59,38 @@ pub enum Verb {
     /// findings.json, recording.mcap (with a layout for the viewer) and study.ron, the study with every default written
     /// out, which can be run again.
     Run(RunOptions),
+    /// Model against measurement: how large the error is, and where it lies.
+    ///
+    /// Per tightening and pooled, in units, in percent and in multiples of the measured noise; over time, phase,
+    /// frequency, amplitude and conditions; and as a missing force.
+    Compare(RunOptions),
+    /// What is missing: every effect that could be, ranked. Changes nothing.
+    ///
+    /// Each effect of the catalogue is scored, refitted to all tightenings together and tried on tightenings that took no
+    /// part; the first of the ranking is named if chance does not do as well.
+    Diagnose(RunOptions),
+    /// Adds effects to the model, refits, and shows the error before and after.
+    ///
+    /// With --study, the effects are written into that file's model; always into the results' study.ron, with their sizes.
+    Add {
+        /// Names of effects, from the catalogue or the study's own.
+        #[arg(required = true, value_name = "EFFECT")]
+        effects: Vec<String>,
+        #[command(flatten)]
+        options: RunOptions,
+    },
+    /// Takes an effect out of a study file's model.
+    Remove {
+        /// Its name.
+        effect: String,
+        /// The study file (RON).
+        #[arg(long, value_name = "FILE.ron")]
+        study: PathBuf,
+    },
+    /// Diagnoses, adds, refits, again and again until nothing more is justified.
+    ///
+    /// Writes the whole ladder: how the error fell, what was tried and why it stopped.
+    Improve(RunOptions),
     /// The catalogue of physical effects, or one of them in full.
     Effects {
         /// Name of one effect, for example coulomb_friction.
@@ -77,7 +113,7 @@ pub enum Verb {
     },
 }
 
-/// Options of `run`.
+/// Options of the verbs that evaluate data.
 #[derive(Debug, Args)]
 pub struct RunOptions {
     /// Study file (RON); without it, the thesis' rig and file layout.

@@ -51,6 +51,13 @@ fn main() -> ExitCode {
     }
     match arguments.verb {
         Verb::Run(options) => verbs::run(&options),
+        Verb::Compare(options) => verbs::diagnose(&options, &snug_study::Verb::Compare),
+        Verb::Diagnose(options) => verbs::diagnose(&options, &snug_study::Verb::Diagnose),
+        Verb::Add { effects, options } => {
+            verbs::diagnose(&options, &snug_study::Verb::Add(effects))
+        }
+        Verb::Remove { effect, study } => verbs::remove(&study, &effect),
+        Verb::Improve(options) => verbs::diagnose(&options, &snug_study::Verb::Improve),
         Verb::Effects { name } => verbs::effects(name.as_deref()),
         Verb::Fixtures => verbs::fixtures(),
         Verb::Test { many, filter } => verbs::test(many, filter.as_deref()),

@@ -16,6 +16,8 @@ pub struct Progress {
 /// What the plain lines need to know.
 struct Plain {
     started: Instant,
+    /// Since when files are evaluated.
+    evaluating: Instant,
     last: Instant,
     files_done: usize,
     files: usize,
@@ -40,6 +42,7 @@ impl Progress {
         let plain = (!quiet && !terminal).then(|| {
             Mutex::new(Plain {
                 started: now,
+                evaluating: now,
                 last: now,
                 files_done: 0,
                 files: 0,
@@ -50,7 +53,7 @@ impl Progress {
     }
 
     /// Takes what a run reports.
-    pub fn report(&self, event: ProgressEvent) {
+    pub fn report(&self, event: ProgressEvent<'_>) {
         if let Some(bar) = &self.bar {
             match event {
                 ProgressEvent::Started { files } => bar.set_length(files as u64),
@@ -59,6 +62,7 @@ impl Progress {
                     let rate = tightenings as f64 / bar.elapsed().as_secs_f64().max(1e-3);
                     bar.set_message(format!("{tightenings} tightenings, {rate:.0} a second"));
                 }
+                ProgressEvent::Stage { what } => bar.set_message(what.to_owned()),
                 ProgressEvent::Writing { what } => bar.set_message(format!("writing {what}")),
             }
         }
@@ -79,9 +83,13 @@ impl Progress {
 }
 
 impl Plain {
-    fn report(&mut self, event: ProgressEvent) {
+    fn report(&mut self, event: ProgressEvent<'_>) {
         match event {
-            ProgressEvent::Started { files } => self.files = files,
+            ProgressEvent::Started { files } => {
+                self.files = files;
+                self.files_done = 0;
+                self.evaluating = Instant::now();
+            }
             ProgressEvent::FileDone { tightenings } => {
                 self.files_done += 1;
                 self.tightenings = tightenings;
@@ -90,12 +98,15 @@ impl Plain {
                     self.line();
                 }
             }
+            ProgressEvent::Stage { what } => {
+                eprintln!("{:.0} s: {what}", self.started.elapsed().as_secs_f64());
+            }
             ProgressEvent::Writing { .. } => {}
         }
     }
 
     fn line(&self) {
-        let elapsed = self.started.elapsed().as_secs_f64();
+        let elapsed = self.evaluating.elapsed().as_secs_f64();
         let rate = self.tightenings as f64 / elapsed;
         let left = elapsed / self.files_done as f64 * (self.files - self.files_done) as f64;
         eprintln!(

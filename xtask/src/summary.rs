@@ -42,9 +42,9 @@ fn headline(text: &mut String, outcome: &Outcome) {
     line(
         text,
         format_args!(
-            "  {} tightenings from {} files; {model}, {} fitted",
-            result.tightenings.len(),
-            outcome.files,
+            "  {} from {}; {model}, {} fitted",
+            counted(result.tightenings.len(), "tightening"),
+            counted(outcome.files, "file"),
             result.fitted_output
         ),
     );
@@ -161,6 +161,14 @@ fn validation(text: &mut String, result: &CampaignResult) {
                 ),
             );
         }
+    }
+}
+
+/// "1 file", "2 files".
+fn counted(count: usize, one: &str) -> String {
+    match count {
+        1 => format!("1 {one}"),
+        _ => format!("{count} {one}s"),
     }
 }
 

@@ -1,12 +1,14 @@
 //! One file per verb.
 
 mod bench;
+mod diagnose;
 mod effects;
 mod fixtures;
 mod run;
 mod test;
 
 pub use bench::bench;
+pub use diagnose::{diagnose, remove};
 pub use effects::effects;
 pub use fixtures::fixtures;
 pub use run::run;

@@ -47,6 +47,10 @@ impl Case {
             let own = self.model.parameters();
             if let Some(said) = own.iter().find(|own| own.name == parameter.name) {
                 *parameter = said.clone();
+                // A size that was found from all tightenings together is looked for again.
+                if parameter.standard_error.take().is_some() {
+                    parameter.fixed = false;
+                }
             }
         }
         Ok(model)

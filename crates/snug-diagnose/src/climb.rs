@@ -1,9 +1,9 @@
 //! The climb: rank, add the best, tidy up, again, until nothing more is justified.
 
-use crate::ranking::{Candidate, Ranking, fit_effects, gains, rank};
 use crate::fitted::Fitted;
-use crate::unlisted::{is_unlisted, terms};
+use crate::ranking::{Candidate, Ranking, fit_effects, gains, rank};
 use crate::units::Units;
+use crate::unlisted::{is_unlisted, terms};
 use crate::{Case, DiagnoseError, DiagnoseSettings};
 use snug_campaign::Quantity;
 use snug_model::Effect;
@@ -122,8 +122,14 @@ pub(crate) fn justified(
 }
 
 /// The effects that may be missing beside `current`.
-pub(crate) fn candidates(cases: &[Case], current: &Fitted, custom: &[Effect]) -> Result<Vec<Effect>, DiagnoseError> {
-    let acceleration = cases.iter().all(|case| case.quantity == Quantity::Acceleration);
+pub(crate) fn candidates(
+    cases: &[Case],
+    current: &Fitted,
+    custom: &[Effect],
+) -> Result<Vec<Effect>, DiagnoseError> {
+    let acceleration = cases
+        .iter()
+        .all(|case| case.quantity == Quantity::Acceleration);
     let mut all: Vec<Effect> = Effect::ALL.to_vec();
     // In the acceleration an offset of the output is the bias: ranked once.
     all.retain(|effect| !(acceleration && effect.name() == "output_offset"));
@@ -143,14 +149,22 @@ pub(crate) fn rank_only(
     tell: &(dyn Fn(&str) + Sync),
 ) -> Result<Climb, DiagnoseError> {
     let mut climb = Climb::only(fit_effects(cases, own, None, units)?);
-    let search = Search { cases, custom, units, settings, tell };
+    let search = Search {
+        cases,
+        custom,
+        units,
+        settings,
+        tell,
+    };
     climb.ranking = search.rank(climb.last(), settings.control_campaigns)?;
     match justified(&climb.ranking, climb.last(), settings) {
         Ok(best) => {
             let steps = search.choose(climb.last(), &climb.ranking, best, MOST_EFFECTS)?;
             let first = steps.first().map(|(addition, _)| addition.effect);
             let all = &climb.ranking.candidates;
-            climb.chosen = all.iter().position(|candidate| Some(candidate.effect) == first);
+            climb.chosen = all
+                .iter()
+                .position(|candidate| Some(candidate.effect) == first);
         }
         Err(stop) => climb.stopped = Some(stop),
     }
@@ -168,7 +182,13 @@ pub(crate) fn add(
     tell: &(dyn Fn(&str) + Sync),
 ) -> Result<Climb, DiagnoseError> {
     let mut climb = Climb::only(fit_effects(cases, own, None, units)?);
-    let search = Search { cases, custom, units, settings, tell };
+    let search = Search {
+        cases,
+        custom,
+        units,
+        settings,
+        tell,
+    };
     for &effect in effects {
         let ranking = search.rank_these(climb.last(), effect)?;
         let index = ranking.candidates.iter().position(|c| c.effect == effect);
@@ -195,7 +215,13 @@ pub(crate) fn climb(
     tell: &(dyn Fn(&str) + Sync),
 ) -> Result<Climb, DiagnoseError> {
     let mut climb = Climb::only(fit_effects(cases, own, None, units)?);
-    let search = Search { cases, custom, units, settings, tell };
+    let search = Search {
+        cases,
+        custom,
+        units,
+        settings,
+        tell,
+    };
     loop {
         climb.ranking = search.rank(climb.last(), settings.control_campaigns)?;
         if climb.additions.len() >= MOST_EFFECTS {
@@ -217,14 +243,6 @@ pub(crate) fn climb(
     }
     search.try_removals(&mut climb)?;
     Ok(climb)
-}
-
-fn show(ranking: &Ranking, tell: &(dyn Fn(&str) + Sync)) {
-        if std::env::var("SHOW").is_ok() {
-            for c in ranking.candidates.iter().take(8) {
-                tell(&format!("   {:28} T {:6.2} p {:.4} gain {:10.1} ± {:7.1} z {:.1} err {:.4} conv {} lin {} {:?}", c.effect.name(), c.score, c.p_family, c.gain(), c.gain_error(), c.clearness(), c.fitted.error(), c.fitted.converged, c.fitted.linearizations, c.fitted.shared_named()));
-            }
-        }
 }
 
 type Step = (Addition, Fitted);
@@ -251,11 +269,19 @@ struct Search<'a> {
 
 impl Search<'_> {
     fn rank(&self, current: &Fitted, control_campaigns: usize) -> Result<Ranking, DiagnoseError> {
-        (self.tell)(&format!("ranking what is missing beside {}", list(&current.effects)));
+        (self.tell)(&format!(
+            "ranking what is missing beside {}",
+            list(&current.effects)
+        ));
         let all = candidates(self.cases, current, self.custom)?;
-        let ranking = rank(self.cases, current, &all, self.units, self.settings, control_campaigns)?;
-        show(&ranking, self.tell);
-        Ok(ranking)
+        rank(
+            self.cases,
+            current,
+            &all,
+            self.units,
+            self.settings,
+            control_campaigns,
+        )
     }
 
     /// The same effects, fitted from there to the end.
@@ -343,7 +369,6 @@ impl Search<'_> {
             let mut seconds = candidates(self.cases, first, self.custom)?;
             seconds.retain(|&effect| !is_unlisted(effect));
             let next = rank(self.cases, first, &seconds, self.units, self.settings, 0)?;
-            show(&next, self.tell);
             let Ok(second) = justified(&next, first, self.settings) else {
                 continue;
             };
@@ -373,7 +398,12 @@ impl Search<'_> {
             let growth = loss / full.squares();
             let removed = growth < self.settings.smallest_gain
                 || crate::evidence::clearness(&losses, full.scale()) < 1.0;
-            climb.attempts.push(Attempt { effect, removed, loss, growth });
+            climb.attempts.push(Attempt {
+                effect,
+                removed,
+                loss,
+                growth,
+            });
             if removed {
                 climb.additions.retain(|one| one.effect != effect);
                 climb.rungs.push(without);
@@ -391,10 +421,29 @@ const MUCH_LEFT: f64 = 0.1;
 /// Effects from which a second is looked for.
 const SEEDS: usize = 3;
 
+/// Squared residual beyond the noise of each unit; where the noise is not known, all of it.
+pub(crate) fn misfits(fitted: &Fitted) -> Vec<f64> {
+    let noise = |count: usize| {
+        if fitted.is_weighted {
+            count as f64
+        } else {
+            0.0
+        }
+    };
+    let blocks = fitted.blocks.iter();
+    blocks
+        .map(|block| block.squares - noise(block.count))
+        .collect()
+}
+
 /// Squared residual beyond the noise; where the noise is not known, all of it.
 pub(crate) fn misfit(fitted: &Fitted) -> f64 {
     let squares = fitted.squares();
-    let noise = if fitted.is_weighted { fitted.count() as f64 } else { 0.0 };
+    let noise = if fitted.is_weighted {
+        fitted.count() as f64
+    } else {
+        0.0
+    };
     (squares - noise).max(squares * 1e-3)
 }
 
@@ -412,7 +461,7 @@ pub(crate) fn twins(ranking: &Ranking, index: usize) -> Vec<Effect> {
                 && !is_unlisted(other.effect)
                 && other.gain() > 0.0
                 && other.clearness() > 1.0
-                && chosen.ahead_of(other) < EQUAL
+                && chosen.ahead_of(other).abs() < EQUAL
         })
         .map(|other| other.effect)
         .collect()
@@ -421,6 +470,10 @@ pub(crate) fn twins(ranking: &Ranking, index: usize) -> Vec<Effect> {
 fn list(effects: &[Effect]) -> String {
     match effects {
         [] => "the base model".to_owned(),
-        some => some.iter().map(|effect| effect.name()).collect::<Vec<_>>().join(" + "),
+        some => some
+            .iter()
+            .map(|effect| effect.name())
+            .collect::<Vec<_>>()
+            .join(" + "),
     }
 }

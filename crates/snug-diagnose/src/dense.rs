@@ -93,7 +93,9 @@ impl Square {
     /// 1/√diagonal, 0 where the diagonal is not positive.
     fn units(&self) -> Vec<f64> {
         let diagonal = (0..self.size).map(|i| self.at(i, i));
-        diagonal.map(|d| if d > 0.0 { 1.0 / d.sqrt() } else { 0.0 }).collect()
+        diagonal
+            .map(|d| if d > 0.0 { 1.0 / d.sqrt() } else { 0.0 })
+            .collect()
     }
 
     /// Lower Cholesky factor of the matrix scaled to a diagonal of 1; directions that are rounding have zero pivots.
@@ -111,18 +113,6 @@ impl Square {
                 } else {
                     0.0
                 };
-            }
-        }
-        lower
-    }
-
-    /// Lower factor L with L Lᵀ = A, row-major.
-    pub fn cholesky(&self) -> Vec<f64> {
-        let unit = self.units();
-        let mut lower = self.scaled_cholesky(&unit);
-        for (row, unit) in lower.chunks_exact_mut(self.size.max(1)).zip(&unit) {
-            if *unit > 0.0 {
-                row.iter_mut().for_each(|value| *value /= unit);
             }
         }
         lower

@@ -1,11 +1,11 @@
 //! How large an effect that was not found would have to be to be seen in these data.
 
+use crate::DiagnoseSettings;
 use crate::fitted::Fitted;
 use crate::ranking::Ranking;
 use crate::score::Column;
 use crate::unlisted::is_unlisted;
 use crate::wording::amount;
-use crate::DiagnoseSettings;
 use snug_campaign::Detectability;
 use snug_model::Law;
 
@@ -17,7 +17,11 @@ const POWER_Z: f64 = 1.645;
 ///
 /// An effect of size α removes α² Σ I of the squared residual. It is seen when that exceeds both what the family-wise
 /// test asks, (3.0 + 1.645)² in units of the noise, and the smallest gain that matters.
-pub(crate) fn cards(ranking: &Ranking, fitted: &Fitted, settings: &DiagnoseSettings) -> Vec<Detectability> {
+pub(crate) fn cards(
+    ranking: &Ranking,
+    fitted: &Fitted,
+    settings: &DiagnoseSettings,
+) -> Vec<Detectability> {
     let needed = ((FAMILY_Z + POWER_Z).powi(2) * fitted.scale())
         .max(settings.smallest_gain * fitted.squares());
     ranking
@@ -25,7 +29,10 @@ pub(crate) fn cards(ranking: &Ranking, fitted: &Fitted, settings: &DiagnoseSetti
         .iter()
         .filter(|candidate| !is_unlisted(candidate.effect) && !candidate.is_supported(settings))
         .filter_map(|candidate| {
-            let columns = ranking.columns.iter().filter(|c| c.effect == candidate.effect);
+            let columns = ranking
+                .columns
+                .iter()
+                .filter(|c| c.effect == candidate.effect);
             let best = columns.max_by(|a, b| a.information.total_cmp(&b.information))?;
             Some(card(best, needed))
         })

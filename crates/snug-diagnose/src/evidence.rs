@@ -45,13 +45,18 @@ mod tests {
     fn one_loud_unit_does_not_hide_what_all_agree_on() {
         let mut values = vec![20.0; 20];
         values[0] = 1e5;
-        assert!(spread_of_sum(&values) > 9e4, "the plain statistic sees one unit only");
+        assert!(
+            spread_of_sum(&values) > 9e4,
+            "the plain statistic sees one unit only"
+        );
         assert!(clearness(&values, 1.0) > 4.0);
     }
 
     #[test]
     fn one_loud_unit_alone_is_no_evidence() {
-        let mut values: Vec<f64> = (0..20).map(|i| if i % 2 == 0 { 9.0 } else { -9.0 }).collect();
+        let mut values: Vec<f64> = (0..20)
+            .map(|i| if i % 2 == 0 { 9.0 } else { -9.0 })
+            .collect();
         values[0] = 1e5;
         assert!(clearness(&values, 1.0) < 1.5);
     }

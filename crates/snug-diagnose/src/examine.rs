@@ -1,21 +1,22 @@
 //! One verb of the diagnosis from tightenings to answer: compare, diagnose, add, improve.
 
-use crate::climb::{Addition, Attempt, Climb, add, climb, misfit, rank_only};
+use crate::climb::{Addition, Attempt, Climb, add, climb, misfit, misfits, rank_only};
 use crate::experiment::separating_experiment;
 use crate::fitted::Fitted;
 use crate::ranking::{Candidate, Ranking, fit_effects};
-use crate::sizes::{held, parameters};
-use crate::unlisted::{declaration, is_unlisted};
+use crate::sight::Sight;
+use crate::sizes::parameters;
 use crate::units::Units;
+use crate::unlisted::{declaration, is_unlisted};
 use crate::wording::{self, Situation};
 use crate::{
-    Case, DiagnoseError, DiagnoseSettings, Seen, compare, detectability, drifts, locate,
+    Case, DiagnoseError, DiagnoseSettings, compare, detectability, drifts, ladder, locate,
+    preparation, trend,
 };
 use snug_campaign::{
-    AddedEffect, CorrectedEffect, Diagnosis, EffectParameter, Estimate, NegativeControl,
-    NoiseSource, NoiseStatement, Quantity, RankedEffect, Removal, Rung, UnlistedTerm, Verdict,
+    AddedEffect, Diagnosis, EffectParameter, NegativeControl, Quantity, RankedEffect, Removal,
+    UnlistedTerm, Verdict,
 };
-use snug_identify::{IdentifySettings, identify};
 use snug_model::{CustomEffectSettings, Effect, Kind, Law};
 
 /// What is asked of the data.
@@ -111,19 +112,27 @@ impl Examination<'_> {
     fn answer(self) -> Result<Answer, DiagnoseError> {
         let cases = self.question.cases;
         let (first, last) = (&self.climb.rungs[0], self.climb.last());
-        let estimates = estimates(cases, first)?;
-        let seen = Sight::new(cases, first, estimates);
-        let base = seen.seen();
+        let sight = Sight::of(cases, first)?;
+        let base = sight.seen();
         let changed = last.effects != first.effects;
         let final_location = if changed {
-            let sight = Sight::new(cases, last, self::estimates(cases, last)?);
-            Some(locate(&sight.seen(), self.settings.seed))
+            Some(locate(&Sight::of(cases, last)?.seen(), self.settings.seed))
         } else {
             None
         };
         let location = locate(&base, self.settings.seed);
-        let verdict = self.verdict(final_location.as_ref().unwrap_or(&location).repeatable_share);
-        let ranking = self.ranking();
+        let verdict = self.verdict(
+            final_location
+                .as_ref()
+                .unwrap_or(&location)
+                .repeatable_share,
+        );
+        let drift = drifts(&base);
+        let mut ranking = self.ranking();
+        if !ranking.is_empty() {
+            ranking.extend(trend::fatigue(&drift, cases));
+        }
+        let corrected = preparation::corrected(cases);
         let situation = Situation {
             verb: self.verb(),
             verdict,
@@ -131,10 +140,14 @@ impl Examination<'_> {
             before: first,
             after: last,
             additions: &self.climb.additions,
-            chosen: self.climb.chosen.map(|index| &self.climb.ranking.candidates[index]),
+            chosen: self
+                .climb
+                .chosen
+                .map(|index| &self.climb.ranking.candidates[index]),
             ranking: &ranking,
             stopped: self.climb.stopped,
-            cases,
+            impossible: &self.climb.ranking.impossible,
+            corrected: &corrected,
             settings: self.settings,
         };
         let experiment = match situation.twin_pair() {
@@ -144,22 +157,32 @@ impl Examination<'_> {
             }
             None => None,
         };
+        let (headline, reasons, stopped) = (
+            wording::headline(&situation),
+            wording::reasons(&situation),
+            wording::stopped(&situation),
+        );
         let diagnosis = Diagnosis {
             verb: self.verb().to_owned(),
             verdict,
-            headline: wording::headline(&situation),
-            reasons: wording::reasons(&situation),
-            stopped: wording::stopped(&situation),
+            headline,
+            reasons,
+            stopped,
             tightenings: cases.len(),
-            noise: noise(cases),
+            noise: preparation::noise(cases),
             compared_output: quantity_name(cases[0].quantity).to_owned(),
             added: self.added(),
-            corrected: corrected(cases),
-            ladder: self.climb.rungs.iter().map(|rung| ladder_rung(cases, rung)).collect(),
+            corrected,
+            ladder: self
+                .climb
+                .rungs
+                .iter()
+                .map(|rung| ladder::rung(cases, rung))
+                .collect(),
             ranking,
             removals: self.climb.attempts.iter().map(removal).collect(),
             comparison: compare(&base),
-            drift: drifts(&base),
+            drift,
             location,
             final_location,
             detectability: detectability::cards(&self.climb.ranking, last, self.settings),
@@ -170,7 +193,12 @@ impl Examination<'_> {
         };
         Ok(Answer {
             diagnosis,
-            models: self.climb.rungs.iter().map(|rung| rung_model(cases, rung)).collect(),
+            models: self
+                .climb
+                .rungs
+                .iter()
+                .map(|rung| rung_model(cases, rung))
+                .collect(),
         })
     }
 
@@ -185,7 +213,11 @@ impl Examination<'_> {
 
     fn verdict(&self, repeatable: Option<f64>) -> Verdict {
         let last = self.climb.last();
-        let added_unlisted = self.climb.additions.iter().any(|one| is_unlisted(one.effect));
+        let added_unlisted = self
+            .climb
+            .additions
+            .iter()
+            .any(|one| is_unlisted(one.effect));
         if self.climb.ranking.candidates.is_empty() {
             return match last.is_weighted && last.error() < AT_FLOOR {
                 true => Verdict::Adequate,
@@ -246,12 +278,18 @@ impl Examination<'_> {
             score: candidate.score,
             p_family: candidate.p_family,
             heldout_gain: candidate.gain() / misfit,
-            heldout_gain_error: candidate.gain_error() / misfit,
-            error_over_noise: candidate.fitted.is_weighted.then(|| candidate.fitted.error()),
+            heldout_gain_error: candidate.share_error(&misfits(self.climb.last())),
+            error_over_noise: candidate
+                .fitted
+                .is_weighted
+                .then(|| candidate.fitted.error()),
             behind_first: first.map_or(0.0, |first| first.ahead_of(candidate)),
             likeness: None,
             twins: twins.iter().map(|twin| twin.name().to_owned()).collect(),
-            plausible: sizes.iter().all(|s| s.value > s.minimum && s.value < s.maximum),
+            plausible: candidate.fitted.converged
+                && sizes
+                    .iter()
+                    .all(|s| s.value > s.minimum && s.value < s.maximum),
             explanation: wording::explanation(candidate.effect, &sizes),
             parameters: sizes,
         }
@@ -259,8 +297,15 @@ impl Examination<'_> {
 
     fn added(&self) -> Vec<AddedEffect> {
         let (cases, last) = (self.question.cases, self.climb.last());
-        let known = self.climb.rungs[0].effects.iter().map(|&effect| (effect, None));
-        let added = self.climb.additions.iter().map(|one| (one.effect, Some(one)));
+        let known = self.climb.rungs[0]
+            .effects
+            .iter()
+            .map(|&effect| (effect, None));
+        let added = self
+            .climb
+            .additions
+            .iter()
+            .map(|one| (one.effect, Some(one)));
         known
             .chain(added)
             .filter(|(effect, _)| last.effects.contains(effect))
@@ -271,7 +316,10 @@ impl Examination<'_> {
                     kind: kind_name(effect).to_owned(),
                     expression: declaration(effect.name()).map(|d| d.expression),
                     twins: one.map_or_else(Vec::new, |one| {
-                        one.twins.iter().map(|twin| twin.name().to_owned()).collect()
+                        one.twins
+                            .iter()
+                            .map(|twin| twin.name().to_owned())
+                            .collect()
                     }),
                     p_family: one.map(|one| one.p_family),
                     heldout_gain: one.map(|one| one.heldout_gain),
@@ -290,7 +338,9 @@ impl Examination<'_> {
         if campaigns == 0 {
             return None;
         }
-        let interval = snug_statistics::proportion::wilson(false_alarms, campaigns, 0.95).ok()?.interval;
+        let interval = snug_statistics::proportion::wilson(false_alarms, campaigns, 0.95)
+            .ok()?
+            .interval;
         Some(NegativeControl {
             campaigns,
             false_alarms,
@@ -302,8 +352,15 @@ impl Examination<'_> {
 
     /// The unlisted term that was added or that the ranking chose.
     fn unlisted(&self) -> Option<UnlistedTerm> {
-        let added = self.climb.additions.iter().find(|one| is_unlisted(one.effect));
-        let chosen = self.climb.chosen.map(|index| &self.climb.ranking.candidates[index]);
+        let added = self
+            .climb
+            .additions
+            .iter()
+            .find(|one| is_unlisted(one.effect));
+        let chosen = self
+            .climb
+            .chosen
+            .map(|index| &self.climb.ranking.candidates[index]);
         let (effect, gain, fitted) = match (added, chosen) {
             (Some(one), _) => (one.effect, one.heldout_gain, self.climb.last()),
             (None, Some(one)) if is_unlisted(one.effect) => (
@@ -329,103 +386,18 @@ pub(crate) const AT_FLOOR: f64 = 1.02;
 /// Share of the misfit that must repeat before it is called an effect.
 const REPEATS: f64 = 0.2;
 
-/// Motion and estimate of every case under one fitted model.
-struct Sight<'a> {
-    cases: &'a [Case],
-    simulated: Vec<snug_campaign::Motion>,
-    estimates: Vec<Estimate>,
-}
-
-impl<'a> Sight<'a> {
-    fn new(cases: &'a [Case], fitted: &Fitted, estimates: Vec<Estimate>) -> Self {
-        let simulated = cases
-            .iter()
-            .zip(&estimates)
-            .map(|(case, estimate)| {
-                let values: Vec<f64> = estimate.parameters.iter().map(|p| p.value).collect();
-                held(case, fitted).map_or_else(Default::default, |model| {
-                    model.simulate(&values, &case.input)
-                })
-            })
-            .collect();
-        Self {
-            cases,
-            simulated,
-            estimates,
-        }
-    }
-
-    fn seen(&self) -> Vec<Seen<'_>> {
-        self.cases
-            .iter()
-            .zip(&self.simulated)
-            .zip(&self.estimates)
-            .map(|((case, simulated), estimate)| Seen {
-                tightening: &case.tightening,
-                simulated,
-                estimate,
-                unscored: case.unscored,
-            })
-            .collect()
-    }
-}
-
-/// Each tightening's estimate with the shared parameters held where all tightenings together put them.
-fn estimates(cases: &[Case], fitted: &Fitted) -> Result<Vec<Estimate>, DiagnoseError> {
-    cases
-        .iter()
-        .map(|case| {
-            let model = held(case, fitted).unwrap_or_else(|| case.model.clone());
-            let settings = IdentifySettings {
-                fitted_output: case.quantity,
-                constraints: case.constraints.clone(),
-                unscored_samples: case.unscored,
-                ..IdentifySettings::default()
-            };
-            Ok(identify(&model, &case.input, &case.tightening, &settings)?)
-        })
-        .collect()
-}
-
-fn ladder_rung(cases: &[Case], fitted: &Fitted) -> Rung {
-    let squares = fitted.squares();
-    let target = |unit: usize| {
-        let target = cases[fitted.members[unit]].tightening.target_torque_nm;
-        if target.is_finite() { target.round() as usize } else { 0 }
-    };
-    let names: Vec<Option<&String>> = {
-        let all = cases.iter().map(|case| case.tightening.conditions.participant.as_ref());
-        all.collect()
-    };
-    let person = |unit: usize| {
-        let own = names[fitted.members[unit]];
-        names.iter().position(|name| *name == own).unwrap_or(0)
-    };
-    let relative = |heldout: Vec<f64>| fitted.error() * (heldout.iter().sum::<f64>() / squares).sqrt();
-    let several = |group: &dyn Fn(usize) -> usize| {
-        let groups: std::collections::BTreeSet<usize> = (0..fitted.blocks.len()).map(group).collect();
-        groups.len() > 1
-    };
-    let weighted = fitted.is_weighted;
-    Rung {
-        effects: fitted.effects.iter().map(|effect| effect.name().to_owned()).collect(),
-        error_over_noise: weighted.then(|| fitted.error()),
-        heldout_error_over_noise: weighted.then(|| relative(fitted.heldout(&|unit| unit))),
-        heldout_target_error_over_noise: (weighted && several(&target))
-            .then(|| relative(fitted.heldout(&target))),
-        heldout_participant_error_over_noise: (weighted && several(&person))
-            .then(|| relative(fitted.heldout(&person))),
-        rms_fitted_output: if weighted { f64::NAN } else { fitted.error() },
-        rms_displacement_rad: None,
-        fit_percent_median: None,
-        selected_fraction: f64::NAN,
-    }
-}
-
 fn rung_model(cases: &[Case], fitted: &Fitted) -> RungModel {
     RungModel {
-        effects: fitted.effects.iter().map(|effect| effect.name().to_owned()).collect(),
-        declarations: fitted.effects.iter().filter_map(|effect| declaration(effect.name())).collect(),
+        effects: fitted
+            .effects
+            .iter()
+            .map(|effect| effect.name().to_owned())
+            .collect(),
+        declarations: fitted
+            .effects
+            .iter()
+            .filter_map(|effect| declaration(effect.name()))
+            .collect(),
         parameters: fitted
             .effects
             .iter()
@@ -439,50 +411,6 @@ fn removal(attempt: &Attempt) -> Removal {
         effect: attempt.effect.name().to_owned(),
         removed: attempt.removed,
         statement: wording::removal(attempt),
-    }
-}
-
-fn corrected(cases: &[Case]) -> Vec<CorrectedEffect> {
-    let mut corrected: Vec<CorrectedEffect> = Vec::new();
-    let all = || cases.iter().flat_map(|case| &case.tightening.corrections);
-    for correction in all() {
-        if corrected.iter().any(|known| known.effect == correction.effect) {
-            continue;
-        }
-        let same: Vec<_> = all().filter(|other| other.effect == correction.effect).collect();
-        let significant: Vec<f64> = (same.iter().filter(|c| c.significant)).map(|c| c.value).collect();
-        if significant.is_empty() {
-            continue;
-        }
-        let squares: f64 = significant.iter().map(|value| value * value).sum();
-        corrected.push(CorrectedEffect {
-            effect: correction.effect.clone(),
-            share: significant.len() as f64 / same.len() as f64,
-            size: (squares / significant.len() as f64).sqrt(),
-            unit: correction.unit.clone(),
-        });
-    }
-    corrected
-}
-
-fn noise(cases: &[Case]) -> NoiseStatement {
-    let floors: Vec<_> = cases.iter().filter_map(|case| case.tightening.noise.as_ref()).collect();
-    let source = floors.first().map_or(NoiseSource::Residual, |floor| floor.source);
-    let squares: Vec<f64> = floors
-        .iter()
-        .filter(|floor| floor.quantity == Quantity::Acceleration)
-        .map(|floor| floor.standard_deviation.powi(2))
-        .collect();
-    NoiseStatement {
-        source: match source {
-            NoiseSource::PreRoll => "pre_roll",
-            NoiseSource::Repeats => "repeats",
-            NoiseSource::Declared => "declared",
-            NoiseSource::Residual => "residual",
-        }
-        .to_owned(),
-        acceleration_rad_per_s2: (!squares.is_empty())
-            .then(|| (squares.iter().sum::<f64>() / squares.len() as f64).sqrt()),
     }
 }
 
@@ -503,4 +431,3 @@ pub(crate) fn kind_name(effect: Effect) -> &'static str {
         Kind::Custom => "custom",
     }
 }
-

@@ -18,12 +18,36 @@ struct Change {
 }
 
 const CHANGES: &[Change] = &[
-    Change { words: "as they were", torque: 1.0, duration: 1.0 },
-    Change { words: "with half the target torque", torque: 0.5, duration: 1.0 },
-    Change { words: "with 1.5 times the target torque", torque: 1.5, duration: 1.0 },
-    Change { words: "on a harder joint (pulse half as long)", torque: 1.0, duration: 0.5 },
-    Change { words: "on a softer joint (pulse twice as long)", torque: 1.0, duration: 2.0 },
-    Change { words: "with 1.5 times the target torque on a softer joint", torque: 1.5, duration: 2.0 },
+    Change {
+        words: "as they were",
+        torque: 1.0,
+        duration: 1.0,
+    },
+    Change {
+        words: "with half the target torque",
+        torque: 0.5,
+        duration: 1.0,
+    },
+    Change {
+        words: "with 1.5 times the target torque",
+        torque: 1.5,
+        duration: 1.0,
+    },
+    Change {
+        words: "on a harder joint (pulse half as long)",
+        torque: 1.0,
+        duration: 0.5,
+    },
+    Change {
+        words: "on a softer joint (pulse twice as long)",
+        torque: 1.0,
+        duration: 2.0,
+    },
+    Change {
+        words: "with 1.5 times the target torque on a softer joint",
+        torque: 1.5,
+        duration: 2.0,
+    },
 ];
 
 /// Tightenings at hand from which the new ones are made.

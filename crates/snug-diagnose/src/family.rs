@@ -53,3 +53,57 @@ impl Family {
         .fold(1.0, f64::min)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rand_distr::{Distribution, StandardNormal};
+
+    const EFFECTS: [Effect; 3] = [
+        Effect::CubicStiffness,
+        Effect::QuadraticStiffness,
+        Effect::TorqueDelay,
+    ];
+
+    fn columns(random: &mut ChaCha8Rng, shift: f64) -> Vec<Column> {
+        // Some tightenings are far louder than others; the effects' scores go together.
+        let common: Vec<f64> = (0..24).map(|_| StandardNormal.sample(random)).collect();
+        EFFECTS
+            .iter()
+            .map(|&effect| {
+                let scores = common.iter().enumerate().map(|(unit, common)| {
+                    let own: f64 = StandardNormal.sample(random);
+                    let loud = if unit % 6 == 0 { 8.0 } else { 1.0 };
+                    loud * (0.8 * common + 0.6 * own + shift)
+                });
+                Column::with_scores(effect, scores.collect())
+            })
+            .collect()
+    }
+
+    /// Without any effect, at most the level of campaigns has a candidate at or below it, however loud single units are.
+    #[test]
+    fn false_alarms_stay_at_the_level() {
+        let mut random = ChaCha8Rng::seed_from_u64(5);
+        let campaigns = 400;
+        let alarms = (0..campaigns)
+            .filter(|&campaign| {
+                let columns = columns(&mut random, 0.0);
+                let family = Family::new(&columns, 199, campaign);
+                EFFECTS
+                    .iter()
+                    .any(|&effect| family.p(&columns, effect) <= 0.05)
+            })
+            .count();
+        // 5 % of 400 is 20, its standard deviation 4.4.
+        assert!((7..=33).contains(&alarms), "{alarms}");
+    }
+
+    #[test]
+    fn what_all_tightenings_agree_on_is_found() {
+        let mut random = ChaCha8Rng::seed_from_u64(6);
+        let columns = columns(&mut random, 1.5);
+        let family = Family::new(&columns, 999, 1);
+        assert!(family.p(&columns, Effect::CubicStiffness) < 0.01);
+    }
+}

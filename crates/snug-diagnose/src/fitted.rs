@@ -1,10 +1,10 @@
 //! A hypothesis after its fit: sizes, errors, and what it is worth in data that took no part.
 
+use crate::DiagnoseError;
 use crate::dense::{Square, dot};
 use crate::hypothesis::{Hypothesis, Room};
 use crate::torque_noise::passed_on;
 use crate::units::Units;
-use crate::DiagnoseError;
 use snug_identify::PooledFit;
 use snug_model::Effect;
 
@@ -45,7 +45,6 @@ pub(crate) struct Fitted {
     profiles: Vec<(Square, Vec<f64>)>,
     /// Parameters that every tightening has of its own, beyond the base model's.
     pub own_effect_count: usize,
-    pub linearizations: usize,
 }
 
 impl Fitted {
@@ -58,7 +57,12 @@ impl Fitted {
         let profiles = fit
             .profiles
             .iter()
-            .map(|profile| (Square::new(p, profile.curvature.clone()), profile.gradient.clone()))
+            .map(|profile| {
+                (
+                    Square::new(p, profile.curvature.clone()),
+                    profile.gradient.clone(),
+                )
+            })
             .collect();
         let mut fitted = Self {
             effects: hypothesis.effects.clone(),
@@ -73,7 +77,6 @@ impl Fitted {
             member_curvature: Vec::new(),
             profiles,
             own_effect_count: hypothesis.own.iter().filter(|&&index| index >= 3).count(),
-            linearizations: fit.work.linearizations,
             own: fit.own,
             shared: fit.shared,
         };
@@ -93,7 +96,8 @@ impl Fitted {
         let mut room = Room::default();
         for member in 0..self.own.len() {
             let values = hypothesis.values(member, &self.own[member], &self.shared);
-            self.torque_noise.extend(passed_on(hypothesis, member, &values, &self.units));
+            self.torque_noise
+                .extend(passed_on(hypothesis, member, &values, &self.units));
             if self.units.are_whole() {
                 let (curvature, gradient) = self.profiles[member].clone();
                 self.blocks.push(Block {
@@ -135,7 +139,10 @@ impl Fitted {
         let mut order: Vec<usize> = (0..self.own.len()).collect();
         let squares = |member: usize| -> f64 {
             let units = self.members.iter().zip(&self.blocks);
-            units.filter(|(m, _)| **m == member).map(|(_, b)| b.squares).sum()
+            units
+                .filter(|(m, _)| **m == member)
+                .map(|(_, b)| b.squares)
+                .sum()
         };
         order.sort_by(|&a, &b| squares(b).total_cmp(&squares(a)));
         let step = order.len().div_ceil(most).max(1);
@@ -145,7 +152,10 @@ impl Fitted {
     /// The same sizes for some of the tightenings only, as a place to begin.
     pub fn only(&self, members: &[usize]) -> Self {
         Self {
-            own: members.iter().map(|&member| self.own[member].clone()).collect(),
+            own: members
+                .iter()
+                .map(|&member| self.own[member].clone())
+                .collect(),
             ..self.clone()
         }
     }
@@ -172,11 +182,19 @@ impl Fitted {
     }
 
     pub fn own_named(&self, member: usize) -> Vec<(String, f64)> {
-        self.own_names.iter().cloned().zip(self.own[member].iter().copied()).collect()
+        self.own_names
+            .iter()
+            .cloned()
+            .zip(self.own[member].iter().copied())
+            .collect()
     }
 
     pub fn shared_named(&self) -> Vec<(String, f64)> {
-        self.shared_names.iter().cloned().zip(self.shared.iter().copied()).collect()
+        self.shared_names
+            .iter()
+            .cloned()
+            .zip(self.shared.iter().copied())
+            .collect()
     }
 
     /// Names of the shared parameters.
@@ -203,7 +221,9 @@ impl Fitted {
     pub fn shared_evidence(&self) -> (Square, Vec<Vec<f64>>) {
         let gradients = |scale: &dyn Fn(usize) -> bool| -> Vec<Vec<f64>> {
             let units = (0..self.blocks.len()).filter(|&unit| scale(unit));
-            units.map(|unit| self.blocks[unit].gradient.clone()).collect()
+            units
+                .map(|unit| self.blocks[unit].gradient.clone())
+                .collect()
         };
         match self.member_curvature.first() {
             Some(whole) if self.own.len() == 1 => (whole.clone(), gradients(&|_| true)),
@@ -223,17 +243,23 @@ impl Fitted {
     /// The same without what torque noise alone makes of each unit: what models are compared by.
     pub fn heldout_beyond_torque_noise(&self) -> Vec<f64> {
         let squares = self.heldout(&|unit| unit).into_iter();
-        squares.zip(&self.torque_noise).map(|(squares, noise)| squares - noise).collect()
+        squares
+            .zip(&self.torque_noise)
+            .map(|(squares, noise)| squares - noise)
+            .collect()
     }
 
     /// Σ r² of each unit as predicted for sizes that were fixed without its group: δ = (S − S_g)⁻¹ g_g, then
     /// r² + 2 gᵀδ + δᵀSδ. `group_of` names the group of a unit; each tightening's own parameters follow, and pay for it.
     pub fn heldout(&self, group_of: &dyn Fn(usize) -> usize) -> Vec<f64> {
         let scale = self.scale();
-        let groups: std::collections::BTreeSet<usize> = (0..self.blocks.len()).map(group_of).collect();
+        let groups: std::collections::BTreeSet<usize> =
+            (0..self.blocks.len()).map(group_of).collect();
         let mut squares: Vec<f64> = vec![0.0; self.blocks.len()];
         for group in groups {
-            let units: Vec<usize> = (0..self.blocks.len()).filter(|&u| group_of(u) == group).collect();
+            let units: Vec<usize> = (0..self.blocks.len())
+                .filter(|&u| group_of(u) == group)
+                .collect();
             if self.units.are_whole() {
                 self.hold_out(&units, self.shared_curvature(), &mut squares);
             } else {

@@ -1,9 +1,9 @@
 //! A set of effects as one statement about all tightenings: each its own m, c, k, the effects' sizes shared.
 
+use crate::DiagnoseError;
 use crate::case::Case;
 use crate::fitted::Fitted;
 use crate::units::Units;
-use crate::DiagnoseError;
 use snug_identify::{
     Constraints, EvaluationError, Linearization, PooledResidual, PooledSettings, Whitening,
     convex_set, solve_pooled,
@@ -160,7 +160,11 @@ impl<'a> Hypothesis<'a> {
     }
 
     /// Fits from one start.
-    pub fn fit(&mut self, start: &Start, settings: &PooledSettings) -> Result<PooledEnd, DiagnoseError> {
+    pub fn fit(
+        &mut self,
+        start: &Start,
+        settings: &PooledSettings,
+    ) -> Result<PooledEnd, DiagnoseError> {
         let (own_sets, shared_set) = (self.own_sets.clone(), self.shared_set.clone());
         let fit = solve_pooled(
             self,
@@ -206,7 +210,11 @@ impl<'a> Hypothesis<'a> {
         let scored = scored(case, whitening);
         room.residual.resize(scored, 0.0);
         room.jacobian.resize(scored * columns, 0.0);
-        weigh(whitening, &room.output[case.unscored..], &mut room.residual[..scored]);
+        weigh(
+            whitening,
+            &room.output[case.unscored..],
+            &mut room.residual[..scored],
+        );
         for (column, weighted) in room.sensitivity[..samples * columns]
             .chunks_exact(samples)
             .zip(room.jacobian.chunks_exact_mut(scored))

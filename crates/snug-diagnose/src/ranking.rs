@@ -1,8 +1,8 @@
 //! Every candidate scored, refitted and held out; best first.
 
 use crate::DiagnoseError;
-use crate::family::Family;
 use crate::evidence::{clearness, spread_of_sum};
+use crate::family::Family;
 use crate::fitted::Fitted;
 use crate::hypothesis::{Hypothesis, Start};
 use crate::score::{Column, Control, Scored, Scorer};
@@ -51,9 +51,13 @@ impl Candidate {
         (tail * family as f64).min(1.0)
     }
 
-    /// Its standard error over units.
-    pub fn gain_error(&self) -> f64 {
-        spread_of_sum(&self.gains)
+    /// Standard error over units of the share of `misfit` (per unit) that it removes: that of the ratio of two sums.
+    pub fn share_error(&self, misfit: &[f64]) -> f64 {
+        let whole: f64 = misfit.iter().sum();
+        let share = self.gain() / whole;
+        let pairs = self.gains.iter().zip(misfit);
+        let rest: Vec<f64> = pairs.map(|(gain, misfit)| gain - share * misfit).collect();
+        spread_of_sum(&rest) / whole.abs()
     }
 }
 
@@ -61,6 +65,8 @@ impl Candidate {
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Ranking {
     pub candidates: Vec<Candidate>,
+    /// Effects whose starts this rig cannot be simulated with.
+    pub impossible: Vec<Effect>,
     /// What every candidate was scored with.
     pub columns: Vec<Column>,
     /// Campaigns of nothing but noise, and in how many of them something was called supported.
@@ -110,26 +116,35 @@ pub(crate) fn rank(
         .par_iter()
         .filter(|columns| {
             let family = Family::new(columns, CONTROL_FLIPS, settings.seed);
-            candidates.iter().any(|&effect| family.p(columns, effect) <= settings.level)
+            candidates
+                .iter()
+                .any(|&effect| family.p(columns, effect) <= settings.level)
         })
         .count();
     let heldout = current.heldout_beyond_torque_noise();
-    let refitted: Vec<Result<Candidate, DiagnoseError>> = candidates
+    let refitted: Vec<Result<Option<Candidate>, DiagnoseError>> = candidates
         .par_iter()
         .map(|&effect| {
-            let fitted = refit(cases, current, effect, &columns, units, settings)?;
+            let fitted = refit(cases, current, effect, &columns, units, settings);
+            let Some(fitted) = possible(fitted)? else {
+                return Ok(None);
+            };
             let gains = gains(&heldout, &fitted);
             let own = columns.iter().filter(|column| column.effect == effect);
-            Ok(Candidate {
+            Ok(Some(Candidate {
                 effect,
                 score: own.map(Column::statistic).fold(0.0, f64::max),
                 p_family: family.p(&columns, effect),
                 fitted,
                 gains,
-            })
+            }))
         })
         .collect();
-    let mut candidates = refitted.into_iter().collect::<Result<Vec<_>, _>>()?;
+    let refitted = refitted.into_iter().collect::<Result<Vec<_>, _>>()?;
+    let outcomes = candidates.iter().zip(&refitted);
+    let impossible = outcomes.filter(|(_, outcome)| outcome.is_none());
+    let impossible = impossible.map(|(&effect, _)| effect).collect();
+    let mut candidates: Vec<Candidate> = refitted.into_iter().flatten().collect();
     let family_size = candidates.len() * STRICTER;
     for candidate in &mut candidates {
         candidate.p_family = candidate.p_family.min(candidate.p_of_gain(family_size));
@@ -137,15 +152,29 @@ pub(crate) fn rank(
     candidates.sort_by(|a, b| b.gain().total_cmp(&a.gain()));
     Ok(Ranking {
         candidates,
+        impossible,
         columns,
         control: (control.len(), false_alarms),
     })
 }
 
+/// A refit, or nothing where this rig cannot be simulated with the effect's starts: they are meant for a hand on a tool.
+fn possible(refitted: Result<Fitted, DiagnoseError>) -> Result<Option<Fitted>, DiagnoseError> {
+    match refitted {
+        Ok(fitted) if fitted.squares().is_finite() => Ok(Some(fitted)),
+        Ok(_) | Err(DiagnoseError::Identify(_)) => Ok(None),
+        Err(other) => Err(other),
+    }
+}
+
 /// What held-out units lose in squared residual.
 pub(crate) fn gains(heldout: &[f64], fitted: &Fitted) -> Vec<f64> {
     let with = fitted.heldout_beyond_torque_noise();
-    heldout.iter().zip(with).map(|(before, after)| before - after).collect()
+    heldout
+        .iter()
+        .zip(with)
+        .map(|(before, after)| before - after)
+        .collect()
 }
 
 /// Refits one effect from its most promising starts, first roughly on a few tightenings; the lowest cost wins.
@@ -184,8 +213,10 @@ fn refit(
     let mut end = hypothesis.fit(&start, &CANDIDATE)?;
     if effect.description().parameters.len() == 1 {
         // The whole way from the start may lead each tightening's own parameters past where they would be caught.
-        let other = hypothesis.fit(&with_effect(&hypothesis, current, effect, starts[best]), &CANDIDATE)?;
-        if other.fit.cost() < end.fit.cost() {
+        let whole = with_effect(&hypothesis, current, effect, starts[best]);
+        if let Ok(other) = hypothesis.fit(&whole, &CANDIDATE)
+            && other.fit.cost() < end.fit.cost()
+        {
             end = other;
         }
     }
@@ -221,8 +252,13 @@ fn rough(
     for (index, values) in starts.iter().enumerate() {
         let mut start = with_effect(&hypothesis, &current.only(&few), effect, values);
         start.own.truncate(some.len());
-        let end = hypothesis.fit(&start, &settings)?;
-        if best.as_ref().is_none_or(|(_, best)| end.fit.cost() < best.cost()) {
+        let Ok(end) = hypothesis.fit(&start, &settings) else {
+            continue;
+        };
+        if best
+            .as_ref()
+            .is_none_or(|(_, best)| end.fit.cost() < best.cost())
+        {
             best = Some((index, end.fit));
         }
     }
@@ -244,7 +280,11 @@ fn with_effect(
         .map(|effect| effect.description().parameters.len())
         .sum();
     let first = BASE_PARAMETERS.len() + before;
-    for (offset, (&value, spec)) in values.iter().zip(effect.description().parameters).enumerate() {
+    for (offset, (&value, spec)) in values
+        .iter()
+        .zip(effect.description().parameters)
+        .enumerate()
+    {
         let index = first + offset;
         match spec.scope {
             Scope::Shared => {

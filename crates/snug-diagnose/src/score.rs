@@ -4,7 +4,7 @@
 //! z̃ = z − J (JᵀJ)⁻¹ Jᵀ z, s_ij = z̃ᵀ r_i, I_ij = z̃ᵀ z̃; predicted size Σ s / Σ I.
 
 use crate::DiagnoseError;
-use crate::dense::{Square, dot};
+use crate::dense::dot;
 use crate::fitted::Fitted;
 use crate::hypothesis::{Hypothesis, Room};
 use crate::units::Units;
@@ -12,8 +12,8 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 use rayon::prelude::*;
-use statrs::distribution::{ChiSquared, ContinuousCDF};
 use snug_model::{Effect, Input, Law, ParameterSpec, Scope};
+use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 /// One direction in which an effect could push: the derivative to a parameter, or one of its starts against none.
 #[derive(Debug, Clone)]
@@ -94,6 +94,16 @@ impl Column {
         ratio(&self.scores).max(ratio(&self.bounded))
     }
 
+    /// A column with these scores, for tests of what is made of them.
+    #[cfg(test)]
+    pub fn with_scores(effect: Effect, scores: Vec<f64>) -> Self {
+        let mut column = directions(effect, true).swap_remove(0);
+        column.variances = vec![1.0; scores.len()];
+        column.scores = scores;
+        column.bound();
+        column
+    }
+
     /// How the effect pushes the output of one tightening, the model's own parameters as they are.
     fn signature(
         &self,
@@ -123,7 +133,11 @@ impl Column {
     }
 
     fn sided(&self, sum: f64) -> f64 {
-        if self.one_sided { sum.max(0.0) } else { sum.abs() }
+        if self.one_sided {
+            sum.max(0.0)
+        } else {
+            sum.abs()
+        }
     }
 
     fn bound(&mut self) {
@@ -162,7 +176,9 @@ impl Column {
     /// Σ s²/var(s): what sizes of its own for every tightening explain, in units of chance.
     fn energy(&self) -> f64 {
         let terms = self.scores.iter().zip(&self.variances);
-        terms.map(|(s, v)| if *v > 0.0 { s * s / v } else { 0.0 }).sum()
+        terms
+            .map(|(s, v)| if *v > 0.0 { s * s / v } else { 0.0 })
+            .sum()
     }
 }
 
@@ -182,7 +198,10 @@ impl<'a, 'h> Scorer<'a, 'h> {
             hypothesis,
             fitted,
             units,
-            control: Control { campaigns, ..control },
+            control: Control {
+                campaigns,
+                ..control
+            },
         }
     }
 
@@ -216,7 +235,12 @@ impl<'a, 'h> Scorer<'a, 'h> {
                 }
             }
         }
-        let gradients: Vec<&[f64]> = self.fitted.profiles().iter().map(|(_, g)| g.as_slice()).collect();
+        let gradients: Vec<&[f64]> = self
+            .fitted
+            .profiles()
+            .iter()
+            .map(|(_, g)| g.as_slice())
+            .collect();
         let mut control = Vec::new();
         for campaign in 0..self.control.campaigns {
             let mut drawn = blank.clone();
@@ -286,7 +310,9 @@ impl<'a, 'h> Scorer<'a, 'h> {
             let mut information = 0.0;
             for range in self.units.ranges(count) {
                 let (z, r) = (&z[range.clone()], &residual[range.clone()]);
-                let along = bias.as_ref().map_or(0.0, |bias| dot(z, &bias[range.clone()]));
+                let along = bias
+                    .as_ref()
+                    .map_or(0.0, |bias| dot(z, &bias[range.clone()]));
                 let squares = dot(z, z);
                 scores.push(dot(z, r));
                 variances.push(squares + along * along);
@@ -313,26 +339,21 @@ impl<'a, 'h> Scorer<'a, 'h> {
         contribution
     }
 
-    /// Scores of campaigns that hold nothing but noise: normal with the signatures' own Gram matrix as covariance.
+    /// Scores of campaigns that hold nothing but noise: white noise, seen through what the signatures span.
     fn draw(&self, member: usize, signatures: &[Vec<f64>], along_bias: &[f64]) -> Vec<Vec<f64>> {
-        let size = signatures.len();
-        let mut gram = Square::zero(size);
-        for i in 0..size {
-            for j in 0..=i {
-                let value = dot(&signatures[i], &signatures[j]);
-                gram.set(i, j, value);
-                gram.set(j, i, value);
-            }
-        }
-        let root = gram.cholesky();
+        let coordinates = coordinates(signatures);
+        let most = coordinates.iter().map(Vec::len).max().unwrap_or(0);
         let mut random = ChaCha8Rng::seed_from_u64(self.control.seed);
-        random.set_stream(member as u64);
+        // Stream 0 flips signs.
+        random.set_stream(1 + member as u64);
         (0..self.control.campaigns)
             .map(|_| {
-                let noise: Vec<f64> = (0..size).map(|_| StandardNormal.sample(&mut random)).collect();
+                let noise: Vec<f64> = (0..most)
+                    .map(|_| StandardNormal.sample(&mut random))
+                    .collect();
                 let bias: f64 = StandardNormal.sample(&mut random);
-                (0..size)
-                    .map(|i| dot(&root[i * size..=i * size + i], &noise) + bias * along_bias[i])
+                (coordinates.iter().zip(along_bias))
+                    .map(|(own, along)| dot(own, &noise) + bias * along)
                     .collect()
             })
             .collect()
@@ -342,7 +363,9 @@ impl<'a, 'h> Scorer<'a, 'h> {
     fn bias_signature(&self, member: usize, nuisance: &Nuisance) -> Option<Vec<f64>> {
         let case = &self.hypothesis.cases[member];
         let corrections = &case.tightening.corrections;
-        let bias = corrections.iter().find(|c| c.effect == "acceleration_bias")?;
+        let bias = corrections
+            .iter()
+            .find(|c| c.effect == "acceleration_bias")?;
         if case.quantity != snug_campaign::Quantity::Acceleration || bias.standard_error <= 0.0 {
             return None;
         }
@@ -370,6 +393,24 @@ impl<'a, 'h> Scorer<'a, 'h> {
     }
 }
 
+/// Coordinates of each signal in an orthonormal basis of all of them.
+fn coordinates(signals: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    let mut span = Nuisance { basis: Vec::new() };
+    let along = |span: &Nuisance, signal: &[f64]| -> Vec<f64> {
+        span.basis
+            .iter()
+            .map(|direction| dot(direction, signal))
+            .collect()
+    };
+    for signal in signals {
+        span.extend(signal, SAME_DIRECTION);
+    }
+    signals.iter().map(|signal| along(&span, signal)).collect()
+}
+
+/// Squared share of a signal below which what is new in it is rounding.
+const SAME_DIRECTION: f64 = 1e-12;
+
 /// Orthonormal basis of what the own parameters can imitate.
 struct Nuisance {
     basis: Vec<Vec<f64>>,
@@ -380,18 +421,23 @@ impl Nuisance {
     fn new(jacobian: &[f64], count: usize, columns: usize) -> Self {
         let mut nuisance = Self { basis: Vec::new() };
         for column in jacobian.chunks_exact(count.max(1)).take(columns) {
-            let mut rest = column.to_vec();
-            let before = dot(&rest, &rest);
-            nuisance.project(&mut rest);
-            nuisance.project(&mut rest);
-            let length = dot(&rest, &rest);
-            if length > 1e-20 * before && length > 0.0 {
-                let scale = 1.0 / length.sqrt();
-                rest.iter_mut().for_each(|value| *value *= scale);
-                nuisance.basis.push(rest);
-            }
+            nuisance.extend(column, 1e-20);
         }
         nuisance
+    }
+
+    /// Adds what is new in a signal, if that is more than `least` of its squared length.
+    fn extend(&mut self, signal: &[f64], least: f64) {
+        let mut rest = signal.to_vec();
+        let before = dot(&rest, &rest);
+        self.project(&mut rest);
+        self.project(&mut rest);
+        let length = dot(&rest, &rest);
+        if length > least * before && length > 0.0 && length.is_finite() {
+            let scale = 1.0 / length.sqrt();
+            rest.iter_mut().for_each(|value| *value *= scale);
+            self.basis.push(rest);
+        }
     }
 
     fn project(&self, signal: &mut [f64]) {

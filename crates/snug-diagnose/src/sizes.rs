@@ -51,7 +51,9 @@ pub(crate) fn parameters(cases: &[Case], fitted: &Fitted, effect: Effect) -> Vec
 /// Index of an effect's first parameter in a model that has `effects`.
 fn first_parameter(effects: &[Effect], effect: Effect) -> usize {
     let before = effects.iter().take_while(|known| **known != effect);
-    3 + before.map(|known| known.description().parameters.len()).sum::<usize>()
+    3 + before
+        .map(|known| known.description().parameters.len())
+        .sum::<usize>()
 }
 
 /// 97.5 % quantile of Student's t with one degree of freedom less than there are units.
@@ -100,9 +102,13 @@ impl Fitted {
         Some(
             (skipped..curvature.size())
                 .map(|column| {
-                    let row: Vec<f64> = (0..curvature.size()).map(|j| inverse.at(column, j)).collect();
+                    let row: Vec<f64> = (0..curvature.size())
+                        .map(|j| inverse.at(column, j))
+                        .collect();
                     let sandwich: f64 = gradients.iter().map(|g| dot(&row, g).powi(2)).sum();
-                    (floor * inverse.at(column, column)).max(correction * sandwich).sqrt()
+                    (floor * inverse.at(column, column))
+                        .max(correction * sandwich)
+                        .sqrt()
                 })
                 .collect(),
         )

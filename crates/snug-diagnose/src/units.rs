@@ -22,10 +22,15 @@ impl Units {
         if cases.len() >= FEWEST_WHOLE {
             return Self { per_case: 1 };
         }
-        let shortest = cases.iter().map(|case| case.measured().len() - case.unscored);
+        let shortest = cases
+            .iter()
+            .map(|case| case.measured().len() - case.unscored);
         let room = shortest.min().unwrap_or(0) / SHORTEST_STRETCH;
         Self {
-            per_case: STRETCHES_WANTED.div_ceil(cases.len().max(1)).min(room).max(1),
+            per_case: STRETCHES_WANTED
+                .div_ceil(cases.len().max(1))
+                .min(room)
+                .max(1),
         }
     }
 

@@ -12,19 +12,71 @@ struct Term {
 }
 
 const TERMS: &[Term] = &[
-    Term { name: "x_v_law", expression: "p*x*v", unit: "N s/m^2" },
-    Term { name: "x2_v_law", expression: "p*x^2*v", unit: "N s/m^3" },
-    Term { name: "abs_x_v_law", expression: "p*abs(x)*v", unit: "N s/m^2" },
-    Term { name: "x_v2_law", expression: "p*x*v^2", unit: "N s^2/m^3" },
-    Term { name: "v2_law", expression: "p*v^2", unit: "N s^2/m^2" },
-    Term { name: "v3_law", expression: "p*v^3", unit: "N s^3/m^3" },
-    Term { name: "x4_law", expression: "p*x^4", unit: "N/m^4" },
-    Term { name: "x5_law", expression: "p*x^5", unit: "N/m^5" },
-    Term { name: "abs_x_x_law", expression: "p*x*abs(x)", unit: "N/m^2" },
-    Term { name: "abs_x_friction_law", expression: "p*abs(x)*tanh(v/0.01)", unit: "N/m" },
-    Term { name: "x_abs_v_law", expression: "p*x*abs(v)", unit: "N s/m^2" },
-    Term { name: "torque_v_law", expression: "p*T*v", unit: "s/m^2" },
-    Term { name: "sine_law", expression: "p*sin(theta)", unit: "N" },
+    Term {
+        name: "x_v_law",
+        expression: "p*x*v",
+        unit: "N s/m^2",
+    },
+    Term {
+        name: "x2_v_law",
+        expression: "p*x^2*v",
+        unit: "N s/m^3",
+    },
+    Term {
+        name: "abs_x_v_law",
+        expression: "p*abs(x)*v",
+        unit: "N s/m^2",
+    },
+    Term {
+        name: "x_v2_law",
+        expression: "p*x*v^2",
+        unit: "N s^2/m^3",
+    },
+    Term {
+        name: "v2_law",
+        expression: "p*v^2",
+        unit: "N s^2/m^2",
+    },
+    Term {
+        name: "v3_law",
+        expression: "p*v^3",
+        unit: "N s^3/m^3",
+    },
+    Term {
+        name: "x4_law",
+        expression: "p*x^4",
+        unit: "N/m^4",
+    },
+    Term {
+        name: "x5_law",
+        expression: "p*x^5",
+        unit: "N/m^5",
+    },
+    Term {
+        name: "abs_x_x_law",
+        expression: "p*x*abs(x)",
+        unit: "N/m^2",
+    },
+    Term {
+        name: "abs_x_friction_law",
+        expression: "p*abs(x)*tanh(v/0.01)",
+        unit: "N/m",
+    },
+    Term {
+        name: "x_abs_v_law",
+        expression: "p*x*abs(v)",
+        unit: "N s/m^2",
+    },
+    Term {
+        name: "torque_v_law",
+        expression: "p*T*v",
+        unit: "s/m^2",
+    },
+    Term {
+        name: "sine_law",
+        expression: "p*sin(theta)",
+        unit: "N",
+    },
 ];
 
 /// Every term as an effect.
@@ -57,4 +109,3 @@ fn settings(term: &Term) -> CustomEffectSettings {
 pub(crate) fn is_unlisted(effect: Effect) -> bool {
     TERMS.iter().any(|term| term.name == effect.name())
 }
-

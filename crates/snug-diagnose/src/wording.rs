@@ -1,13 +1,12 @@
 //! The words in which verdicts are told: for someone who knows nutrunners, not statistics.
 
-use crate::Case;
 use crate::DiagnoseSettings;
 use crate::climb::{Addition, Attempt, Stop};
 use crate::examine::AT_FLOOR;
 use crate::fitted::Fitted;
 use crate::ranking::Candidate;
 use crate::unlisted::{declaration, is_unlisted};
-use snug_campaign::{EffectParameter, RankedEffect, Verdict};
+use snug_campaign::{CorrectedEffect, EffectParameter, RankedEffect, Verdict};
 use snug_model::{CustomEffectSettings, Effect, Law};
 
 /// What the words are about.
@@ -22,7 +21,10 @@ pub(crate) struct Situation<'a> {
     pub chosen: Option<&'a Candidate>,
     pub ranking: &'a [RankedEffect],
     pub stopped: Option<Stop>,
-    pub cases: &'a [Case],
+    /// Candidates that cannot be simulated on this rig.
+    pub impossible: &'a [Effect],
+    /// What preparation took out.
+    pub corrected: &'a [CorrectedEffect],
     pub settings: &'a DiagnoseSettings,
 }
 
@@ -60,19 +62,27 @@ fn number(value: f64) -> String {
 
 /// `fc_n = 1.18 N (1.14 to 1.23)`.
 fn size(parameter: &EffectParameter) -> String {
-    let value = format!("{} = {}", parameter.name, amount(parameter.value, &parameter.unit));
+    let value = format!(
+        "{} = {}",
+        parameter.name,
+        amount(parameter.value, &parameter.unit)
+    );
     let range = match (parameter.low, parameter.high) {
         (Some(low), Some(high)) => format!(" ({} to {})", number(low), number(high)),
         _ => " (at the edge of its plausible range)".to_owned(),
     };
     let own = match parameter.spread {
-        Some(spread) => format!(", different in every tightening by {}", amount(spread, &parameter.unit)),
+        Some(spread) => format!(
+            ", different in every tightening by {}",
+            amount(spread, &parameter.unit)
+        ),
         None => String::new(),
     };
     value + &range + &own
 }
 
-fn sizes(parameters: &[EffectParameter]) -> String {
+/// Values with their ranges, one after the other.
+pub(crate) fn sizes(parameters: &[EffectParameter]) -> String {
     parameters.iter().map(size).collect::<Vec<_>>().join(", ")
 }
 
@@ -101,7 +111,11 @@ fn joined(effects: &[String]) -> String {
 /// The verdict in one sentence.
 pub(crate) fn headline(situation: &Situation<'_>) -> String {
     let (before, after) = (error(situation.before), error(situation.after));
-    let added: Vec<String> = situation.additions.iter().map(|one| spoken(one.effect)).collect();
+    let added: Vec<String> = situation
+        .additions
+        .iter()
+        .map(|one| spoken(one.effect))
+        .collect();
     match (situation.verdict, situation.chosen) {
         (Verdict::MissingEffect | Verdict::UnlistedEffect, Some(chosen)) => {
             let known = match is_unlisted(chosen.effect) {
@@ -111,7 +125,9 @@ pub(crate) fn headline(situation: &Situation<'_>) -> String {
             let name = spoken(chosen.effect);
             let with = error(&chosen.fitted);
             match is_unlisted(chosen.effect) {
-                true => format!("{known}, best described as {name}: with it the error falls from {after} to {with}."),
+                true => format!(
+                    "{known}, best described as {name}: with it the error falls from {after} to {with}."
+                ),
                 false => format!("{known} {name}: with it the error falls from {after} to {with}."),
             }
         }
@@ -126,7 +142,9 @@ pub(crate) fn headline(situation: &Situation<'_>) -> String {
             "With {} the model is complete: the error fell from {before} to {after}, and nothing more is justified.",
             joined(&added)
         ),
-        (Verdict::Adequate, _) => format!("The model is adequate: it leaves {after}, and nothing more is justified."),
+        (Verdict::Adequate, _) => {
+            format!("The model is adequate: it leaves {after}, and nothing more is justified.")
+        }
         (Verdict::Undecided, _) if situation.verb == "compare" => {
             format!("The model leaves {after}; `diagnose` says what could be missing.")
         }
@@ -160,18 +178,60 @@ pub(crate) fn reasons(situation: &Situation<'_>) -> Vec<String> {
         ));
     }
     for one in situation.additions {
-        reasons.push(evidence(&spoken(one.effect), one.heldout_gain, one.p_family));
+        reasons.push(evidence(
+            &spoken(one.effect),
+            one.heldout_gain,
+            one.p_family,
+        ));
     }
     if let (Some(chosen), Some(first)) = (situation.chosen, situation.ranking.first()) {
-        reasons.push(evidence(&spoken(chosen.effect), first.heldout_gain, first.p_family));
+        reasons.push(evidence(
+            &spoken(chosen.effect),
+            first.heldout_gain,
+            first.p_family,
+        ));
         reasons.push(format!("Its size: {}.", sizes(&first.parameters)));
-        let twins: Vec<String> = first.twins.iter().map(|twin| twin.replace('_', " ")).collect();
+        let twins: Vec<String> = first
+            .twins
+            .iter()
+            .map(|twin| twin.replace('_', " "))
+            .collect();
         if !twins.is_empty() {
             reasons.push(format!(
                 "These data cannot tell it from {}; they are named together.",
                 joined(&twins)
             ));
         }
+    }
+    if let Some(trend) = situation
+        .ranking
+        .iter()
+        .find(|one| one.kind == "trend" && one.p_family <= situation.settings.level)
+    {
+        reasons.push(format!(
+            "Beside the misfit, mass, damping or stiffness drift with the tightening's number ({}): {}.",
+            trend.effect,
+            sizes(&trend.parameters)
+        ));
+    }
+    for one in situation.corrected {
+        reasons.push(format!(
+            "Before the fit, {} was measured in the quiet part and taken out: about {} in {:.0} % of the tightenings.",
+            one.effect.replace('_', " "),
+            amount(one.size, &one.unit),
+            one.share * 100.0
+        ));
+    }
+    if !situation.impossible.is_empty() {
+        let names: Vec<String> = situation
+            .impossible
+            .iter()
+            .map(|&effect| spoken(effect))
+            .collect();
+        reasons.push(format!(
+            "Not tried, because this rig cannot be simulated with sizes meant for a hand on a tool: {}.",
+            joined(&names)
+        ));
     }
     if situation.verdict == Verdict::Undecided && situation.verb != "compare" {
         if let Some(first) = situation.ranking.first() {
@@ -220,7 +280,10 @@ pub(crate) fn explanation(effect: Effect, parameters: &[EffectParameter]) -> Vec
     let description = effect.description();
     if let Some(declared) = declaration(effect.name()) {
         return vec![
-            format!("A term in no catalogue: the hand's force gains {}.", declared.expression),
+            format!(
+                "A term in no catalogue: the hand's force gains {}.",
+                declared.expression
+            ),
             format!("Its size in these data: {}.", sizes(parameters)),
         ];
     }
@@ -247,7 +310,11 @@ pub(crate) fn removal(attempt: &Attempt) -> String {
 }
 
 /// The unlisted term in words.
-pub(crate) fn unlisted(declared: &CustomEffectSettings, gain: f64, parameters: &[EffectParameter]) -> String {
+pub(crate) fn unlisted(
+    declared: &CustomEffectSettings,
+    gain: f64,
+    parameters: &[EffectParameter],
+) -> String {
     format!(
         "The simplest term that describes it is a force {} with {}; it removes {:.0} % of the misfit in tightenings that took no part in finding its size. It describes; what causes it is for the bench to find out.",
         declared.expression,
@@ -258,7 +325,9 @@ pub(crate) fn unlisted(declared: &CustomEffectSettings, gain: f64, parameters: &
 
 /// RON for the study's `model.custom` list.
 pub(crate) fn paste(declared: &CustomEffectSettings, parameters: &[EffectParameter]) -> String {
-    let unit = parameters.first().map_or("", |parameter| parameter.unit.as_str());
+    let unit = parameters
+        .first()
+        .map_or("", |parameter| parameter.unit.as_str());
     let start = parameters.first().map_or(0.0, |parameter| parameter.value);
     format!(
         "(name: \"{}\", place: Force, expression: \"{}\", parameters: [(name: \"p\", unit: \"{unit}\", start: {start:.4e})])",

@@ -128,7 +128,8 @@ pub fn solve_pooled(
         fit.work.iterations += 1;
         let promised = fit.find_step();
         let cost = fit.cost;
-        if promised <= (settings.cost_tolerance * cost).max(RESOLUTION * cost) && fit.damping < 1.0 {
+        if promised <= (settings.cost_tolerance * cost).max(RESOLUTION * cost) && fit.damping < 1.0
+        {
             converged = true;
         }
         if promised > 0.0 && fit.try_step(promised) {
@@ -307,7 +308,9 @@ impl Member {
         let size = n + shift.len();
         let before = 0.5 * dot(&self.here.reachable[..n], &self.here.reachable[..n]);
         let conditional = &mut self.conditional;
-        conditional.reachable.copy_from_slice(&self.here.reachable[..n]);
+        conditional
+            .reachable
+            .copy_from_slice(&self.here.reachable[..n]);
         for (column, step) in shift.iter().enumerate() {
             let factor = &self.here.factor[(n + column) * size..][..n];
             for (reached, f) in conditional.reachable.iter_mut().zip(factor) {
@@ -326,7 +329,10 @@ impl Member {
         );
         self.stepper.rescale(conditional, 0.0);
         let moved = 0.5 * dot(&conditional.reachable, &conditional.reachable);
-        if self.stepper.find(&self.own, conditional, damping, set, work) {
+        if self
+            .stepper
+            .find(&self.own, conditional, damping, set, work)
+        {
             before - moved + self.stepper.step.predicted
         } else {
             self.stepper.step.target.copy_from_slice(&self.own);

@@ -68,7 +68,7 @@ impl Assembly {
                 let mut zeroed = Zeroed::new(zero_at);
                 self.move_tool(p, input, |index, motion| {
                     let seen = sensors.sample(index, motion);
-                    zeroed.sample(index, motion.displacement_rad, seen, &mut sample);
+                    zeroed.sample(index, seen, &mut sample);
                 });
             }
             _ => self.move_tool(p, input, |index, motion| {

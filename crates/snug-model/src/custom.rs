@@ -48,11 +48,14 @@ impl CustomEffect {
         &self.settings
     }
 
+    #[inline(always)]
     fn value<N: Number>(&self, p: &[N], at: &Instant<N>) -> N {
+        // A copy: what is handed out of line by its place in memory could not stay in registers for any effect.
+        let at = *at;
         self.program.evaluate(
             p,
             &Surroundings {
-                at,
+                at: &at,
                 acceleration_rad_per_s2: None,
             },
         )
@@ -80,20 +83,13 @@ impl Law for CustomEffect {
     }
 
     #[inline(always)]
-    fn force<N: Number>(&self, p: &[N], at: &Instant<N>, _own: &[N]) -> N {
-        match self.settings.place {
-            Place::Force => self.value(p, at),
-            Place::Torque | Place::Measurement => N::from(0.0),
-        }
+    fn force<N: Number>(&self, p: &[N], at: &Instant<N>, _own: &[N]) -> Option<N> {
+        (self.settings.place == Place::Force).then(|| self.value(p, at))
     }
 
     #[inline(always)]
     fn torque<N: Number>(&self, p: &[N], at: &Instant<N>) -> Option<N> {
         (self.settings.place == Place::Torque).then(|| self.value(p, at))
-    }
-
-    fn adds_torque(&self) -> bool {
-        self.settings.place == Place::Torque
     }
 
     fn leak<N: Number>(&self, p: &[N], at: &Instant<N>, motion: &Kinematics<N>) -> Option<N> {

@@ -139,7 +139,8 @@ pub struct Kinematics<N> {
 
 /// A physical effect: what it adds to the base model, written once over the number type.
 ///
-/// Every hook adds nothing unless an effect overrides it. `p` holds the effect's own parameters in the order of its
+/// A hook that an effect does not override answers `None`, and so adds nothing. Whether a hook answers depends on the effect
+/// alone, never on parameters or state: a simulation asks once and then leaves the silent ones out. `p` holds the effect's own parameters in the order of its
 /// [`Description`], `own` its own states; the assembly decides where they live. What several effects add to the same
 /// place is summed, so their order does not matter:
 ///
@@ -154,8 +155,8 @@ pub trait Law {
 
     /// Added to the hand force F \[N\] (acts as −l F on the tool).
     #[inline(always)]
-    fn force<N: Number>(&self, _p: &[N], _at: &Instant<N>, _own: &[N]) -> N {
-        N::from(0.0)
+    fn force<N: Number>(&self, _p: &[N], _at: &Instant<N>, _own: &[N]) -> Option<N> {
+        None
     }
 
     /// Rates of its own states; `hand_n` is what the hand's spring and damper alone exert \[N\].
@@ -178,8 +179,8 @@ pub trait Law {
 
     /// What the hand's spring and damper see of the deflection between tool and support.
     #[inline(always)]
-    fn deflection<N: Number>(&self, _p: &[N], between: Deflection<N>) -> Deflection<N> {
-        between
+    fn deflection<N: Number>(&self, _p: &[N], _between: Deflection<N>) -> Option<Deflection<N>> {
+        None
     }
 
     /// By how much of itself the hand's stiffness grows.
@@ -190,8 +191,8 @@ pub trait Law {
 
     /// What the grip transmits of the hand force \[N\].
     #[inline(always)]
-    fn limit<N: Number>(&self, _p: &[N], force_n: N) -> N {
-        force_n
+    fn limit<N: Number>(&self, _p: &[N], _force_n: N) -> Option<N> {
+        None
     }
 
     /// A spring that acts on the displacement of a while ago, added to the hand force.
@@ -212,11 +213,6 @@ pub trait Law {
     #[inline(always)]
     fn torque<N: Number>(&self, _p: &[N], _at: &Instant<N>) -> Option<N> {
         None
-    }
-
-    /// True when it overrides [`Law::torque`]; others are not asked at every step.
-    fn adds_torque(&self) -> bool {
-        false
     }
 
     /// Initial angle \[rad\] and angular velocity \[rad/s\].
@@ -245,9 +241,9 @@ pub trait Law {
         &self,
         _p: &[N],
         _since_rest_s: f64,
-        motion: Kinematics<N>,
-    ) -> Kinematics<N> {
-        motion
+        _motion: Kinematics<N>,
+    ) -> Option<Kinematics<N>> {
+        None
     }
 
     /// True when the effect only changes what is measured, so that the motion itself stays the base model's.

@@ -30,7 +30,7 @@ macro_rules! catalogue {
                 }
             }
             #[inline(always)]
-            fn force<N: Number>(&self, p: &[N], at: &Instant<N>, own: &[N]) -> N {
+            fn force<N: Number>(&self, p: &[N], at: &Instant<N>, own: &[N]) -> Option<N> {
                 match self {
                     $(Self::$Effect => $module::$Effect.force(p, at, own),)+
                     Self::Custom(law) => law.force(p, at, own),
@@ -51,7 +51,7 @@ macro_rules! catalogue {
                 }
             }
             #[inline(always)]
-            fn deflection<N: Number>(&self, p: &[N], between: Deflection<N>) -> Deflection<N> {
+            fn deflection<N: Number>(&self, p: &[N], between: Deflection<N>) -> Option<Deflection<N>> {
                 match self {
                     $(Self::$Effect => $module::$Effect.deflection(p, between),)+
                     Self::Custom(law) => law.deflection(p, between),
@@ -65,7 +65,7 @@ macro_rules! catalogue {
                 }
             }
             #[inline(always)]
-            fn limit<N: Number>(&self, p: &[N], force_n: N) -> N {
+            fn limit<N: Number>(&self, p: &[N], force_n: N) -> Option<N> {
                 match self {
                     $(Self::$Effect => $module::$Effect.limit(p, force_n),)+
                     Self::Custom(law) => law.limit(p, force_n),
@@ -114,16 +114,10 @@ macro_rules! catalogue {
                 }
             }
             #[inline(always)]
-            fn measure<N: Number>(&self, p: &[N], since_rest_s: f64, motion: Kinematics<N>) -> Kinematics<N> {
+            fn measure<N: Number>(&self, p: &[N], since_rest_s: f64, motion: Kinematics<N>) -> Option<Kinematics<N>> {
                 match self {
                     $(Self::$Effect => $module::$Effect.measure(p, since_rest_s, motion),)+
                     Self::Custom(law) => law.measure(p, since_rest_s, motion),
-                }
-            }
-            fn adds_torque(&self) -> bool {
-                match self {
-                    $(Self::$Effect => $module::$Effect.adds_torque(),)+
-                    Self::Custom(law) => law.adds_torque(),
                 }
             }
             fn measurement_only(&self) -> bool {

@@ -116,8 +116,8 @@ impl Input {
 
     /// States that the measured displacement was zeroed by taking its value at this sample off the whole signal.
     ///
-    /// What the sensors' effects add to the simulated displacement is zeroed there, too. A sample beyond the last counts
-    /// as the last.
+    /// The simulated displacement of a model with sensor effects is zeroed there, too. A sample beyond the last counts as
+    /// the last.
     pub fn with_zero_at(mut self, sample: Option<usize>) -> Self {
         self.zero_at = sample;
         self

@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 mod accelerometer;
+mod acting;
 mod acting_torque;
 mod assembly;
 mod band_limited;

@@ -1,13 +1,12 @@
-use crate::acting_torque::{ActingTorque, with_added_torque};
+use crate::acting::{Acting, Hook};
+use crate::acting_torque::ActingTorque;
 use crate::assembly::{Assembly, Part};
-use crate::effect::{Deflection, Delayed, Instant, Kinematics, Law};
+use crate::effect::{Deflection, Delayed, Instant, Law};
 use crate::history::History;
 use crate::{Input, Number};
 
 /// Tool, hand and arm of one simulation: the equations of motion with everything that stays the same worked out once.
 pub struct Plant<'a, N> {
-    parts: &'a [Part],
-    p: &'a [N],
     input: &'a Input,
     lever_arm_m: f64,
     damping_kg_per_s: N,
@@ -17,8 +16,7 @@ pub struct Plant<'a, N> {
     /// −l / (I_n + m l²).
     lever_mobility: N,
     acting_torque: ActingTorque<'a, N>,
-    /// Whether an effect adds to the torque.
-    adds_torque: bool,
+    acting: Acting<'a, N>,
     delayed: Vec<Delayed<N>>,
     /// Kept only where a delayed law looks back.
     history: History<N>,
@@ -40,8 +38,6 @@ impl<'a, N: Number> Plant<'a, N> {
         let mobility = N::from(1.0) / (p[0] * (lever * lever) + rig.known_inertia_kg_m2);
         let own = |part: &Part| &p[part.parameters.clone()];
         Self {
-            parts,
-            p,
             input,
             lever_arm_m: lever,
             damping_kg_per_s: p[1],
@@ -49,24 +45,13 @@ impl<'a, N: Number> Plant<'a, N> {
             mobility,
             lever_mobility: mobility * -lever,
             acting_torque: ActingTorque::new(parts, p, input),
-            adds_torque: parts.iter().any(|part| part.effect.adds_torque()),
+            acting: Acting::new(parts, p),
             delayed: parts
                 .iter()
                 .filter_map(|part| part.effect.delayed(own(part)))
                 .collect(),
             history: History::new(input.grid_interval_s()),
         }
-    }
-
-    /// The effects' initial motion; all else at rest.
-    pub fn initial_state<const S: usize>(&self) -> [N; S] {
-        let mut state = [N::from(0.0); S];
-        for part in self.parts {
-            let (angle, velocity) = part.effect.initial(self.own(part));
-            state[0] += angle;
-            state[1] += velocity;
-        }
-        state
     }
 
     /// Torque that acts at a grid point \[Nm\].
@@ -103,74 +88,61 @@ impl<'a, N: Number> Plant<'a, N> {
     /// Rates of all states.
     #[inline(always)]
     pub fn rates<const S: usize>(&self, drive: &Drive<N>, state: &[N; S]) -> [N; S] {
-        let at = self.instant(drive, state);
-        let hand_n = self.hand_force(&at, state);
+        let at = self.instant(drive, state[0], state[1]);
+        // Effects look up their own states by number: in a copy, so that the motion itself can stay in registers.
+        let kept = *state;
+        let hand_n = self.hand_force(&at, &kept);
+        let acceleration = self.acceleration(drive, &at, hand_n, &kept);
         let mut rates = [N::from(0.0); S];
-        rates[0] = state[1];
-        rates[1] = self.acceleration(drive, &at, hand_n, state);
         if S > 2 {
-            for part in self.parts {
-                let (own, own_rates) =
-                    (&state[part.states.clone()], &mut rates[part.states.clone()]);
-                part.effect
-                    .rates(self.own(part), &at, own, hand_n, own_rates);
+            for actor in self.acting.on(Hook::Moving) {
+                let (own, own_rates) = (actor.own(&kept), actor.own_mut(&mut rates));
+                actor.law.rates(actor.p, &at, own, hand_n, own_rates);
             }
         }
+        rates[0] = state[1];
+        rates[1] = acceleration;
         rates
     }
 
-    /// The true motion.
-    pub fn motion<const S: usize>(&self, drive: &Drive<N>, state: &[N; S]) -> Kinematics<N> {
-        let at = self.instant(drive, state);
-        let hand_n = self.hand_force(&at, state);
-        Kinematics {
-            displacement_rad: state[0],
-            velocity_rad_per_s: state[1],
-            acceleration_rad_per_s2: self.acceleration(drive, &at, hand_n, state),
-        }
-    }
-
     #[inline(always)]
-    fn own(&self, part: &Part) -> &[N] {
-        &self.p[part.parameters.clone()]
-    }
-
-    #[inline(always)]
-    fn instant(&self, drive: &Drive<N>, state: &[N]) -> Instant<N> {
-        let at = Instant {
+    fn instant(&self, drive: &Drive<N>, angle_rad: N, velocity_rad_per_s: N) -> Instant<N> {
+        let mut at = Instant {
             torque_nm: drive.torque_nm,
-            x_m: state[0] * self.lever_arm_m,
-            v_m_per_s: state[1] * self.lever_arm_m,
+            x_m: angle_rad * self.lever_arm_m,
+            v_m_per_s: velocity_rad_per_s * self.lever_arm_m,
             since_onset_s: drive.since_onset_s,
             lever_arm_m: self.lever_arm_m,
         };
-        if self.adds_torque {
-            with_added_torque(self.parts, self.p, at)
-        } else {
-            at
+        let mut torque_nm = at.torque_nm;
+        for actor in self.acting.on(Hook::Torque) {
+            if let Some(added) = actor.law.torque(actor.p, &at) {
+                torque_nm += added;
+            }
         }
+        at.torque_nm = torque_nm;
+        at
     }
 
     /// What the hand's spring and damper exert \[N\]: k (1 + Σ stiffening) d + c dd/dt.
     #[inline(always)]
-    fn hand_force(&self, at: &Instant<N>, state: &[N]) -> N {
+    fn hand_force<const S: usize>(&self, at: &Instant<N>, state: &[N; S]) -> N {
         let mut seen = Deflection {
             x_m: at.x_m,
             v_m_per_s: at.v_m_per_s,
         };
-        for part in self.parts {
-            if let Some(support) = part
-                .effect
-                .support(self.own(part), &state[part.states.clone()])
-            {
+        for actor in self.acting.on(Hook::Support) {
+            if let Some(support) = actor.law.support(actor.p, actor.own(state)) {
                 seen.x_m = seen.x_m - support.x_m;
                 seen.v_m_per_s = seen.v_m_per_s - support.v_m_per_s;
             }
         }
+        for actor in self.acting.on(Hook::Deflection) {
+            seen = actor.law.deflection(actor.p, seen).unwrap_or(seen);
+        }
         let mut stiffness = self.stiffness_n_per_m;
-        for part in self.parts {
-            seen = part.effect.deflection(self.own(part), seen);
-            if let Some(growth) = part.effect.stiffening(self.own(part), at) {
+        for actor in self.acting.on(Hook::Stiffening) {
+            if let Some(growth) = actor.law.stiffening(actor.p, at) {
                 stiffness += self.stiffness_n_per_m * growth;
             }
         }
@@ -179,19 +151,36 @@ impl<'a, N: Number> Plant<'a, N> {
 
     /// dω/dt = (T − l F) / (I_n + m l²).
     #[inline(always)]
-    fn acceleration(&self, drive: &Drive<N>, at: &Instant<N>, hand_n: N, state: &[N]) -> N {
+    fn acceleration<const S: usize>(
+        &self,
+        drive: &Drive<N>,
+        at: &Instant<N>,
+        hand_n: N,
+        state: &[N; S],
+    ) -> N {
         let mut force = hand_n;
-        for part in self.parts {
-            force += part
-                .effect
-                .force(self.own(part), at, &state[part.states.clone()]);
+        for actor in self.acting.on(Hook::Force) {
+            if let Some(more) = actor.law.force(actor.p, at, actor.own(state)) {
+                force += more;
+            }
         }
         if let Some(delayed) = drive.delayed_n {
             force += delayed;
         }
-        for part in self.parts {
-            force = part.effect.limit(self.own(part), force);
+        for actor in self.acting.on(Hook::Limit) {
+            force = actor.law.limit(actor.p, force).unwrap_or(force);
         }
         at.torque_nm * self.mobility + force * self.lever_mobility
     }
+}
+
+/// The effects' initial motion; all else at rest.
+pub fn initial_state<N: Number, const S: usize>(parts: &[Part], p: &[N]) -> [N; S] {
+    let mut state = [N::from(0.0); S];
+    for part in parts {
+        let (angle, velocity) = part.effect.initial(&p[part.parameters.clone()]);
+        state[0] += angle;
+        state[1] += velocity;
+    }
+    state
 }

@@ -5,12 +5,15 @@
 
 use crate::assembly::Assembly;
 use crate::effect::Kinematics;
-use crate::plant::{Drive, Plant};
+use crate::plant::{Plant, initial_state};
 use crate::{Input, Number};
 
 /// Simulates from rest (or the effects' initial motion) and hands every sample's true motion to `sample`.
 ///
 /// `p` are all parameters of the assembly in its order, `S` is at least the number of its states.
+///
+/// The four stages are a loop, so that the equations stand once in the compiled program and stay in its cache. The first
+/// stage's rates are those at the grid point itself: they give the sample's acceleration as well.
 pub fn respond<N: Number, const S: usize>(
     assembly: &Assembly,
     p: &[N],
@@ -18,50 +21,45 @@ pub fn respond<N: Number, const S: usize>(
     mut sample: impl FnMut(usize, Kinematics<N>),
 ) {
     let h = input.grid_interval_s();
+    // How far from the start each stage is, in intervals, and its weight in the sum.
+    let stages = [(0.0, 1.0), (0.5, 2.0), (0.5, 2.0), (1.0, 1.0)];
     let mut plant = Plant::new(assembly, p, input);
-    let mut state = plant.initial_state::<S>();
-    let points = input.grid().len();
+    let mut state: [N; S] = initial_state(assembly.parts(), p);
+    let last = input.grid().len().saturating_sub(1);
     let mut torque = plant.acting_torque(0);
     let mut index = 0;
-    for point in 0..points {
+    for point in 0..input.grid().len() {
         plant.note(&state);
-        let start = plant.drive(point as f64, torque);
-        if point == index * input.substeps() {
-            sample(index, plant.motion(&start, &state));
-            index += 1;
+        let next = plant.acting_torque((point + 1).min(last));
+        let rise = if input.held() {
+            N::from(0.0)
+        } else {
+            next - torque
+        };
+        let (from, mut slope, mut sum) = (state, [N::from(0.0); S], [N::from(0.0); S]);
+        for (stage, (ahead, weight)) in stages.into_iter().enumerate() {
+            let drive = plant.drive(point as f64 + ahead, torque + rise * ahead);
+            let at = std::array::from_fn(|i| from[i] + slope[i] * (ahead * h));
+            slope = plant.rates(&drive, &at);
+            if stage == 0 && point == index * input.substeps() {
+                let motion = Kinematics {
+                    displacement_rad: state[0],
+                    velocity_rad_per_s: state[1],
+                    acceleration_rad_per_s2: slope[1],
+                };
+                sample(index, motion);
+                index += 1;
+            }
+            if point == last {
+                return;
+            }
+            for (sum, slope) in sum.iter_mut().zip(&slope) {
+                *sum += *slope * weight;
+            }
         }
-        if point + 1 < points {
-            let next = plant.acting_torque(point + 1);
-            let (middle, end) = if input.held() {
-                (torque, torque)
-            } else {
-                ((torque + next) * 0.5, next)
-            };
-            let middle = plant.drive(point as f64 + 0.5, middle);
-            let end = plant.drive(point as f64 + 1.0, end);
-            step(&plant, [&start, &middle, &end], h, &mut state);
-            torque = next;
+        for (value, sum) in state.iter_mut().zip(&sum) {
+            *value += *sum * (h / 6.0);
         }
-    }
-}
-
-/// One step of length `h` under what drives it at its start, middle and end.
-#[inline(always)]
-fn step<N: Number, const S: usize>(
-    plant: &Plant<N>,
-    [start, middle, end]: [&Drive<N>; 3],
-    h: f64,
-    state: &mut [N; S],
-) {
-    let from = *state;
-    let along = |rates: &[N; S], length: f64| -> [N; S] {
-        std::array::from_fn(|i| from[i] + rates[i] * length)
-    };
-    let k1 = plant.rates(start, &from);
-    let k2 = plant.rates(middle, &along(&k1, 0.5 * h));
-    let k3 = plant.rates(middle, &along(&k2, 0.5 * h));
-    let k4 = plant.rates(end, &along(&k3, h));
-    for (i, value) in state.iter_mut().enumerate() {
-        *value += (k1[i] + (k2[i] + k3[i]) * 2.0 + k4[i]) * (h / 6.0);
+        torque = next;
     }
 }

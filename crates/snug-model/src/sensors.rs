@@ -52,7 +52,8 @@ impl<'a, N: Number> Sensors<'a, N> {
         let since_rest_s = self.input.since_rest_s(index);
         self.parts.iter().fold(seen, |motion, part| {
             let own = &self.p[part.parameters.clone()];
-            part.effect.measure(own, since_rest_s, motion)
+            let measured = part.effect.measure(own, since_rest_s, motion);
+            measured.unwrap_or(motion)
         })
     }
 

@@ -5,16 +5,17 @@ use crate::effect::Kinematics;
 /// the whole signal.
 ///
 /// ```text
-/// y(t) = sensed(t) − (sensed(t0) − true(t0))
+/// y(t) = sensed(t) − sensed(t0)
 /// ```
 ///
-/// Only what the sensors add is zeroed there, so that a model without sensor effects stays as it is. Samples before t0
-/// wait until it is known.
+/// Only a model with sensor effects is asked for this: the original program, whose model has none, compares its own
+/// displacement as it is. A bias can put t0, the first minimum, well into the pulse. Samples before t0 wait until it is
+/// known.
 #[derive(Debug)]
 pub struct Zeroed<N> {
     zero_at: usize,
-    /// What the sensors add at t0 \[rad\], once known.
-    added: Option<N>,
+    /// The displacement at t0 \[rad\], once known.
+    zero: Option<N>,
     waiting: Vec<Kinematics<N>>,
 }
 
@@ -23,33 +24,32 @@ impl<N: Number> Zeroed<N> {
     pub fn new(zero_at: usize) -> Self {
         Self {
             zero_at,
-            added: None,
+            zero: None,
             waiting: Vec::with_capacity(zero_at + 1),
         }
     }
 
-    /// The next sample, which is number `index`: true displacement \[rad\] and sensed motion; hands on what can be.
+    /// The next sample, which is number `index`; hands on what can be.
     pub fn sample(
         &mut self,
         index: usize,
-        true_rad: N,
         sensed: Kinematics<N>,
         mut hand_on: impl FnMut(usize, &Kinematics<N>),
     ) {
-        let without = |seen: Kinematics<N>, added: N| Kinematics {
-            displacement_rad: seen.displacement_rad - added,
+        let without = |seen: Kinematics<N>, zero: N| Kinematics {
+            displacement_rad: seen.displacement_rad - zero,
             ..seen
         };
-        if let Some(added) = self.added {
-            return hand_on(index, &without(sensed, added));
+        if let Some(zero) = self.zero {
+            return hand_on(index, &without(sensed, zero));
         }
         self.waiting.push(sensed);
         if index == self.zero_at {
-            let added = sensed.displacement_rad - true_rad;
+            let zero = sensed.displacement_rad;
             for (earlier, seen) in self.waiting.drain(..).enumerate() {
-                hand_on(earlier, &without(seen, added));
+                hand_on(earlier, &without(seen, zero));
             }
-            self.added = Some(added);
+            self.zero = Some(zero);
         }
     }
 }

@@ -9,6 +9,8 @@ pub struct Prepared {
     pub tightening: Tightening,
     /// The original program's look at the displacement; `None` unless the preset is `Thesis`.
     pub thesis_checks: Option<ThesisChecks>,
+    /// Index into the window of the sample whose displacement was taken as zero; `None` unless the preset is `Thesis`.
+    pub zero_sample: Option<usize>,
     /// Whether a fault of the data (see the findings) keeps it out of the statistics.
     pub data_quality_rejects: bool,
 }

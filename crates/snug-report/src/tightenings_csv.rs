@@ -1,7 +1,7 @@
 //! `tightenings.csv`: one row per tightening, every digit, SI units.
 
 use crate::outcome::status_name;
-use snug_campaign::{CampaignResult, Estimate, FitMeasures, TighteningResult};
+use snug_campaign::{CampaignResult, Estimate, FitMeasures, SignalUnits, TighteningResult};
 
 /// The first columns, whose names and order other programs rely on.
 const LEADING: [&str; 15] = [
@@ -83,7 +83,12 @@ pub fn tightenings_csv(result: &CampaignResult) -> String {
         .expect("writing to memory does not fail");
     for tightening in &result.tightenings {
         writer
-            .write_record(row(tightening, &effect_parameters, &corrections))
+            .write_record(row(
+                tightening,
+                &result.units,
+                &effect_parameters,
+                &corrections,
+            ))
             .expect("every row has the header's length");
     }
     let bytes = writer.into_inner().expect("flushing memory does not fail");
@@ -126,11 +131,12 @@ fn header(effect_parameters: &[&str], corrections: &[&str]) -> Vec<String> {
 
 fn row(
     tightening: &TighteningResult,
+    units: &SignalUnits,
     effect_parameters: &[&str],
     corrections: &[&str],
 ) -> Vec<String> {
     let estimate = tightening.estimate.as_ref();
-    let mut fields = leading_fields(tightening);
+    let mut fields = leading_fields(tightening, units);
     for name in BASE_PARAMETERS {
         fields.extend(interval_fields(estimate, name));
     }
@@ -169,7 +175,7 @@ fn row(
     fields
 }
 
-fn leading_fields(tightening: &TighteningResult) -> Vec<String> {
+fn leading_fields(tightening: &TighteningResult, units: &SignalUnits) -> Vec<String> {
     let conditions = &tightening.conditions;
     let measures = &tightening.measures;
     let value = |name| {
@@ -193,7 +199,11 @@ fn leading_fields(tightening: &TighteningResult) -> Vec<String> {
         conditions.strategy.clone().unwrap_or_default(),
         conditions.joint.clone().unwrap_or_default(),
         number(conditions.pace_per_min),
-        number(Some(tightening.target_torque_nm)),
+        number(
+            units
+                .input_is_torque()
+                .then_some(tightening.target_torque_nm),
+        ),
         value("mass_kg"),
         value("damping_kg_per_s"),
         value("stiffness_n_per_m"),

@@ -8,15 +8,32 @@ use snug_diagnose::Case;
 use snug_preprocess::preprocess;
 use std::path::{Path, PathBuf};
 
-/// Reads and prepares every file; tightenings with faulty data and those kept for validation take no part.
-pub fn cases(study: &Study, files: &[PathBuf]) -> Result<(Vec<Case>, Vec<Finding>), StudyError> {
-    let read: Vec<_> = files
+/// Reads and prepares at most `most` tightenings, evenly spread over the files and within each; tightenings with faulty
+/// data and those kept for validation take no part.
+pub fn cases(
+    study: &Study,
+    files: &[PathBuf],
+    most: usize,
+) -> Result<(Vec<Case>, Vec<Finding>), StudyError> {
+    let stride = files.len().div_ceil(most.max(1)).max(1);
+    let some: Vec<&PathBuf> = files.iter().step_by(stride).collect();
+    let most_each = (most / some.len().max(1)).max(1);
+    let read = some
         .par_iter()
-        .map(|path| cases_of_file(study, path))
-        .collect();
+        .map(|path| {
+            let (mut cases, findings) = cases_of_file(study, path)?;
+            let stride = cases.len().div_ceil(most_each).max(1);
+            let mut index = 0;
+            cases.retain(|_| {
+                index += 1;
+                (index - 1) % stride == 0
+            });
+            Ok((cases, findings))
+        })
+        .collect::<Vec<Result<_, StudyError>>>();
     let (mut cases, mut findings) = (Vec::new(), Vec::new());
     for file in read {
-        let (some, found) = file?;
+        let (some, found): (Vec<Case>, Vec<Finding>) = file?;
         cases.extend(some);
         findings.extend(found);
     }
@@ -39,6 +56,7 @@ fn cases_of_file(study: &Study, path: &Path) -> Result<(Vec<Case>, Vec<Finding>)
             if faulty || only_simulated.contains(&one.tightening.id.number) {
                 continue;
             }
+            let input = input(study, &one);
             let tightening = one.tightening;
             let fitted = study.identify.fitted_output;
             // The noise is known of what was measured: that is where model and measurement are best compared.
@@ -50,7 +68,7 @@ fn cases_of_file(study: &Study, path: &Path) -> Result<(Vec<Case>, Vec<Finding>)
                 .unwrap_or(fitted);
             let case = Case {
                 model: study.model.model(tightening.rig)?,
-                input: input(study, &tightening),
+                input,
                 quantity,
                 unscored: study.identify.unscored_samples,
                 constraints: study.identify.constraints.clone(),

@@ -1,4 +1,5 @@
 use crate::position;
+use snug_diagnose::DiagnoseError;
 use snug_identify::IdentifyError;
 use snug_ingest::IngestError;
 use snug_model::ModelError;
@@ -48,6 +49,26 @@ pub enum StudyError {
     Serialize {
         /// Why.
         source: ron::Error,
+    },
+    /// The work was stopped before anything could be written.
+    #[error("interrupted before there was a result; nothing was written")]
+    Interrupted,
+    /// The diagnosis could not be made.
+    #[error(transparent)]
+    Diagnose(#[from] DiagnoseError),
+    /// An effect is to be added that the model has already.
+    #[error("the model has {effect} already")]
+    AlreadyInModel {
+        /// The effect.
+        effect: String,
+    },
+    /// An effect is to be taken out that the model does not have.
+    #[error("the model does not have {effect}; it has {present:?}")]
+    NotInModel {
+        /// The effect.
+        effect: String,
+        /// What the model has.
+        present: Vec<String>,
     },
     /// A setting of the study's own is not allowed.
     #[error("{setting} is {value}, allowed is {allowed}")]
@@ -144,6 +165,8 @@ impl StudyError {
                 | Self::Record(RecordError::Setting { .. })
                 | Self::Preprocess(_)
                 | Self::Model(_)
+                | Self::AlreadyInModel { .. }
+                | Self::NotInModel { .. }
         )
     }
 

@@ -2,15 +2,15 @@
 
 use crate::{Study, StudyError};
 use snug_campaign::{
-    Estimate, FitMeasures, FitStatus, Motion, Recording, Rejection, Segment, Selection, Tightening,
-    TighteningId, TighteningResult, Traces,
+    Estimate, FitMeasures, FitStatus, Motion, Quantity, Recording, Rejection, Segment, Selection,
+    Tightening, TighteningId, TighteningResult, Traces,
 };
 use snug_identify::{agreement, derived, identify};
 use snug_model::{
-    BASE_PARAMETERS, Input, Model, euler_displacement, inverse_dynamics_force, spring_damper_force,
-    thesis_damping_ratio,
+    BASE_PARAMETERS, Input, Law, Model, euler_displacement, inverse_dynamics_force,
+    spring_damper_force, thesis_damping_ratio,
 };
-use snug_preprocess::{Prepared, Preset, target_torque_nm};
+use snug_preprocess::{Prepared, Preset, ThesisChecks, target_torque_nm};
 
 /// A tightening's result with its signals.
 pub struct Evaluated {
@@ -24,7 +24,7 @@ pub struct Evaluated {
 pub fn fitted(study: &Study, prepared: &Prepared) -> Result<Evaluated, StudyError> {
     let tightening = &prepared.tightening;
     let model = study.model.model(tightening.rig)?;
-    let input = input(study, tightening);
+    let input = input(study, prepared);
     let estimate = identify(&model, &input, tightening, &study.identify)?;
     tracing::debug!(
         tightening = tightening.id.number,
@@ -42,7 +42,8 @@ pub fn fitted(study: &Study, prepared: &Prepared) -> Result<Evaluated, StudyErro
         estimate,
         study.identify.unscored_samples,
         |estimate, measures| {
-            let mut rejections = prepared.rejections();
+            let values: Vec<f64> = estimate.parameters.iter().map(|p| p.value).collect();
+            let mut rejections = preparation_rejections(prepared, &model, &input, &values);
             rejections.extend(study.selection.rejections(preset, estimate, measures));
             rejections
         },
@@ -57,7 +58,7 @@ pub fn validated(
 ) -> Result<Evaluated, StudyError> {
     let tightening = &prepared.tightening;
     let model = study.model.model(tightening.rig)?;
-    let input = input(study, tightening);
+    let input = input(study, prepared);
     let mut estimate = estimate.clone();
     for parameter in &mut estimate.parameters {
         parameter.standard_error = None;
@@ -107,16 +108,63 @@ pub fn without_estimate(study: &Study, recording: &Recording, segment: &Segment)
 }
 
 /// The input as the study says it behaves, when its pulse begins and since when the sensor's signal has been integrated.
-pub fn input(study: &Study, tightening: &Tightening) -> Input {
+pub fn input(study: &Study, prepared: &Prepared) -> Input {
+    let tightening = &prepared.tightening;
     let interval_s = tightening.time_base.interval_s;
     let onset_s = tightening.onset.unwrap_or(0) as f64 * interval_s;
     let input =
         Input::new(&tightening.torque_nm, interval_s, study.model.intersample).with_onset(onset_s);
     match study.preprocess.preset {
         // The original integrates from the segment's start, where its time is 0.
-        Preset::Thesis => input.with_rest_before(tightening.time_base.start_s),
+        Preset::Thesis => input
+            .with_rest_before(tightening.time_base.start_s)
+            .with_zero_at(prepared.zero_sample),
         Preset::Snug => input,
     }
+}
+
+/// What preparation rejects a tightening for, once the model's sensor effects are taken out of the displacement.
+///
+/// The original program looks at the displacement before any fit; a bias that the model has found is no reason any more.
+fn preparation_rejections(
+    prepared: &Prepared,
+    model: &Model,
+    input: &Input,
+    values: &[f64],
+) -> Vec<Rejection> {
+    let sensors = || model.effects().filter(|effect| effect.measurement_only());
+    let measured = prepared.tightening.motion.displacement_rad.as_ref();
+    let (Some(_), Some(measured), true) =
+        (prepared.thesis_checks, measured, sensors().next().is_some())
+    else {
+        return prepared.rejections();
+    };
+    let plain = sensors().try_fold(model.clone(), |model, effect| model.without_effect(effect));
+    let Ok(plain) = plain else {
+        return prepared.rejections();
+    };
+    let kept = |name: &str| model.parameters().iter().position(|p| p.name == name);
+    let own: Option<Vec<f64>> = (plain.parameters().iter())
+        .map(|parameter| kept(&parameter.name).map(|index| values[index]))
+        .collect();
+    let displacement = |model: &Model, values: &[f64]| {
+        let mut output = vec![0.0; measured.len()];
+        model.output(values, input, Quantity::Displacement, &mut output);
+        output
+    };
+    let Some(own) = own else {
+        return prepared.rejections();
+    };
+    let sensed = displacement(model, values);
+    let moved = displacement(&plain, &own);
+    let corrected: Vec<f64> = (measured.iter().zip(sensed.iter().zip(&moved)))
+        .map(|(measured, (sensed, moved))| measured - (sensed - moved))
+        .collect();
+    Prepared {
+        thesis_checks: Some(ThesisChecks::of(&corrected)),
+        ..prepared.clone()
+    }
+    .rejections()
 }
 
 /// Everything that follows from a tightening and its parameters.

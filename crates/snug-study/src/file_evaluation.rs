@@ -62,6 +62,19 @@ pub fn evaluate_file(study: &Study, path: &Path) -> Result<FileEvaluation, Study
     })
 }
 
+/// Reads, prepares and evaluates one file under the study's own preset only; what cannot be read is left out.
+pub fn evaluate_alone(study: &Study, path: &Path) -> Result<Vec<Evaluated>, StudyError> {
+    let lever_arm_m = study.preprocess.rig.lever_arm_m;
+    let Ok(ingested) = snug_ingest::read(&study.source, path, lever_arm_m) else {
+        return Ok(Vec::new());
+    };
+    let mut evaluated = Vec::new();
+    for recording in &ingested.recordings {
+        evaluated.extend(evaluate(study, recording, &mut Vec::new())?);
+    }
+    Ok(evaluated)
+}
+
 /// What preset `snug` found, for a run of the original program, which looks for nothing: told, without consequence.
 fn as_note(finding: Finding) -> Finding {
     Finding {

@@ -1,22 +1,26 @@
 #![doc = include_str!("../README.md")]
 
-mod error;
 mod cases;
+mod diagnosis;
+mod error;
 mod evaluation;
 mod examples;
 mod file_evaluation;
 mod position;
 mod progress;
+mod rewriting;
 mod run;
 mod selection;
 mod statistics;
 mod study;
 
+#[doc(hidden)]
+pub use cases::cases;
+pub use diagnosis::{DiagnosisSettings, Verb, diagnose};
 pub use error::StudyError;
 pub use progress::ProgressEvent;
+pub use rewriting::rewrite_effects;
 pub use run::{Outcome, RunSettings, run};
 pub use selection::SelectionSettings;
 pub use snug_preprocess::Preset;
 pub use study::{Study, ValidationSettings};
-#[doc(hidden)]
-pub use cases::cases;

@@ -1,6 +1,6 @@
 /// What a run tells while it works.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ProgressEvent {
+pub enum ProgressEvent<'a> {
     /// The files are listed.
     Started {
         /// How many.
@@ -11,9 +11,14 @@ pub enum ProgressEvent {
         /// Tightenings evaluated so far.
         tightenings: usize,
     },
+    /// A stage of a diagnosis begins.
+    Stage {
+        /// Which.
+        what: &'a str,
+    },
     /// Results are being written.
     Writing {
         /// Which.
-        what: &'static str,
+        what: &'a str,
     },
 }

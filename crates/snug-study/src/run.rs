@@ -6,8 +6,8 @@ use crate::file_evaluation::{FileEvaluation, evaluate_file, other, outcomes};
 use crate::{ProgressEvent, Study, StudyError, statistics};
 use rayon::prelude::*;
 use snug_campaign::{
-    CampaignResult, Finding, PresetSummary, Rejection, RejectionCount, Severity, TighteningId,
-    TighteningResult,
+    CampaignResult, Diagnosis, Finding, PresetSummary, Rejection, RejectionCount, Severity,
+    TighteningId, TighteningResult,
 };
 use snug_record::Recorder;
 use std::collections::BTreeMap;
@@ -62,7 +62,18 @@ struct Collected {
 pub fn run(
     study: &Study,
     settings: &RunSettings,
-    progress: &(dyn Fn(ProgressEvent) + Sync),
+    progress: &(dyn Fn(ProgressEvent<'_>) + Sync),
+    interrupted: &AtomicBool,
+) -> Result<Outcome, StudyError> {
+    run_with(study, None, settings, progress, interrupted)
+}
+
+/// The same, with what a diagnosis found out told beside it.
+pub(crate) fn run_with(
+    study: &Study,
+    diagnosis: Option<Diagnosis>,
+    settings: &RunSettings,
+    progress: &(dyn Fn(ProgressEvent<'_>) + Sync),
     interrupted: &AtomicBool,
 ) -> Result<Outcome, StudyError> {
     study.check()?;
@@ -101,8 +112,12 @@ pub fn run(
     }
 
     progress(ProgressEvent::Writing { what: "statistics" });
-    let result = collected.result(study, study_ron);
+    let mut result = collected.result(study, study_ron);
+    result.diagnosis = diagnosis;
     recorder.statistics(&result.conditions, &result.tests)?;
+    if let Some(diagnosis) = &result.diagnosis {
+        recorder.diagnosis(diagnosis)?;
+    }
     recorder.finish()?;
     let layout_path = settings.out.join("snug-layout.json");
     let names: Vec<&str> = parameter_names(&result);
@@ -166,8 +181,9 @@ impl Collected {
             .iter()
             .filter(|t| !t.selection.rejections.contains(&Rejection::Validation))
             .collect();
-        let conditions = statistics::summaries(&fitted);
-        let tests = statistics::rows(&fitted, study.seed);
+        let units = study.source.units(study.preprocess.rig.lever_arm_m);
+        let conditions = statistics::summaries(&fitted, &units);
+        let tests = statistics::rows(&fitted, &units, study.seed);
         let mut presets = vec![preset_summary(study, self.here)];
         presets.extend(other(study).map(|other| preset_summary(&other, self.there)));
         CampaignResult {
@@ -175,7 +191,7 @@ impl Collected {
             study_ron,
             preset: study.preprocess.preset.name().to_owned(),
             fitted_output: format!("{:?}", study.identify.fitted_output).to_lowercase(),
-            units: study.source.units(study.preprocess.rig.lever_arm_m),
+            units,
             effects: study.model.effects.clone(),
             presets,
             conditions,
@@ -238,7 +254,7 @@ fn runnable_anywhere(study: &Study) -> Result<Study, StudyError> {
     Ok(study)
 }
 
-fn pool(threads: Option<usize>) -> Result<rayon::ThreadPool, StudyError> {
+pub(crate) fn pool(threads: Option<usize>) -> Result<rayon::ThreadPool, StudyError> {
     let threads = threads.unwrap_or(0);
     rayon::ThreadPoolBuilder::new()
         .num_threads(threads)

@@ -1,4 +1,4 @@
-use crate::StudyError;
+use crate::{DiagnosisSettings, StudyError};
 use ron::extensions::Extensions;
 use serde::{Deserialize, Serialize};
 use snug_campaign::{Intersample, Quantity};
@@ -31,6 +31,8 @@ pub struct Study {
     pub selection: SelectionSettings,
     /// What is only simulated, with the parameters of the others.
     pub validation: ValidationSettings,
+    /// How the missing effect is looked for.
+    pub diagnosis: DiagnosisSettings,
     /// The recording.
     pub record: RecordSettings,
     /// Seed of everything random (permutation tests); default 0.
@@ -134,6 +136,7 @@ impl Study {
         self.preprocess.check()?;
         self.identify.solver.check()?;
         self.record.check()?;
+        self.diagnosis.check()?;
         self.selection.check()?;
         self.source.check()?;
         self.check_scored()?;
@@ -191,6 +194,22 @@ impl Study {
         Ok(())
     }
 
+    /// Checks that effects exist and are not yet in the model.
+    ///
+    /// # Errors
+    /// [`StudyError::Model`] names the known ones, [`StudyError::AlreadyInModel`] what is there.
+    pub fn check_effects(&self, names: &[String]) -> Result<(), StudyError> {
+        for name in names {
+            self.model.effect(name)?;
+            if self.model.effects.contains(name) {
+                return Err(StudyError::AlreadyInModel {
+                    effect: name.clone(),
+                });
+            }
+        }
+        Ok(())
+    }
+
     /// The study's title, or the data's name where it has none.
     pub fn title(&self) -> String {
         if self.title.is_empty() {
@@ -228,7 +247,7 @@ impl PresetChoices {
 }
 
 /// `Option` fields are written as plain values, and `Csv(channels: …)` needs no second pair of parentheses.
-fn options() -> ron::Options {
+pub(crate) fn options() -> ron::Options {
     ron::Options::default()
         .with_default_extension(Extensions::IMPLICIT_SOME | Extensions::UNWRAP_VARIANT_NEWTYPES)
 }

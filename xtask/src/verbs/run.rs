@@ -1,7 +1,7 @@
 use crate::arguments::{PresetName, RunOptions};
 use crate::progress::Progress;
 use crate::{diagnosis_summary, exit, summary, workspace};
-use snug_study::{Preset, RunSettings, Study, StudyError};
+use snug_study::{Outcome, Preset, ProgressEvent, RunSettings, Study, StudyError};
 use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -15,6 +15,20 @@ pub fn run(options: &RunOptions) -> ExitCode {
             return exit::bad_arguments();
         }
     };
+    carry_out(options, "", |settings, progress, interrupted| {
+        snug_study::run(&study, settings, progress, interrupted)
+    })
+}
+
+/// How a verb hears of progress.
+type Tell<'a> = &'a (dyn Fn(ProgressEvent<'_>) + Sync);
+
+/// Does the work with progress, stops it politely on Ctrl-C, prints the summary and chooses the exit code.
+pub fn carry_out(
+    options: &RunOptions,
+    next: &str,
+    work: impl FnOnce(&RunSettings, Tell<'_>, &AtomicBool) -> Result<Outcome, StudyError>,
+) -> ExitCode {
     let settings = RunSettings {
         out: options.out.clone(),
         threads: options.threads.map(usize::from),
@@ -25,36 +39,21 @@ pub fn run(options: &RunOptions) -> ExitCode {
         tracing::warn!(%error, "Ctrl-C will stop at once instead of after the current file");
     }
     let progress = Progress::new(options.quiet);
-    let outcome = snug_study::run(
-        &study,
-        &settings,
-        &|event| progress.report(event),
-        &interrupted,
-    );
+    let outcome = work(&settings, &|event| progress.report(event), &interrupted);
     progress.finish();
     match outcome {
         Ok(outcome) => {
             if !options.quiet {
-                print!("{}", summary::of_run(&outcome));
-                if let Some(diagnosis) = &outcome.result.diagnosis {
-                    diagnosis_summary::print(diagnosis, "");
+                match &outcome.result.diagnosis {
+                    Some(diagnosis) => diagnosis_summary::print(diagnosis, next),
+                    None => print!("{}", summary::of_run(&outcome)),
                 }
             }
-            let evaluated = outcome
-                .result
-                .tightenings
-                .iter()
-                .any(|t| t.estimate.is_some());
-            if outcome.interrupted {
-                exit::interrupted()
-            } else if !evaluated {
-                eprintln!("no tightening could be evaluated; findings.json says why");
-                exit::failed()
-            } else if outcome.left_out > 0 {
-                exit::left_out()
-            } else {
-                exit::DONE
-            }
+            exit_code(&outcome)
+        }
+        Err(StudyError::Interrupted) => {
+            eprintln!("{}", StudyError::Interrupted);
+            exit::interrupted()
         }
         Err(error) => {
             eprintln!("{error}");
@@ -67,8 +66,23 @@ pub fn run(options: &RunOptions) -> ExitCode {
     }
 }
 
+fn exit_code(outcome: &Outcome) -> ExitCode {
+    let tightenings = &outcome.result.tightenings;
+    let evaluated = tightenings.iter().any(|t| t.estimate.is_some());
+    if outcome.interrupted {
+        exit::interrupted()
+    } else if !evaluated {
+        eprintln!("no tightening could be evaluated; findings.json says why");
+        exit::failed()
+    } else if outcome.left_out > 0 {
+        exit::left_out()
+    } else {
+        exit::DONE
+    }
+}
+
 /// The study file, or the thesis' defaults, with what the command line overrides.
-fn study(options: &RunOptions) -> Result<Study, StudyError> {
+pub fn study(options: &RunOptions) -> Result<Study, StudyError> {
     let mut study = match &options.study {
         Some(path) => Study::read(path)?,
         None => Study::on(workspace::embedded_campaign()),

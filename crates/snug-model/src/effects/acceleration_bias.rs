@@ -38,12 +38,12 @@ impl Law for AccelerationBias {
         p: &[N],
         since_rest_s: f64,
         motion: Kinematics<N>,
-    ) -> Kinematics<N> {
-        Kinematics {
+    ) -> Option<Kinematics<N>> {
+        Some(Kinematics {
             displacement_rad: motion.displacement_rad + p[0] * (0.5 * since_rest_s * since_rest_s),
             velocity_rad_per_s: motion.velocity_rad_per_s + p[0] * since_rest_s,
             acceleration_rad_per_s2: motion.acceleration_rad_per_s2 + p[0],
-        }
+        })
     }
 
     fn measurement_only(&self) -> bool {

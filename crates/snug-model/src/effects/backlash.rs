@@ -42,15 +42,15 @@ impl Law for Backlash {
     }
 
     #[inline(always)]
-    fn deflection<N: Number>(&self, p: &[N], between: Deflection<N>) -> Deflection<N> {
+    fn deflection<N: Number>(&self, p: &[N], between: Deflection<N>) -> Option<Deflection<N>> {
         let rounding = SKIN_M * SKIN_M;
         let (above, below) = (between.x_m - p[0], between.x_m + p[0]);
         let from_above = (above * above + rounding).sqrt();
         let from_below = (below * below + rounding).sqrt();
         let slope = (above / from_above - below / from_below) * 0.5 + 1.0;
-        Deflection {
+        Some(Deflection {
             x_m: between.x_m + (from_above - from_below) * 0.5,
             v_m_per_s: between.v_m_per_s * slope,
-        }
+        })
     }
 }

@@ -45,8 +45,8 @@ impl Law for BoucWen {
     }
 
     #[inline(always)]
-    fn force<N: Number>(&self, p: &[N], _at: &Instant<N>, own: &[N]) -> N {
-        p[0] * own[0]
+    fn force<N: Number>(&self, p: &[N], _at: &Instant<N>, own: &[N]) -> Option<N> {
+        Some(p[0] * own[0])
     }
 
     #[inline(always)]

@@ -36,7 +36,7 @@ impl Law for CoulombFriction {
     }
 
     #[inline(always)]
-    fn force<N: Number>(&self, p: &[N], at: &Instant<N>, _own: &[N]) -> N {
-        p[0] * (at.v_m_per_s * (1.0 / SMOOTHING_M_PER_S)).tanh()
+    fn force<N: Number>(&self, p: &[N], at: &Instant<N>, _own: &[N]) -> Option<N> {
+        Some(p[0] * (at.v_m_per_s * (1.0 / SMOOTHING_M_PER_S)).tanh())
     }
 }

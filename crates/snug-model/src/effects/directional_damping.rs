@@ -34,11 +34,11 @@ impl Law for DirectionalDamping {
     }
 
     #[inline(always)]
-    fn force<N: Number>(&self, p: &[N], at: &Instant<N>, _own: &[N]) -> N {
-        if at.v_m_per_s.value() < 0.0 {
+    fn force<N: Number>(&self, p: &[N], at: &Instant<N>, _own: &[N]) -> Option<N> {
+        Some(if at.v_m_per_s.value() < 0.0 {
             p[0] * at.v_m_per_s
         } else {
             N::from(0.0)
-        }
+        })
     }
 }

@@ -34,7 +34,7 @@ impl Law for GripSlip {
     }
 
     #[inline(always)]
-    fn limit<N: Number>(&self, p: &[N], force_n: N) -> N {
-        p[0] * (force_n / p[0]).tanh()
+    fn limit<N: Number>(&self, p: &[N], force_n: N) -> Option<N> {
+        Some(p[0] * (force_n / p[0]).tanh())
     }
 }

@@ -43,8 +43,8 @@ impl Law for MaxwellBranch {
     }
 
     #[inline(always)]
-    fn force<N: Number>(&self, _p: &[N], _at: &Instant<N>, own: &[N]) -> N {
-        own[0]
+    fn force<N: Number>(&self, _p: &[N], _at: &Instant<N>, own: &[N]) -> Option<N> {
+        Some(own[0])
     }
 
     #[inline(always)]

@@ -37,12 +37,12 @@ impl Law for OutputOffset {
         p: &[N],
         _since_rest_s: f64,
         motion: Kinematics<N>,
-    ) -> Kinematics<N> {
-        Kinematics {
+    ) -> Option<Kinematics<N>> {
+        Some(Kinematics {
             displacement_rad: motion.displacement_rad + p[0],
             velocity_rad_per_s: motion.velocity_rad_per_s + p[0],
             acceleration_rad_per_s2: motion.acceleration_rad_per_s2 + p[0],
-        }
+        })
     }
 
     fn measurement_only(&self) -> bool {

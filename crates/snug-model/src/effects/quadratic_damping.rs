@@ -34,7 +34,7 @@ impl Law for QuadraticDamping {
     }
 
     #[inline(always)]
-    fn force<N: Number>(&self, p: &[N], at: &Instant<N>, _own: &[N]) -> N {
-        p[0] * (at.v_m_per_s * at.v_m_per_s.abs())
+    fn force<N: Number>(&self, p: &[N], at: &Instant<N>, _own: &[N]) -> Option<N> {
+        Some(p[0] * (at.v_m_per_s * at.v_m_per_s.abs()))
     }
 }

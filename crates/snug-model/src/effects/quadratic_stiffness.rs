@@ -34,7 +34,7 @@ impl Law for QuadraticStiffness {
     }
 
     #[inline(always)]
-    fn force<N: Number>(&self, p: &[N], at: &Instant<N>, _own: &[N]) -> N {
-        p[0] * (at.x_m * at.x_m)
+    fn force<N: Number>(&self, p: &[N], at: &Instant<N>, _own: &[N]) -> Option<N> {
+        Some(p[0] * (at.x_m * at.x_m))
     }
 }

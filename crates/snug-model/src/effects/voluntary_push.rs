@@ -48,7 +48,7 @@ impl Law for VoluntaryPush {
     }
 
     #[inline(always)]
-    fn force<N: Number>(&self, p: &[N], at: &Instant<N>, _own: &[N]) -> N {
-        p[0] * ((-p[1] + at.since_onset_s) / p[2]).smooth_step()
+    fn force<N: Number>(&self, p: &[N], at: &Instant<N>, _own: &[N]) -> Option<N> {
+        Some(p[0] * ((-p[1] + at.since_onset_s) / p[2]).smooth_step())
     }
 }

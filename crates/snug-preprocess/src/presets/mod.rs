@@ -93,9 +93,9 @@ impl Context<'_> {
                 continue;
             };
             let what = format!(
-                "{} of {} ms without finite samples at {:.4} s, at most {:.3} ms can be bridged",
-                channel.name(),
+                "{:.3} ms of {} without finite samples at {:.4} s, at most {:.3} ms can be bridged",
                 1e3 * gap.len() as f64 * self.interval_s,
+                channel.name(),
                 gap.start as f64 * self.interval_s,
                 1e3 * self.settings.quality.repair_gap_s
             );

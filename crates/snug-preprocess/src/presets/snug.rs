@@ -73,6 +73,7 @@ pub(crate) fn prepare(
     Ok(Prepared {
         tightening,
         thesis_checks: None,
+        zero_sample: None,
         data_quality_rejects: remarks.rejects(),
     })
 }

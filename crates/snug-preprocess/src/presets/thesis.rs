@@ -58,7 +58,8 @@ pub(crate) fn prepare(
         .displacement_rad
         .as_deref_mut()
         .unwrap_or_default();
-    if let Some(index) = zero_index(displacement, context.interval_s) {
+    let zero_sample = zero_index(displacement, context.interval_s);
+    if let Some(index) = zero_sample {
         let offset = displacement[index];
         displacement.iter_mut().for_each(|value| *value -= offset);
     }
@@ -68,6 +69,7 @@ pub(crate) fn prepare(
     Ok(Prepared {
         tightening,
         thesis_checks: Some(checks),
+        zero_sample,
         data_quality_rejects: false,
     })
 }

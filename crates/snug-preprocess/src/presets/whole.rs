@@ -33,6 +33,7 @@ pub(crate) fn prepare(
     Ok(Prepared {
         tightening: context.tightening(remarks, signals, 0, peak),
         thesis_checks: None,
+        zero_sample: None,
         data_quality_rejects: false,
     })
 }

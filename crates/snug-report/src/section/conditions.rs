@@ -21,12 +21,11 @@ fn render(result: &CampaignResult) -> Markup {
         return nothing("There are no groups to compare.");
     }
     html! {
-        p {
-            "Each dot is the mean of the selected tightenings of a group with its 95 % interval (thick); the thin line reaches \
-            one standard deviation to both sides, which is how much single tightenings differ."
+        @if anything_selected(&quantities, result) {
+            (drawings(&quantities, result))
+        } @else {
+            (nothing("No tightening is selected, so there are no means to draw."))
         }
-        (legend(&[("c-selected", "mean and 95 % interval"), ("c-quiet", "± standard deviation")]))
-        div.figures.small { @for column in &quantities { (drawing(column, result)) } }
         (table("Selected tightenings: mean [95 % interval], standard deviation (SD), count (n)", &quantities, result, |row| {
             row.selected.as_ref()
         }))
@@ -34,6 +33,25 @@ fn render(result: &CampaignResult) -> Markup {
             summary { "The same over the rejected tightenings that have an estimate" }
             (table("Rejected tightenings", &quantities, result, |row| row.rejected.as_ref()))
         }
+    }
+}
+
+fn anything_selected(quantities: &[&str], result: &CampaignResult) -> bool {
+    result.conditions.iter().any(|summary| {
+        quantities
+            .iter()
+            .any(|column| moments(summary, column, |row| row.selected.as_ref()).is_some())
+    })
+}
+
+fn drawings(quantities: &[&str], result: &CampaignResult) -> Markup {
+    html! {
+        p {
+            "Each dot is the mean of the selected tightenings of a group with its 95 % interval (thick); the thin line reaches \
+            one standard deviation to both sides, which is how much single tightenings differ."
+        }
+        (legend(&[("c-selected", "mean and 95 % interval"), ("c-quiet", "± standard deviation")]))
+        div.figures.small { @for column in quantities { (drawing(column, result)) } }
     }
 }
 

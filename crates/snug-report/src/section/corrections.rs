@@ -1,4 +1,5 @@
 use super::{Section, nothing};
+use crate::effect_words::unit_text;
 use crate::figure::{Axis, Dot, Figure, Mark, Segment, captioned, legend, linear_range};
 use crate::number::{missing, percent, share, significant};
 use crate::quartiles::Quartiles;
@@ -88,8 +89,10 @@ fn table_row(row: &Corrected) -> Markup {
     } }
 }
 
-fn unit<'a>(row: &Corrected<'a>) -> &'a str {
-    row.sizes.first().map_or("", |(_, c)| c.unit.as_str())
+fn unit(row: &Corrected) -> String {
+    row.sizes
+        .first()
+        .map_or_else(String::new, |(_, c)| unit_text(&c.unit))
 }
 
 /// Size with 95 % interval, tightening by tightening.
@@ -162,7 +165,7 @@ fn sizes(
             result.tightenings[index].id,
             significant(correction.value, 3),
             significant(correction.standard_error, 2),
-            correction.unit
+            unit_text(&correction.unit)
         ),
     });
     [

@@ -1,4 +1,4 @@
-use super::Section;
+use super::{Section, nothing};
 use maud::{Markup, html};
 use snug_campaign::CampaignResult;
 
@@ -74,7 +74,16 @@ const DEVIATIONS: [(&str, &str, &str); 11] = [
     ),
 ];
 
-fn render(_: &CampaignResult) -> Markup {
+fn render(result: &CampaignResult) -> Markup {
+    if !result
+        .presets
+        .iter()
+        .any(|preset| preset.preset == "thesis")
+    {
+        return nothing(
+            "The preset thesis is for nutrunner campaigns; it was not applied to this rig.",
+        );
+    }
     html! {
         p { "The preset " strong { "thesis" } " follows the original program even where it errs, so that old and new results can be compared." }
         div.scroll { table.prose {

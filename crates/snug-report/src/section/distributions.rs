@@ -1,4 +1,4 @@
-use super::{Section, counted, nothing};
+use super::{Section, counted, fitted, nothing};
 use crate::figure::{Axis, Bar, Figure, Mark, Segment, captioned, legend, round_step};
 use crate::number::significant;
 use crate::quantity;
@@ -17,6 +17,8 @@ pub const SECTION: Section = Section {
 
 /// About how many bars a histogram has.
 const BARS: usize = 18;
+/// Width of an axis over the values it shows, at the least.
+const SPAN_RATIO: f64 = 0.02;
 
 fn render(result: &CampaignResult) -> Markup {
     let mut columns = vec![
@@ -63,9 +65,7 @@ fn always_shown(column: &str) -> Option<(f64, f64)> {
 /// `None` where no tightening has a value.
 fn histogram(column: &str, result: &CampaignResult) -> Option<Markup> {
     let split = |wanted: bool| -> Vec<f64> {
-        result
-            .tightenings
-            .iter()
+        fitted(result)
             .filter(|tightening| tightening.selection.selected() == wanted)
             .filter_map(|tightening| value(tightening, column))
             .collect()
@@ -105,7 +105,12 @@ fn histogram(column: &str, result: &CampaignResult) -> Option<Markup> {
         let all = Quartiles::of(selected.iter().chain(&rejected).copied());
         let (low, high) = all.map_or((f64::NAN, f64::NAN), |all| (all.minimum, all.maximum));
         format!(
-            "{outside} values lie beyond the axis; the smallest is {}, the largest {}{}.",
+            "{} beyond the axis; the smallest is {}, the largest {}{}.",
+            if outside == 1 {
+                "1 value lies".to_owned()
+            } else {
+                format!("{outside} values lie")
+            },
             significant(low, 3),
             significant(high, 3),
             if name.unit.is_empty() {
@@ -168,7 +173,8 @@ impl Edges {
         let (from, to) = always.unwrap_or((f64::INFINITY, f64::NEG_INFINITY));
         let low = all.minimum.max((bulk.low - reach).min(from));
         let high = all.maximum.min((bulk.high + reach).max(to));
-        let span = (high - low).max(1e-9 * high.abs().max(1e-9));
+        // Equal values stand in one bar of an axis that a reader can still tell numbers apart on.
+        let span = (high - low).max(SPAN_RATIO * high.abs().max(1e-9));
         let width = round_step(span, BARS);
         let first = (low / width - 1e-9).floor();
         let last = (high / width + 1e-9).floor() + 1.0;
@@ -219,6 +225,7 @@ mod tests {
     fn equal_values_make_one_bar() {
         let edges = Edges::around(&[2.0; 7], &[], None).expect("there are values");
         assert_eq!(edges.counts(&[2.0; 7]).iter().max(), Some(&7));
+        assert!(edges.width > 1e-4 * 2.0, "{}", edges.width);
         let zeros = Edges::around(&[0.0], &[], None).expect("there is a value");
         assert_eq!(zeros.counts(&[0.0]).iter().sum::<usize>(), 1);
     }

@@ -23,7 +23,7 @@ mod torque;
 mod verdict;
 
 use maud::{Markup, html};
-use snug_campaign::{CampaignResult, Diagnosis};
+use snug_campaign::{CampaignResult, Diagnosis, Rejection, TighteningResult};
 
 /// One part of the page.
 pub struct Section {
@@ -125,6 +125,16 @@ fn factors(result: &CampaignResult) -> Vec<(&str, Vec<&snug_campaign::ConditionS
         }
     }
     factors
+}
+
+/// The tightenings that were fitted or should have been: all but those kept for validation.
+fn fitted(result: &CampaignResult) -> impl Iterator<Item = &TighteningResult> {
+    result.tightenings.iter().filter(|tightening| {
+        !tightening
+            .selection
+            .rejections
+            .contains(&Rejection::Validation)
+    })
 }
 
 /// A plain sentence in place of a section's content.

@@ -1,11 +1,9 @@
-use super::{Section, counted};
+use super::{Section, counted, fitted};
 use crate::number::{fixed, missing, percent, percent_interval, plain, rounded, share, short};
 use crate::quantity::{self, capitalised};
 use crate::quartiles::Quartiles;
 use maud::{Markup, html};
-use snug_campaign::{
-    CampaignResult, Conditions, FitMeasures, QuantitySummary, Rejection, Severity, TighteningResult,
-};
+use snug_campaign::{CampaignResult, Conditions, FitMeasures, QuantitySummary, Severity};
 use std::collections::BTreeSet;
 
 /// What was measured, what came out, the key numbers.
@@ -60,8 +58,14 @@ fn usable(result: &CampaignResult, all: usize) -> String {
         );
     }
     let agreement = match error_over_noise(result) {
+        // The verdict, right below, judges all tightenings together, and is the better judge.
+        Some(ratio) if result.diagnosis.is_some() => format!(
+            "in half of them the model leaves {} times the measurement noise or less",
+            fixed(ratio, 2)
+        ),
         Some(ratio) if ratio <= 1.1 => format!(
-            "what the model leaves unexplained there is as small as the measurement noise ({} times)",
+            "what the model leaves unexplained there is hardly more than the measurement noise ({} times); whether a faint \
+             effect hides in it, “cargo xtask diagnose” tells",
             fixed(ratio, 2)
         ),
         Some(ratio) if ratio <= 2.0 => format!(
@@ -81,16 +85,6 @@ fn usable(result: &CampaignResult, all: usize) -> String {
         "{selected} of {} ({share}) are usable with {model}; {agreement}.",
         counted(all, "tightening")
     )
-}
-
-/// The tightenings that were fitted or should have been: all but those kept for validation.
-fn fitted(result: &CampaignResult) -> impl Iterator<Item = &TighteningResult> {
-    result.tightenings.iter().filter(|tightening| {
-        !tightening
-            .selection
-            .rejections
-            .contains(&Rejection::Validation)
-    })
 }
 
 fn model_words(result: &CampaignResult) -> String {
@@ -142,7 +136,9 @@ fn measured(result: &CampaignResult) -> String {
     if !paces.is_empty() {
         text += &format!("; {} per minute", paces.join(", "));
     }
-    let targets = numbers(result.tightenings.iter().map(|t| t.target_torque_nm));
+    // Without a pulse there is no target: its torque rounds to zero.
+    let pulses = result.tightenings.iter().map(|t| t.target_torque_nm);
+    let targets = numbers(pulses.filter(|target| *target != 0.0));
     if !targets.is_empty() && result.units.input_is_torque() {
         text += &format!("; target torque {} Nm", targets.join(", "));
     }

@@ -234,19 +234,26 @@ fn facts(tightening: &TighteningResult, result: &CampaignResult) -> Vec<[String;
             interval,
         ]);
     }
-    facts.extend(derived_facts(&tightening.measures));
+    facts.extend(derived_facts(tightening));
     facts.extend(agreement_facts(&tightening.measures, result));
     facts
 }
 
 /// What follows from the parameters, with its interval.
-fn derived_facts(measures: &FitMeasures) -> impl Iterator<Item = [String; 3]> {
+fn derived_facts(tightening: &TighteningResult) -> impl Iterator<Item = [String; 3]> {
+    let measures = &tightening.measures;
+    // Where all inertia is identified there is no tool beside it.
+    let of_what = match tightening.rig.known_inertia_kg_m2 > 0.0 {
+        true => " with the tool",
+        false => "",
+    };
     let interval = |low: Option<f64>, high: Option<f64>| {
         low.zip(high).map(|(low, high)| Interval { low, high })
     };
     [
         (
             "natural frequency fₙ",
+            "",
             measures.natural_frequency_hz,
             interval(
                 measures.natural_frequency_low_hz,
@@ -255,7 +262,8 @@ fn derived_facts(measures: &FitMeasures) -> impl Iterator<Item = [String; 3]> {
             "Hz",
         ),
         (
-            "damped frequency with the tool",
+            "damped frequency",
+            of_what,
             measures.damped_frequency_hz,
             interval(
                 measures.damped_frequency_low_hz,
@@ -264,18 +272,19 @@ fn derived_facts(measures: &FitMeasures) -> impl Iterator<Item = [String; 3]> {
             "Hz",
         ),
         (
-            "damping ratio ζ with the tool",
+            "damping ratio ζ",
+            of_what,
             measures.damping_ratio,
             interval(measures.damping_ratio_low, measures.damping_ratio_high),
             "",
         ),
     ]
     .into_iter()
-    .filter_map(|(name, value, interval, unit)| {
+    .filter_map(|(name, of_what, value, interval, unit)| {
         let value = value.filter(|value| value.is_finite())?;
         let shown = rounded(value, interval);
         Some([
-            name.into(),
+            format!("{name}{of_what}"),
             format!("{} {unit}", shown.value),
             shown.interval.unwrap_or_else(|| "no interval".into()),
         ])

@@ -1,13 +1,15 @@
 use super::factor::Factor;
 use super::quantity;
-use snug_campaign::{ConditionSummary, Interval, Moments, QuantitySummary, TighteningResult};
+use snug_campaign::{
+    ConditionSummary, Interval, Moments, QuantitySummary, SignalUnits, TighteningResult,
+};
 use snug_statistics::{descriptive, proportion};
 
 /// Count, mean and spread of every quantity: over all, then per level of every factor.
-pub fn summaries(tightenings: &[&TighteningResult]) -> Vec<ConditionSummary> {
+pub fn summaries(tightenings: &[&TighteningResult], units: &SignalUnits) -> Vec<ConditionSummary> {
     let names = quantity::names(tightenings);
     let mut summaries = vec![summary("all", "all".to_owned(), tightenings, &names)];
-    for factor in Factor::ALL {
+    for factor in Factor::of(units) {
         for (level, group) in factor.groups(tightenings) {
             summaries.push(summary(factor.name(), level, &group, &names));
         }

@@ -1,4 +1,4 @@
-use snug_campaign::TighteningResult;
+use snug_campaign::{SignalUnits, TighteningResult};
 use std::collections::BTreeMap;
 
 /// A condition by which tightenings are grouped.
@@ -12,14 +12,19 @@ pub enum Factor {
 }
 
 impl Factor {
-    /// In the order of the thesis' tables.
-    pub const ALL: [Self; 5] = [
-        Self::Strategy,
-        Self::Joint,
-        Self::Pace,
-        Self::Participant,
-        Self::TargetTorque,
-    ];
+    /// In the order of the thesis' tables; a rig whose input is no torque has no target torque.
+    pub fn of(units: &SignalUnits) -> impl Iterator<Item = Self> + use<> {
+        let torque = units.input_is_torque();
+        [
+            Self::Strategy,
+            Self::Joint,
+            Self::Pace,
+            Self::Participant,
+            Self::TargetTorque,
+        ]
+        .into_iter()
+        .filter(move |factor| torque || *factor != Self::TargetTorque)
+    }
 
     /// Name as in files.
     pub fn name(self) -> &'static str {
@@ -40,7 +45,10 @@ impl Factor {
             Self::Joint => conditions.joint.clone(),
             Self::Pace => conditions.pace_per_min.map(|pace| pace.to_string()),
             Self::Participant => conditions.participant.clone(),
-            Self::TargetTorque => Some(tightening.target_torque_nm.to_string()),
+            // Without a pulse there is no target: its torque rounds to zero, or is unknown.
+            Self::TargetTorque => {
+                (tightening.target_torque_nm > 0.0).then(|| tightening.target_torque_nm.to_string())
+            }
         }
     }
 

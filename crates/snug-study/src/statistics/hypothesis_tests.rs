@@ -1,7 +1,7 @@
 use super::conditions::interval;
 use super::factor::Factor;
 use super::quantity;
-use snug_campaign::{EffectSize, TestRow, TighteningResult};
+use snug_campaign::{EffectSize, SignalUnits, TestRow, TighteningResult};
 use snug_statistics::clustered::{
     DenominatorFreedom, Design, PermutationSettings, fit_cluster_robust, fit_random_intercept,
     permutation_test,
@@ -87,7 +87,7 @@ const METHODS: [Method; 9] = [
 ];
 
 /// Every test of every quantity against every factor over the selected tightenings; p adjusted per method.
-pub fn rows(tightenings: &[&TighteningResult], seed: u64) -> Vec<TestRow> {
+pub fn rows(tightenings: &[&TighteningResult], units: &SignalUnits, seed: u64) -> Vec<TestRow> {
     let selected: Vec<&TighteningResult> = tightenings
         .iter()
         .copied()
@@ -95,7 +95,7 @@ pub fn rows(tightenings: &[&TighteningResult], seed: u64) -> Vec<TestRow> {
         .collect();
     let mut rows = Vec::new();
     for name in quantity::names(&selected) {
-        for factor in Factor::ALL {
+        for factor in Factor::of(units) {
             let sample = Sample::of(&selected, &name, factor);
             if sample.groups.len() < 2 {
                 continue;

@@ -1,0 +1,294 @@
+//! A study diagnosed: tightenings to the diagnosis, its models back into the study, every rung of the ladder evaluated.
+
+use crate::cases::cases;
+use crate::evaluation::Evaluated;
+use crate::file_evaluation::evaluate_alone;
+use crate::run::{Outcome, RunSettings, pool, run_with};
+use crate::{ProgressEvent, Study, StudyError};
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+use snug_campaign::{Diagnosis, Rejection, Rung, Showcase, TighteningId, Traces};
+use snug_diagnose::{Answer, Goal, Question, RungModel, examine};
+use snug_model::{Effect, ParameterSettings};
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// How a study is diagnosed.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct DiagnosisSettings {
+    /// Most tightenings from which effects are learnt, evenly spread over the files; what was learnt is then applied to
+    /// all. Default 240.
+    pub most_tightenings: usize,
+    /// How the missing effect is looked for.
+    pub search: snug_diagnose::DiagnoseSettings,
+}
+
+impl Default for DiagnosisSettings {
+    fn default() -> Self {
+        Self {
+            most_tightenings: 240,
+            search: snug_diagnose::DiagnoseSettings::default(),
+        }
+    }
+}
+
+impl DiagnosisSettings {
+    /// Checks every setting.
+    ///
+    /// # Errors
+    /// [`StudyError::Setting`] names the first that is not allowed.
+    pub fn check(&self) -> Result<(), StudyError> {
+        let search = &self.search;
+        let checks = [
+            (
+                "diagnosis.most_tightenings",
+                self.most_tightenings as f64,
+                self.most_tightenings >= 8,
+                "at least 8",
+            ),
+            (
+                "diagnosis.search.sign_flips",
+                search.sign_flips as f64,
+                search.sign_flips >= 99,
+                "at least 99",
+            ),
+            (
+                "diagnosis.search.level",
+                search.level,
+                search.level > 0.0 && search.level < 1.0,
+                "between 0 and 1",
+            ),
+            (
+                "diagnosis.search.smallest_gain",
+                search.smallest_gain,
+                (0.0..1.0).contains(&search.smallest_gain),
+                "0 or more and below 1",
+            ),
+            (
+                "diagnosis.search.starts",
+                search.starts as f64,
+                search.starts >= 1,
+                "at least 1",
+            ),
+        ];
+        match checks.into_iter().find(|(_, _, is_allowed, _)| !is_allowed) {
+            Some((setting, value, _, allowed)) => Err(StudyError::Setting {
+                setting,
+                value,
+                allowed,
+            }),
+            None => Ok(()),
+        }
+    }
+}
+
+/// A verb of the diagnosis.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Verb {
+    /// Model against measurement, and where it fails.
+    Compare,
+    /// The same, and which effect is missing; the study stays as it is.
+    Diagnose,
+    /// These effects are added to the study's model.
+    Add(Vec<String>),
+    /// Effects are added as long as the data justify it.
+    Improve,
+}
+
+impl Verb {
+    /// The effects it names.
+    pub fn effects(&self) -> &[String] {
+        match self {
+            Self::Add(effects) => effects,
+            _ => &[],
+        }
+    }
+}
+
+/// Diagnoses a study and runs it with the model that came of it.
+///
+/// The outcome's `study.ron` holds that model, sizes that all tightenings share held at their estimates with their
+/// standard errors, so that it can be run again and diagnosed further.
+///
+/// # Errors
+/// As [`crate::run()`]; and when no tightening can be compared with the model.
+pub fn diagnose(
+    study: &Study,
+    verb: &Verb,
+    settings: &RunSettings,
+    progress: &(dyn Fn(ProgressEvent<'_>) + Sync),
+    interrupted: &AtomicBool,
+) -> Result<Outcome, StudyError> {
+    study.check()?;
+    let listing = snug_ingest::list(&study.source, &study.source.path)?;
+    progress(ProgressEvent::Stage {
+        what: "reading tightenings",
+    });
+    let pool = pool(settings.threads)?;
+    let (cases, _) =
+        pool.install(|| cases(study, &listing.files, study.diagnosis.most_tightenings))?;
+    if interrupted.load(Ordering::Relaxed) {
+        return Err(StudyError::Interrupted);
+    }
+    let mut search = study.diagnosis.search.clone();
+    search.seed = search.seed.wrapping_add(study.seed);
+    let question = Question {
+        cases: &cases,
+        effects: effects(study, &study.model.effects)?,
+        custom: study.model.custom_effects()?,
+        goal: match verb {
+            Verb::Compare => Goal::Compare,
+            Verb::Diagnose => Goal::Diagnose,
+            Verb::Add(names) => Goal::Add(effects(study, names)?),
+            Verb::Improve => Goal::Improve,
+        },
+    };
+    let tell = |what: &str| progress(ProgressEvent::Stage { what });
+    let answer = pool.install(|| examine(&question, &search, &tell))?;
+    drop(cases);
+    let (last, diagnosis) =
+        pool.install(|| climb(study, answer, &listing.files, progress, interrupted))?;
+    run_with(&last, Some(diagnosis), settings, progress, interrupted)
+}
+
+/// The named effects, the study's own among them.
+fn effects(study: &Study, names: &[String]) -> Result<Vec<Effect>, StudyError> {
+    let named = names.iter().map(|name| study.model.effect(name));
+    Ok(named.collect::<Result<_, _>>()?)
+}
+
+/// Evaluates the study with the model of every rung; returns the last of these studies and the finished diagnosis.
+fn climb(
+    study: &Study,
+    answer: Answer,
+    files: &[PathBuf],
+    progress: &(dyn Fn(ProgressEvent<'_>) + Sync),
+    interrupted: &AtomicBool,
+) -> Result<(Study, Diagnosis), StudyError> {
+    let mut diagnosis = answer.diagnosis;
+    let shown = diagnosis
+        .comparison
+        .tightenings
+        .first()
+        .map(|worst| worst.id.clone());
+    let changes = answer.models.len() > 1;
+    let mut showcase: Vec<Option<Traces>> = Vec::new();
+    let mut last = study.clone();
+    for (rung, model) in diagnosis.ladder.iter_mut().zip(&answer.models) {
+        if interrupted.load(Ordering::Relaxed) {
+            return Err(StudyError::Interrupted);
+        }
+        last = with_model(study, model, changes);
+        let text = match rung.effects.as_slice() {
+            [] => "evaluating the base model".to_owned(),
+            some => format!("evaluating {}", some.join(" + ")),
+        };
+        progress(ProgressEvent::Stage { what: &text });
+        showcase.push(measure(&last, files, rung, shown.as_ref())?);
+    }
+    let ends = (
+        showcase.first_mut().and_then(Option::take),
+        showcase.last_mut().and_then(Option::take),
+    );
+    if let (Some(id), (Some(before), Some(after))) = (shown, ends) {
+        diagnosis.showcase = Some(Showcase { id, before, after });
+    }
+    Ok((last, diagnosis))
+}
+
+/// The study with a rung's model. What all tightenings share is held where they put it together.
+fn with_model(study: &Study, model: &RungModel, changes: bool) -> Study {
+    let mut study = study.clone();
+    if !changes {
+        return study;
+    }
+    study.model.effects.clone_from(&model.effects);
+    for declaration in &model.declarations {
+        if !study
+            .model
+            .custom
+            .iter()
+            .any(|known| known.name == declaration.name)
+        {
+            study.model.custom.push(declaration.clone());
+        }
+    }
+    for parameter in &model.parameters {
+        if parameter.per_tightening {
+            continue;
+        }
+        let told: &mut ParameterSettings = study
+            .model
+            .parameters
+            .entry(parameter.name.clone())
+            .or_default();
+        if told.fixed && told.standard_error.is_none() {
+            continue;
+        }
+        told.value = Some(parameter.value);
+        told.fixed = true;
+        told.standard_error = parameter.standard_error.or(Some(0.0));
+    }
+    study
+}
+
+/// Fills in what only an evaluation of the whole study can tell of a rung; returns the signals of one tightening.
+fn measure(
+    study: &Study,
+    files: &[PathBuf],
+    rung: &mut Rung,
+    shown: Option<&TighteningId>,
+) -> Result<Option<Traces>, StudyError> {
+    let evaluated: Vec<Result<Vec<Evaluated>, StudyError>> = files
+        .par_iter()
+        .map(|path| {
+            let mut all = evaluate_alone(study, path)?;
+            for one in &mut all {
+                one.traces = one.traces.take().filter(|_| Some(&one.result.id) == shown);
+            }
+            Ok(all)
+        })
+        .collect();
+    let (mut squares, mut fits, mut selected, mut count) =
+        (Vec::new(), Vec::new(), 0_usize, 0_usize);
+    let mut traces = None;
+    for file in evaluated {
+        for one in file? {
+            if one
+                .result
+                .selection
+                .rejections
+                .contains(&Rejection::Validation)
+            {
+                continue;
+            }
+            count += 1;
+            selected += usize::from(one.result.selection.selected());
+            squares.extend(
+                one.result
+                    .measures
+                    .rms_displacement_rad
+                    .map(|rms| rms * rms),
+            );
+            fits.extend(one.result.measures.fit_percent);
+            traces = traces.or(one.traces);
+        }
+    }
+    fits.sort_by(f64::total_cmp);
+    rung.selected_fraction = selected as f64 / count.max(1) as f64;
+    rung.fit_percent_median = median(&fits);
+    rung.rms_displacement_rad =
+        (!squares.is_empty()).then(|| (squares.iter().sum::<f64>() / squares.len() as f64).sqrt());
+    Ok(traces)
+}
+
+/// Median of ascending values.
+fn median(sorted: &[f64]) -> Option<f64> {
+    let middle = sorted.len() / 2;
+    match sorted.len() {
+        0 => None,
+        n if n.is_multiple_of(2) => Some(0.5 * (sorted[middle - 1] + sorted[middle])),
+        _ => Some(sorted[middle]),
+    }
+}

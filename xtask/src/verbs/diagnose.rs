@@ -1,0 +1,84 @@
+use super::run::{carry_out, study};
+use crate::arguments::RunOptions;
+use crate::exit;
+use snug_study::{StudyError, Verb};
+use std::path::Path;
+use std::process::ExitCode;
+
+/// Model against measurement: `compare`, `diagnose`, `add`, `improve`.
+pub fn diagnose(options: &RunOptions, verb: &Verb) -> ExitCode {
+    let study = match study(options).and_then(|study| {
+        study.check_effects(verb.effects())?;
+        Ok(study)
+    }) {
+        Ok(study) => study,
+        Err(error) => {
+            eprintln!("{error}");
+            return exit::bad_arguments();
+        }
+    };
+    carry_out(
+        options,
+        &repeated(options),
+        |settings, progress, interrupted| {
+            let outcome = snug_study::diagnose(&study, verb, settings, progress, interrupted)?;
+            if let (Some(path), Verb::Add(_) | Verb::Improve) = (&options.study, verb) {
+                write_model(path, &outcome.result.effects)?;
+            }
+            Ok(outcome)
+        },
+    )
+}
+
+/// Takes an effect out of a study file's model.
+pub fn remove(study: &Path, effect: &str) -> ExitCode {
+    let taken_out = snug_study::Study::read(study).and_then(|known| {
+        let mut effects = known.model.effects;
+        if !effects.iter().any(|name| name == effect) {
+            return Err(StudyError::NotInModel {
+                effect: effect.to_owned(),
+                present: effects,
+            });
+        }
+        effects.retain(|name| name != effect);
+        write_model(study, &effects)?;
+        Ok(effects)
+    });
+    match taken_out {
+        Ok(effects) => {
+            let left = match effects.as_slice() {
+                [] => "the base model".to_owned(),
+                some => some.join(" + "),
+            };
+            println!(
+                "{}: {effect} is taken out; the model is {left}",
+                study.display()
+            );
+            exit::DONE
+        }
+        Err(error) => {
+            eprintln!("{error}");
+            exit::bad_arguments()
+        }
+    }
+}
+
+/// Writes the model's effects into the study file, comments and all else untouched.
+fn write_model(path: &Path, effects: &[String]) -> Result<(), StudyError> {
+    snug_study::rewrite_effects(path, effects)
+}
+
+/// The options to repeat in the next command.
+fn repeated(options: &RunOptions) -> String {
+    let mut words = Vec::new();
+    if let Some(study) = &options.study {
+        words.push(format!("--study {}", study.display()));
+    }
+    if let Some(data) = &options.data {
+        words.push(format!("--data {}", data.display()));
+    }
+    if let Some(preset) = options.preset {
+        words.push(format!("--preset {}", format!("{preset:?}").to_lowercase()));
+    }
+    words.join(" ")
+}
