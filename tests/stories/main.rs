@@ -3,6 +3,7 @@
 #![allow(clippy::print_stdout, reason = "a skipped or measured check says so")]
 
 mod bad_input;
+mod blind;
 mod campaign;
 mod interruption;
 mod intervals;

@@ -94,14 +94,14 @@ impl Fitted {
             false => [hypothesis.own.as_slice(), &hypothesis.shared].concat(),
         };
         let mut room = Room::default();
-        for member in 0..self.own.len() {
+        for (member, profile) in profiles.iter().enumerate() {
             let values = hypothesis.values(member, &self.own[member], &self.shared);
             self.torque_noise
                 .extend(passed_on(hypothesis, member, &values, &self.units));
             if self.units.are_whole() {
                 let (curvature, gradient) = self.profiles[member].clone();
                 self.blocks.push(Block {
-                    squares: 2.0 * profiles[member].cost,
+                    squares: 2.0 * profile.cost,
                     count: hypothesis.residual_count(member),
                     gradient,
                     curvature,

@@ -43,6 +43,14 @@ impl Candidate {
         clearness(&differences, self.fitted.scale())
     }
 
+    /// Chance of so clear a gain in held-out units, among `family` candidates (Bonferroni): for effects that push
+    /// elsewhere once the model follows them, so that no score against the model without them sees them.
+    fn p_of_gain(&self, family: usize) -> f64 {
+        let freedom = self.gains.len().saturating_sub(1).max(1) as f64;
+        let tail = StudentsT::new(0.0, 1.0, freedom).map_or(1.0, |t| t.sf(self.clearness()));
+        (tail * family as f64).min(1.0)
+    }
+
     /// Standard error over units of the share of `misfit` (per unit) that it removes: that of the ratio of two sums.
     pub fn share_error(&self, misfit: &[f64]) -> f64 {
         let whole: f64 = misfit.iter().sum();
@@ -50,14 +58,6 @@ impl Candidate {
         let pairs = self.gains.iter().zip(misfit);
         let rest: Vec<f64> = pairs.map(|(gain, misfit)| gain - share * misfit).collect();
         spread_of_sum(&rest) / whole.abs()
-    }
-
-    /// Chance of so clear a gain in held-out units, among `family` candidates (Bonferroni): for effects that push
-    /// elsewhere once the model follows them, so that no score against the model without them sees them.
-    fn p_of_gain(&self, family: usize) -> f64 {
-        let freedom = self.gains.len().saturating_sub(1).max(1) as f64;
-        let tail = StudentsT::new(0.0, 1.0, freedom).map_or(1.0, |t| t.sf(self.clearness()));
-        (tail * family as f64).min(1.0)
     }
 }
 
@@ -213,11 +213,10 @@ fn refit(
     let mut end = hypothesis.fit(&start, &CANDIDATE)?;
     if effect.description().parameters.len() == 1 {
         // The whole way from the start may lead each tightening's own parameters past where they would be caught.
-        let other = hypothesis.fit(
-            &with_effect(&hypothesis, current, effect, starts[best]),
-            &CANDIDATE,
-        )?;
-        if other.fit.cost() < end.fit.cost() {
+        let whole = with_effect(&hypothesis, current, effect, starts[best]);
+        if let Ok(other) = hypothesis.fit(&whole, &CANDIDATE)
+            && other.fit.cost() < end.fit.cost()
+        {
             end = other;
         }
     }

@@ -1,7 +1,7 @@
 //! Play in the grip: the hand's spring and damper act only beyond a gap g, on the deflection d(x) that is left.
 //!
 //! ```text
-//! d(x) = x + ½ (√((x − g)² + s²) − √((x + g)² + s²)),  F = k d + c dd/dt,  s = 0.05 mm
+//! d(x) = x + ½ (√((x − g)² + s²) − √((x + g)² + s²)),  F = k d + c dd/dt,  s = 0.02 mm
 //! ```
 //!
 //! This is x ∓ g beyond the gap and 0 within, with corners rounded over s (skin), so that the damper does not set in
@@ -13,7 +13,7 @@ use crate::Number;
 use crate::effect::{Deflection, Description, Kind, Law, ParameterSpec, Scope};
 
 /// s, the length over which contact sets in \[m\].
-const SKIN_M: f64 = 5e-5;
+const SKIN_M: f64 = 2e-5;
 
 pub struct Backlash;
 
@@ -27,7 +27,7 @@ impl Law for Backlash {
             parameters: &[ParameterSpec {
                 name: "gap_m",
                 unit: "m",
-                starts: &[0.0005, 0.002, 0.004],
+                starts: &[0.0005, 4e-5, 0.00012, 0.0015, 0.004],
                 minimum: 0.0,
                 maximum: 0.005,
                 scope: Scope::Shared,
