@@ -9,6 +9,9 @@ pub struct Whitening {
     innovation_sd: f64,
 }
 
+/// Samples that are whitened together.
+const BLOCK: usize = 512;
+
 impl Whitening {
     /// The filter that whitens `noise`; `None` when its innovations have no positive standard deviation.
     pub fn new(noise: &NoiseFloor) -> Option<Self> {
@@ -32,17 +35,20 @@ impl Whitening {
     pub fn apply(&self, signal: &[f64], white: &mut [f64]) {
         let order = self.order();
         let scale = 1.0 / self.innovation_sd;
-        if order == 0 {
-            for (out, value) in white.iter_mut().zip(signal) {
-                *out = value * scale;
+        let count = white.len().min(signal.len().saturating_sub(order));
+        // Lag by lag over a block that stays in the cache: neighbouring samples then share vector registers, while a sum
+        // over the lags of one sample would wait for each of its additions.
+        for (block, white) in white[..count].chunks_mut(BLOCK).enumerate() {
+            let signal = &signal[block * BLOCK..];
+            white.fill(0.0);
+            for (lag, a) in self.autoregression.iter().enumerate().rev() {
+                for (sum, past) in white.iter_mut().zip(&signal[order - 1 - lag..]) {
+                    *sum += a * past;
+                }
             }
-            return;
-        }
-        let mut reversed = self.autoregression.clone();
-        reversed.reverse();
-        for (out, window) in white.iter_mut().zip(signal.windows(order + 1)) {
-            let past: f64 = reversed.iter().zip(window).map(|(a, r)| a * r).sum();
-            *out = (window[order] + past) * scale;
+            for (out, now) in white.iter_mut().zip(&signal[order..]) {
+                *out = (now + *out) * scale;
+            }
         }
     }
 
