@@ -6,6 +6,7 @@ mod bad_input;
 mod campaign;
 mod intervals;
 mod layers;
+mod mystery;
 mod other_rigs;
 mod practice;
 mod recording;
