@@ -8,6 +8,7 @@ mod campaign;
 mod interruption;
 mod intervals;
 mod layers;
+mod mystery;
 mod other_rigs;
 mod practice;
 mod recording;

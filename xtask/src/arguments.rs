@@ -96,7 +96,7 @@ pub enum Verb {
         /// Name of one effect, for example coulomb_friction.
         name: Option<String>,
     },
-    /// Makes the embedded campaign in fixtures/ anew, bit for bit.
+    /// Makes the embedded campaigns in fixtures/ anew, bit for bit.
     Fixtures,
     /// Every test of the workspace.
     Test {

@@ -13,8 +13,9 @@ use std::io::IsTerminal as _;
 const WIDTH: usize = 108;
 /// Columns of the longest bar.
 const BAR: usize = 36;
-/// Candidates shown; the report lists all.
+/// Candidates shown; the report lists all. Behind the very first, neither twins nor unlisted terms nor what could be chance.
 const CANDIDATES: usize = 8;
+const FIRST: usize = 3;
 
 /// Prints a diagnosis on standard output.
 ///
@@ -83,10 +84,14 @@ impl Page {
 }
 
 fn verdict(page: &mut Page, diagnosis: &Diagnosis) {
+    let known = diagnosis.ladder.iter().any(|rung| rung.error_over_noise.is_some());
     let word = match diagnosis.verdict {
         Verdict::Adequate => "the model is adequate",
         Verdict::MissingEffect => "an effect is missing",
         Verdict::UnlistedEffect => "something is missing that is in no catalogue",
+        // A comparison asks how much is missing, not what.
+        Verdict::Undecided if diagnosis.verb == "compare" && known => "the model leaves more than the noise",
+        Verdict::Undecided if diagnosis.verb == "compare" => "the model leaves an error, and the noise is not known",
         Verdict::Undecided => "too little data to say",
     };
     page.heading(&format!("Verdict: {word}"));
@@ -94,7 +99,11 @@ fn verdict(page: &mut Page, diagnosis: &Diagnosis) {
     for reason in &diagnosis.reasons {
         page.paragraph("  - ", reason);
     }
-    for corrected in &diagnosis.corrected {
+    let told = |name: &str| {
+        let words = name.replace('_', " ");
+        diagnosis.reasons.iter().any(|reason| reason.contains(&words) && reason.contains("taken out"))
+    };
+    for corrected in diagnosis.corrected.iter().filter(|corrected| !told(&corrected.effect)) {
         page.paragraph(
             "  - ",
             &format!(
@@ -252,7 +261,14 @@ fn ranking(page: &mut Page, diagnosis: &Diagnosis) {
     if diagnosis.ranking.is_empty() {
         return;
     }
-    let shown = diagnosis.ranking.len().min(CANDIDATES);
+    let candidates: Vec<(usize, &RankedEffect)> = diagnosis
+        .ranking
+        .iter()
+        .enumerate()
+        .filter(|(place, candidate)| *place < FIRST || !candidate.unlisted && candidate.p_family <= 0.05)
+        .take(CANDIDATES)
+        .collect();
+    let shown = candidates.len();
     page.heading(&format!(
         "What could {}be missing: the best {shown} of {} candidates",
         if diagnosis.added.is_empty() {
@@ -262,12 +278,25 @@ fn ranking(page: &mut Page, diagnosis: &Diagnosis) {
         },
         diagnosis.ranking.len()
     ));
+    if diagnosis.verdict == Verdict::Adequate {
+        page.paragraph(
+            "  ",
+            "What the model leaves is within the noise: shares of next to nothing say little.",
+        );
+    }
     page.line(&format!(
         "  {:<27} {:>12} {:>8}  {}",
         "effect", "removes", "chance", "size [95 % interval]"
     ));
-    for candidate in diagnosis.ranking.iter().take(CANDIDATES) {
-        row(page, candidate);
+    for (place, candidate) in candidates {
+        row(page, candidate, place < FIRST);
+    }
+    let unlisted = diagnosis.ranking.iter().filter(|candidate| candidate.unlisted).count();
+    if unlisted > 0 {
+        page.paragraph(
+            "  ",
+            &format!("{unlisted} of the candidates are simple terms that are in no catalogue; report.html has them all."),
+        );
     }
     page.paragraph(
         "  ",
@@ -276,17 +305,13 @@ fn ranking(page: &mut Page, diagnosis: &Diagnosis) {
     );
 }
 
-fn row(page: &mut Page, candidate: &RankedEffect) {
+fn row(page: &mut Page, candidate: &RankedEffect, with_twins: bool) {
     let name = if candidate.unlisted {
         format!("{} (unlisted)", candidate.effect)
     } else {
         candidate.effect.clone()
     };
-    let gain = format!(
-        "{:.0} ± {:.0} %",
-        100.0 * candidate.heldout_gain,
-        100.0 * candidate.heldout_gain_error
-    );
+    let gain = size::share(candidate.heldout_gain, candidate.heldout_gain_error);
     let lead = format!(
         "  {:<27} {gain:>12} {:>8}  ",
         shortened(&name, 27),
@@ -297,7 +322,7 @@ fn row(page: &mut Page, candidate: &RankedEffect) {
         sizes.push("not plausible: on the edge of its range".into());
     }
     page.paragraph(&lead, &sizes.join("; "));
-    if !candidate.twins.is_empty() {
+    if with_twins && !candidate.twins.is_empty() {
         page.paragraph("      cannot be told from ", &candidate.twins.join(", "));
     }
 }

@@ -42,6 +42,8 @@ pub fn size(parameter: &EffectParameter) -> Markup {
     let interval = parameter
         .low
         .zip(parameter.high)
+        // An interval without width says that the data do not determine the value.
+        .filter(|(low, high)| high - low > 1e-6 * parameter.value.abs())
         .map(|(low, high)| Interval { low, high });
     let shown = rounded(parameter.value, interval);
     let unit = unit_text(&parameter.unit);
@@ -64,9 +66,48 @@ pub fn size(parameter: &EffectParameter) -> Markup {
 pub fn sizes(parameters: &[EffectParameter], result: &CampaignResult) -> Markup {
     html! {
         @for parameter in parameters {
-            span.size { (quantity::name(&parameter.name, result).words) " " (size(parameter)) }
+            span.size { (parameter_name(&parameter.name, result)) " " (size(parameter)) }
         }
     }
+}
+
+/// What the catalogue's parameters are called.
+const PARAMETERS: [(&str, &str); 27] = [
+    ("k3_n_per_m3", "cubic stiffness k3"),
+    ("k2_n_per_m2", "quadratic stiffness k2"),
+    ("fc_n", "friction force"),
+    ("c2_n_s2_per_m2", "quadratic damping c2"),
+    ("c_rebound_kg_per_s", "extra damping on the way back"),
+    ("gap_m", "gap"),
+    ("k_m_n_per_m", "branch stiffness"),
+    ("k_h_n_per_m", "hysteresis stiffness"),
+    ("z_max_m", "largest hysteresis deflection"),
+    ("m2_kg", "second mass"),
+    ("k2_n_per_m", "its stiffness"),
+    ("c2_kg_per_s", "its damping"),
+    ("f_max_n", "largest grip force"),
+    ("k_r_n_per_m", "reflex stiffness"),
+    ("tau_s", "delay or time constant"),
+    ("f_n", "push"),
+    ("onset_s", "onset"),
+    ("rise_s", "rise time"),
+    ("rise_ratio", "rise of the stiffness"),
+    ("kappa_per_nm", "rise of the stiffness per Nm"),
+    ("offset_nm", "offset"),
+    ("delay_s", "delay"),
+    ("bias_rad_per_s2", "bias"),
+    ("theta0_rad", "angle at the start"),
+    ("omega0_rad_per_s", "velocity at the start"),
+    ("epsilon", "share of ω²"),
+    ("gamma_rad_per_s2", "share of sin θ"),
+];
+
+/// What a parameter of an effect is called; one that the catalogue does not have, by its own name.
+pub fn parameter_name(name: &str, result: &CampaignResult) -> String {
+    PARAMETERS.iter().find(|known| known.0 == name).map_or_else(
+        || quantity::name(name, result).words,
+        |known| known.1.to_owned(),
+    )
 }
 
 /// How often chance alone would do as well: `once in 1000 cases`.
@@ -89,12 +130,19 @@ pub fn by_chance(p: f64) -> String {
     )
 }
 
-/// A share 0..1 with its standard error, in percent without decimals.
+/// A standard error from which on a share says nothing: what is shared out is then within the noise.
+pub const UNSURE: f64 = 0.5;
+
+/// A share 0..1 with its standard error, in percent; in words where the error leaves nothing of it.
 pub fn share_with_error(share: f64, error: f64) -> String {
+    if !share.is_finite() || !error.is_finite() || error >= UNSURE {
+        return "nothing sure".into();
+    }
+    let decimals = if error < 0.005 { 1 } else { 0 };
     format!(
         "{}\u{a0}±\u{a0}{}\u{a0}%",
-        fixed(100.0 * share, 0),
-        fixed(100.0 * error, 0)
+        fixed(100.0 * share, decimals),
+        fixed((100.0 * error).max(0.1), decimals)
     )
 }
 
@@ -120,6 +168,16 @@ mod tests {
         );
         assert!(by_chance(0.0).ends_with("fewer than 1 of 1000 cases"));
         assert!(by_chance(f64::NAN).contains("not known"));
+    }
+
+    #[test]
+    fn a_share_that_its_error_swallows_is_no_percentage() {
+        assert_eq!(share_with_error(0.72, 6.17), "nothing sure");
+        assert_eq!(share_with_error(0.83, 0.04), "83\u{a0}±\u{a0}4\u{a0}%");
+        assert_eq!(
+            share_with_error(0.991, 0.003),
+            "99.1\u{a0}±\u{a0}0.3\u{a0}%"
+        );
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! Makes the embedded campaign again: `cargo run --release -p snug-synthetic --example fixtures -- fixtures`.
+//! Makes the embedded campaigns again: `cargo run --release -p snug-synthetic --example fixtures -- fixtures`.
 
 use std::path::Path;
 

@@ -1,8 +1,8 @@
-//! The embedded campaign: small, complete, and the same bits wherever it is made again.
+//! The embedded campaigns: small, complete, and the same bits wherever they are made again.
 
 use crate::fault::{Fault, PlannedFault};
-use crate::{CampaignPlan, ChannelNames, FilePlan, Joint, MatStyle, NoiseKind, Population};
-use crate::{Sensors, Strategy, SyntheticCampaign, SyntheticError, simulate};
+use crate::{CampaignPlan, ChannelNames, FilePlan, HiddenEffect, Joint, MatStyle, NoiseKind};
+use crate::{Population, Sensors, Strategy, SyntheticCampaign, SyntheticError, simulate};
 use std::path::{Path, PathBuf};
 
 /// Seed of the embedded campaign.
@@ -10,6 +10,12 @@ pub const SEED: u64 = 2020;
 
 /// Name of its folder within the fixtures.
 pub const CAMPAIGN: &str = "campaign";
+
+/// Seed of the mystery.
+pub const MYSTERY_SEED: u64 = 2027;
+
+/// Name of the mystery's folder within the fixtures.
+pub const MYSTERY: &str = "mystery";
 
 /// The embedded campaign's plan: six participants with two files each, four tightenings per file, every combination
 /// of strategy, joint and pace.
@@ -87,10 +93,39 @@ pub fn campaign() -> Result<SyntheticCampaign, SyntheticError> {
     simulate(&plan(), SEED)
 }
 
-/// Writes the embedded campaign into `fixtures`: the folder `campaign`, and `campaign.truth.json` beside it.
+/// The mystery's plan: six participants with one file each, four tightenings per file, one physical effect hidden in all.
+///
+/// A better accelerometer than the embedded campaign's (0.3 rad/s²) makes the effect leave one and a half times the
+/// noise. Noise is coloured, a small bias disturbs mildly, every participant has another hand–arm.
+pub fn mystery_plan() -> CampaignPlan {
+    let plan = CampaignPlan {
+        sensors: Sensors {
+            noise: NoiseKind::Coloured,
+            acceleration_noise_rad_per_s2: 0.3,
+            bias_sd_rad_per_s2: 0.03,
+            quantised: true,
+            ..Sensors::default()
+        },
+        segment_s: 1.9,
+        ..CampaignPlan::of_size(6, 4)
+    };
+    plan.hiding(HiddenEffect::StretchReflex, 0.8)
+}
+
+/// The mystery itself.
+///
+/// # Errors
+/// None: the plan is sound, which a test checks.
+pub fn mystery() -> Result<SyntheticCampaign, SyntheticError> {
+    simulate(&mystery_plan(), MYSTERY_SEED)
+}
+
+/// Writes both embedded campaigns into `fixtures`, each as a folder with its `.truth.json` beside it.
 ///
 /// # Errors
 /// [`SyntheticError::Write`] with the path that could not be written.
 pub fn write(fixtures: &Path) -> Result<Vec<PathBuf>, SyntheticError> {
-    campaign()?.write(&fixtures.join(CAMPAIGN), MatStyle::default())
+    let mut written = campaign()?.write(&fixtures.join(CAMPAIGN), MatStyle::default())?;
+    written.extend(mystery()?.write(&fixtures.join(MYSTERY), MatStyle::default())?);
+    Ok(written)
 }

@@ -15,7 +15,8 @@ pub fn significant(value: f64) -> String {
 /// A parameter with interval and unit: `k3_n_per_m3 9.90e5 [9.61e5, 1.02e6] N/m^3`.
 pub fn sized(parameter: &EffectParameter) -> String {
     let interval = match (parameter.low, parameter.high) {
-        (Some(low), Some(high)) => {
+        // An interval without width says that the data do not determine the value.
+        (Some(low), Some(high)) if high - low > 1e-6 * parameter.value.abs() => {
             format!(" [{}, {}]", alike(low, parameter), alike(high, parameter))
         }
         _ => " (no interval)".into(),
@@ -64,6 +65,23 @@ fn significant_in_powers(number: f64) -> String {
         format!("{number:.2e}")
     } else {
         "?".into()
+    }
+}
+
+/// A share 0..1 with its standard error, in percent; in words where the error leaves nothing of it.
+pub fn share(share: f64, error: f64) -> String {
+    if !share.is_finite() || !error.is_finite() || error >= 0.5 {
+        return "nothing sure".into();
+    }
+    let decimals = if error < 0.005 { 1 } else { 0 };
+    let text = format!(
+        "{:.decimals$} ± {:.decimals$} %",
+        100.0 * share,
+        (100.0 * error).max(0.1)
+    );
+    match text.strip_prefix("-0 ").or(text.strip_prefix("-0.0 ")) {
+        Some(rest) => format!("0 {rest}"),
+        None => text,
     }
 }
 

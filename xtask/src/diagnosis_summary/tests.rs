@@ -138,6 +138,21 @@ fn sizes_stand_with_unit_and_interval() {
 }
 
 #[test]
+fn terms_in_no_catalogue_stand_only_among_the_first_and_unsure_shares_are_no_percentage() {
+    let mut diagnosis = missing();
+    for place in [1, 4, 6] {
+        diagnosis.ranking[place].unlisted = true;
+    }
+    diagnosis.ranking[0].heldout_gain = 0.72;
+    diagnosis.ranking[0].heldout_gain_error = 6.17;
+    let text = text(&diagnosis, "", false);
+    assert!(text.contains("effect_1 (unlisted)"));
+    assert!(!text.contains("effect_4") && !text.contains("effect_6"));
+    assert!(text.contains("3 of the candidates are simple terms"));
+    assert!(text.contains("nothing sure") && !text.contains("617"));
+}
+
+#[test]
 fn bars_shrink_to_nothing_at_the_floor() {
     let text = text(&missing(), "", false);
     let base = blocks(&text, "base model");
@@ -167,6 +182,10 @@ fn every_verdict_says_what_to_do() {
             .trim_end()
             .ends_with("cargo xtask diagnose")
     );
+    diagnosis.verdict = Verdict::Undecided;
+    let compared = text(&diagnosis, "", false);
+    assert!(compared.contains("Verdict: the model leaves more than the noise"));
+    assert!(!compared.contains("too little data"));
     diagnosis.verb = "improve".into();
     diagnosis.verdict = Verdict::Adequate;
     assert!(text(&diagnosis, "", false).contains("Nothing needs to be added"));

@@ -1,7 +1,7 @@
 use crate::{exit, workspace};
 use std::process::ExitCode;
 
-/// Makes the embedded campaign anew; the same bits every time.
+/// Makes the embedded campaigns anew; the same bits every time.
 pub fn fixtures() -> ExitCode {
     match snug_synthetic::fixtures::write(&workspace::root().join("fixtures")) {
         Ok(files) => {

@@ -1,7 +1,6 @@
 use super::DiagnosisSection;
-use crate::effect_words::{effect_name, unit_text};
+use crate::effect_words::{effect_name, parameter_name, unit_text};
 use crate::number::{missing, percent, percent_interval, significant};
-use crate::quantity;
 use maud::{Markup, html};
 use snug_campaign::{CampaignResult, Detectability, Diagnosis, Interval, NegativeControl};
 
@@ -53,7 +52,7 @@ fn absent(list: &[Detectability], result: &CampaignResult) -> Markup {
                 th.words scope="col" { "in words" }
             } }
             tbody { @for row in list { tr {
-                th scope="row" { (effect_name(&row.effect)) " " span.interval { (quantity::name(&row.parameter, result).words) } }
+                th scope="row" { (effect_name(&row.effect)) " " span.interval { (parameter_name(&row.parameter, result)) } }
                 td {
                     @match row.smallest_detectable.filter(|size| size.is_finite()) {
                         Some(size) => (amount(size, &row.unit)),

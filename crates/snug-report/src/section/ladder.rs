@@ -3,7 +3,7 @@ use crate::effect_words::{effect_name, unit_text};
 use crate::figure::{Axis, Bar, Dot, Figure, Mark, Segment, captioned, legend};
 use crate::number::{percent, plain, significant};
 use maud::{Markup, html};
-use snug_campaign::{CampaignResult, Diagnosis, Rung};
+use snug_campaign::{CampaignResult, Diagnosis, Rung, Verdict};
 
 /// How the error falls, effect by effect.
 pub const SECTION: DiagnosisSection = DiagnosisSection {
@@ -69,8 +69,24 @@ fn render(diagnosis: &Diagnosis, _: &CampaignResult) -> Option<Markup> {
             (error)
             (selected_figure(rungs, &names))
         }
+        (promised(diagnosis))
         (table(rungs, &names, &unit))
     })
+}
+
+/// What the effect that the verdict names would make of the error.
+fn promised(diagnosis: &Diagnosis) -> Markup {
+    let first = diagnosis
+        .ranking
+        .first()
+        .filter(|_| diagnosis.verdict == Verdict::MissingEffect)
+        .and_then(|first| Some((first, first.error_over_noise?)));
+    html! {
+        @if let Some((first, error)) = first {
+            p { "With " strong { (effect_name(&first.effect)) } " in the model, the error would be " strong { (significant(error, 4)) }
+                " times the noise." }
+        }
+    }
 }
 
 fn output_unit(diagnosis: &Diagnosis) -> String {

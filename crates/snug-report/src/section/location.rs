@@ -58,8 +58,8 @@ fn remarks(location: &Location) -> Markup {
     html! {
         @if !location.remarks.is_empty() { ul.reasons { @for remark in &location.remarks { li { (remark) } } } }
         @if let Some(share) = location.repeatable_share.filter(|share| share.is_finite()) {
-            p { strong { (percent(share)) } " of the squared misfit repeats: the other tightenings predict it. \
-                That much a missing effect could explain at most; the rest is chance." }
+            p { strong { (percent(share)) } " of the squared misfit repeats: a simple law learnt from the other tightenings \
+                predicts it. A missing effect can explain more than that, because its force need not follow so simple a law." }
         }
     }
 }
@@ -76,6 +76,21 @@ fn drift(drifts: &[Drift], result: &CampaignResult) -> Markup {
         h3 { "Fitted values that drift with what they should not depend on" }
         p { "A hand's stiffness must not depend on how hard the tool kicks. Where a fitted value changes with it, an effect \
             that the model lacks hides in that value. The change is over the range seen, within each participant." }
+        @if drifts.iter().any(drifting) { (drift_table(drifts, result)) } @else {
+            p { "Here none of them changes beyond chance." }
+            details { summary { "What was tested" } (drift_table(drifts, result)) }
+        }
+    }
+}
+
+/// Whether the change is beyond chance, all tests together.
+fn drifting(row: &Drift) -> bool {
+    row.p_adjusted
+        .is_some_and(|p| p < crate::effect_words::LEVEL)
+}
+
+fn drift_table(drifts: &[Drift], result: &CampaignResult) -> Markup {
+    html! {
         div.scroll { table {
             thead { tr {
                 @for heading in ["fitted value", "changes with"] { th.words scope="col" { (heading) } }
@@ -86,7 +101,7 @@ fn drift(drifts: &[Drift], result: &CampaignResult) -> Markup {
             tbody { @for row in drifts { tr {
                 th scope="row" { (quantity::name(&row.parameter, result).words) }
                 td.words { (quantity::name(&row.against, result).words) }
-                td.strong[row.p_adjusted.is_some_and(|p| p < crate::effect_words::LEVEL)] {
+                td.strong[drifting(row)] {
                     (measured(Some(row.change_percent), row.interval_percent, "could not be estimated"))
                 }
                 td { (tested(row.p)) }

@@ -1,9 +1,10 @@
 use super::DiagnosisSection;
-use crate::effect_words::{LEVEL, by_chance, effect_name, effect_names, share_with_error, sizes};
+use crate::effect_words::{LEVEL, UNSURE, by_chance, effect_name, effect_names, parameter_name};
+use crate::effect_words::{share_with_error, sizes};
 use crate::figure::{Axis, Bar, Figure, Mark, Segment, captioned, legend};
 use crate::number::{fixed, p_value, plain, significant};
 use maud::{Markup, html};
-use snug_campaign::{CampaignResult, Diagnosis, RankedEffect};
+use snug_campaign::{CampaignResult, Diagnosis, RankedEffect, Verdict};
 
 /// What could be missing, best first.
 pub const SECTION: DiagnosisSection = DiagnosisSection {
@@ -14,12 +15,16 @@ pub const SECTION: DiagnosisSection = DiagnosisSection {
 };
 
 const ROW: f64 = 21.0;
+/// Candidates that are always shown, and at most without unfolding.
+const ALWAYS: usize = 3;
+const MOST: usize = 10;
 
 fn render(diagnosis: &Diagnosis, result: &CampaignResult) -> Option<Markup> {
     if diagnosis.ranking.is_empty() {
         return None;
     }
-    let ranking: Vec<&RankedEffect> = diagnosis.ranking.iter().collect();
+    let (shown, rest) = parted(diagnosis);
+    let unlisted = rest.iter().filter(|candidate| candidate.unlisted).count();
     let model = if diagnosis.added.is_empty() {
         "the model"
     } else {
@@ -29,16 +34,50 @@ fn render(diagnosis: &Diagnosis, result: &CampaignResult) -> Option<Markup> {
         p { "Every candidate was added to " (model) " in turn and judged on tightenings that its size was not fitted to. \
             The bar is the share of the misfit that it takes away there; the thin line is one standard error to either side. \
             Below zero, it does harm." }
-        (figure(&ranking))
+        @if diagnosis.verdict == Verdict::Adequate {
+            p { strong { "What the model leaves is within the noise" } ": there is hardly any misfit left to share out, and large shares of \
+                next to nothing say little." }
+        }
+        (figure(&shown))
         p { "A candidate is believed when chance alone would do as well in fewer than " (fixed(100.0 * LEVEL, 0))
             " of 100 cases; that already allows for the number of candidates. Open a row for what it is, how it shows and what to check." }
-        div.candidates { @for candidate in &ranking { (entry(candidate, result)) } }
+        div.candidates { @for (place, candidate) in shown.iter().enumerate() { (entry(candidate, place < ALWAYS, result)) } }
+        @if !rest.is_empty() {
+            details {
+                summary {
+                    (rest.len()) " more were tried"
+                    @if unlisted > 0 { ", " (unlisted) " of them simple terms that are in no catalogue" }
+                }
+                div.candidates { @for candidate in &rest { (entry(candidate, false, result)) } }
+            }
+        }
     })
+}
+
+/// The candidates worth a look, and the rest: an unlisted term is shown only among the very first or when it is chosen.
+fn parted(diagnosis: &Diagnosis) -> (Vec<&RankedEffect>, Vec<&RankedEffect>) {
+    let chosen = |candidate: &RankedEffect| {
+        let named = format!("\"{}\"", candidate.effect);
+        let term = diagnosis.unlisted.as_ref();
+        candidate.unlisted && term.is_some_and(|term| term.ron.contains(&named))
+    };
+    let (mut shown, mut rest) = (Vec::new(), Vec::new());
+    for (place, candidate) in diagnosis.ranking.iter().enumerate() {
+        let worth = !candidate.unlisted && supported(candidate) && shown.len() < MOST;
+        if place < ALWAYS || worth || chosen(candidate) {
+            shown.push(candidate);
+        } else {
+            rest.push(candidate);
+        }
+    }
+    (shown, rest)
 }
 
 /// Whether chance is excluded and the gain is larger than its error.
 fn supported(candidate: &RankedEffect) -> bool {
-    candidate.p_family <= LEVEL && candidate.heldout_gain > candidate.heldout_gain_error
+    candidate.p_family <= LEVEL
+        && candidate.heldout_gain > candidate.heldout_gain_error
+        && candidate.heldout_gain_error < UNSURE
 }
 
 fn class(candidate: &RankedEffect) -> &'static str {
@@ -69,9 +108,9 @@ fn figure(ranking: &[&RankedEffect]) -> Markup {
     });
     let (low, high) = ends
         .filter(|end| end.is_finite())
-        // A harm beyond the scale is cut off, so that it does not press the gains together.
+        // What goes beyond the scale is cut off, so that it does not press the rest together.
         .fold((0.0_f64, 5.0_f64), |(low, high), end| {
-            (low.min(end.max(-50.0)), high.max(end))
+            (low.min(end.max(-50.0)), high.max(end.min(110.0)))
         });
     let mut marks: Vec<Mark> = ["c-faint", "c-selected", "c-rejected"]
         .into_iter()
@@ -81,7 +120,7 @@ fn figure(ranking: &[&RankedEffect]) -> Markup {
                 .iter()
                 .enumerate()
                 .filter(|(_, candidate)| class(candidate) == layer)
-                .map(|(row, candidate)| bar(row, candidate, low))
+                .map(|(row, candidate)| bar(row, candidate, (low, high)))
                 .collect(),
         })
         .collect();
@@ -93,7 +132,7 @@ fn figure(ranking: &[&RankedEffect]) -> Markup {
             .map(|(row, candidate)| {
                 let end = |side: f64| {
                     let end = candidate.heldout_gain + side * candidate.heldout_gain_error;
-                    (100.0 * end).max(low)
+                    (100.0 * end).clamp(low, high)
                 };
                 Segment {
                     x: (end(-1.0), end(1.0)),
@@ -132,8 +171,8 @@ fn figure(ranking: &[&RankedEffect]) -> Markup {
     )
 }
 
-fn bar(row: usize, candidate: &RankedEffect, low: f64) -> Bar {
-    let gain = (100.0 * candidate.heldout_gain).max(low);
+fn bar(row: usize, candidate: &RankedEffect, (low, high): (f64, f64)) -> Bar {
+    let gain = (100.0 * candidate.heldout_gain).clamp(low, high);
     Bar {
         x: (gain.min(0.0), gain.max(0.0)),
         y: (-(row as f64) - 0.32, -(row as f64) + 0.32),
@@ -146,7 +185,7 @@ fn bar(row: usize, candidate: &RankedEffect, low: f64) -> Bar {
     }
 }
 
-fn entry(candidate: &RankedEffect, result: &CampaignResult) -> Markup {
+fn entry(candidate: &RankedEffect, with_twins: bool, result: &CampaignResult) -> Markup {
     html! {
         details.candidate {
             summary {
@@ -154,16 +193,16 @@ fn entry(candidate: &RankedEffect, result: &CampaignResult) -> Markup {
                 " " span.gain { (share_with_error(candidate.heldout_gain, candidate.heldout_gain_error)) }
                 " " span.chance { "p " (p_value(Some(candidate.p_family))) }
                 " " span.sizes { (sizes(&candidate.parameters, result)) }
-                @if !candidate.twins.is_empty() { " " span.tag.twins { "not to be told from " (effect_names(&candidate.twins)) } }
+                @if with_twins && !candidate.twins.is_empty() { " " span.tag.twins { "not to be told from " (effect_names(&candidate.twins)) } }
                 @if candidate.unlisted { " " span.tag.unlisted { "in no catalogue" } }
                 @if !candidate.plausible { " " span.tag.implausible { "size not plausible" } }
             }
-            (evidence(candidate))
+            (evidence(candidate, result))
         }
     }
 }
 
-fn evidence(candidate: &RankedEffect) -> Markup {
+fn evidence(candidate: &RankedEffect, result: &CampaignResult) -> Markup {
     html! {
         ul { @for sentence in &candidate.explanation { li { (sentence) } } }
         ul.note {
@@ -176,11 +215,14 @@ fn evidence(candidate: &RankedEffect) -> Markup {
             @if let Some(likeness) = candidate.likeness {
                 li { "Likeness to the first candidate in these data: " (fixed(likeness, 2)) " (1 = the same, 0 = nothing in common)." }
             }
+            @if !candidate.twins.is_empty() {
+                li { "These data cannot tell it from " (effect_names(&candidate.twins)) "." }
+            }
             @if !candidate.plausible {
                 li { "Its size lies on the edge of the plausible range, which speaks against it." }
             }
             @for parameter in &candidate.parameters {
-                li { (parameter.name) ": plausible from " (significant(parameter.minimum, 3)) " to " (significant(parameter.maximum, 3)) " " (crate::effect_words::unit_text(&parameter.unit)) "." }
+                li { (parameter_name(&parameter.name, result)) " (" (parameter.name) "): plausible from " (significant(parameter.minimum, 3)) " to " (significant(parameter.maximum, 3)) " " (crate::effect_words::unit_text(&parameter.unit)) "." }
             }
         }
     }

@@ -16,7 +16,7 @@ pub const SECTION: DiagnosisSection = DiagnosisSection {
 
 fn render(diagnosis: &Diagnosis, result: &CampaignResult) -> Option<Markup> {
     Some(html! {
-        p { span.verdict.(diagnosis.verdict.name()) { (word(diagnosis.verdict)) } }
+        p { span.verdict.(diagnosis.verdict.name()) { (word(diagnosis)) } }
         p.lead { (diagnosis.headline) }
         @if !diagnosis.reasons.is_empty() {
             ul.reasons { @for reason in &diagnosis.reasons { li { (reason) } } }
@@ -34,8 +34,19 @@ fn render(diagnosis: &Diagnosis, result: &CampaignResult) -> Option<Markup> {
     })
 }
 
-fn word(verdict: Verdict) -> &'static str {
-    match verdict {
+fn word(diagnosis: &Diagnosis) -> &'static str {
+    let known = diagnosis
+        .ladder
+        .iter()
+        .any(|rung| rung.error_over_noise.is_some());
+    match diagnosis.verdict {
+        // A comparison asks how much is missing, not what.
+        Verdict::Undecided if diagnosis.verb == "compare" && known => {
+            "the model leaves more than the noise"
+        }
+        Verdict::Undecided if diagnosis.verb == "compare" => {
+            "the model leaves an error, and the noise is not known"
+        }
         Verdict::Adequate => "the model is adequate",
         Verdict::MissingEffect => "an effect is missing",
         Verdict::UnlistedEffect => "something is missing that is in no catalogue",
@@ -92,7 +103,8 @@ fn missing(diagnosis: &Diagnosis, result: &CampaignResult) -> Markup {
                     ul { @for sentence in &first.explanation { li { (sentence) } } }
                 }
             } }
-            p { "To add it and see the error before and after: " code { "cargo xtask add " (first.effect) } }
+            p { "To add it and see the error before and after: " code { "cargo xtask add " (first.effect) }
+                ", with the same " code { "--data" } " or " code { "--study" } " as now." }
         }
     }
 }

@@ -96,7 +96,8 @@ fn in_rows(aspect: &Aspect, largest: f64, factor: f64, unit: &str) -> Markup {
         .iter()
         .zip(&names)
         .map(|(part, name)| {
-            let share = (100.0 * part.share_of_excess).round();
+            // Adding zero takes the sign off a negative one.
+            let share = (100.0 * part.share_of_excess).round() + 0.0;
             let share = if share.is_finite() {
                 format!(" · {share:.0} %")
             } else {

@@ -1,0 +1,120 @@
+//! The mystery that ships with Snug, solved as the README does: compare, diagnose, add, improve.
+
+use crate::campaign::run_study;
+use snug_campaign::{Diagnosis, Verdict};
+use snug_study::{Outcome, RunSettings, Study, Verb, diagnose};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::AtomicBool;
+use tempfile::TempDir;
+
+fn fixtures() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../fixtures")
+}
+
+fn json(path: &Path) -> serde_json::Value {
+    serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
+}
+
+/// What is hidden, and its numbers.
+fn truth() -> (String, Vec<f64>) {
+    let truth = json(&fixtures().join("mystery.truth.json"));
+    let effect = truth["effects"][0].as_str().unwrap().to_owned();
+    let numbers = truth["tightenings"][0]["used"][&effect].as_array().unwrap();
+    let numbers = numbers
+        .iter()
+        .map(|number| number.as_f64().unwrap())
+        .collect();
+    (effect, numbers)
+}
+
+fn asked(verb: &Verb) -> (Outcome, TempDir) {
+    let out = tempfile::tempdir().unwrap();
+    let settings = RunSettings {
+        out: out.path().to_path_buf(),
+        threads: None,
+    };
+    let study = Study::on(fixtures().join("mystery"));
+    let outcome = diagnose(&study, verb, &settings, &|_| (), &AtomicBool::new(false)).unwrap();
+    for file in ["report.html", "verdict.json", "recording.mcap", "study.ron"] {
+        assert!(out.path().join(file).is_file(), "{verb:?}: {file}");
+    }
+    (outcome, out)
+}
+
+fn diagnosis(outcome: &Outcome) -> &Diagnosis {
+    outcome.result.diagnosis.as_ref().unwrap()
+}
+
+fn errors(diagnosis: &Diagnosis) -> Vec<f64> {
+    let ladder = diagnosis.ladder.iter();
+    ladder.map(|rung| rung.error_over_noise.unwrap()).collect()
+}
+
+#[test]
+fn comparing_shows_misfit_above_the_floor() {
+    let (outcome, out) = asked(&Verb::Compare);
+    let diagnosis = diagnosis(&outcome);
+    assert_eq!(diagnosis.tightenings, 24);
+    assert!((1.4..3.0).contains(&errors(diagnosis)[0]));
+    assert!(diagnosis.ranking.is_empty(), "a comparison does not guess");
+    assert_ne!(diagnosis.verdict, Verdict::Adequate);
+    assert!(!diagnosis.location.force_over_time.at.is_empty());
+    let file = json(&out.path().join("verdict.json"));
+    assert_eq!(file["verb"], "compare");
+}
+
+#[test]
+fn diagnosing_names_the_hidden_effect_alone() {
+    let (effect, _) = truth();
+    let (outcome, out) = asked(&Verb::Diagnose);
+    let diagnosis = diagnosis(&outcome);
+    assert_eq!(diagnosis.verdict, Verdict::MissingEffect);
+    assert_eq!(diagnosis.ranking[0].effect, effect);
+    assert!(diagnosis.ranking[0].twins.is_empty());
+    let file = json(&out.path().join("verdict.json"));
+    assert_eq!(file["verdict"], "missing_effect");
+    assert_eq!(file["ranking"][0]["effect"], effect.as_str());
+    assert!(outcome.result.effects.is_empty(), "nothing is changed");
+}
+
+/// The error comes down to the floor, the intervals hold the truth, and the study that comes of it runs again.
+#[test]
+fn adding_it_brings_the_error_to_the_floor() {
+    let (effect, numbers) = truth();
+    let (outcome, out) = asked(&Verb::Add(vec![effect.clone()]));
+    let errors = errors(diagnosis(&outcome));
+    assert!(errors[0] > 1.4 && errors[1] < 1.05, "{errors:?}");
+    let file = json(&out.path().join("verdict.json"));
+    let added = &file["added"][0];
+    assert_eq!(added["effect"], effect.as_str());
+    let parameters = added["parameters"].as_array().unwrap();
+    assert_eq!(parameters.len(), numbers.len());
+    for (parameter, truth) in parameters.iter().zip(numbers) {
+        let end = |key: &str| parameter[key].as_f64().unwrap();
+        assert!(
+            end("low") < truth && truth < end("high"),
+            "{parameter}: {truth}"
+        );
+        assert!(end("high") - end("low") < 0.1 * truth, "{parameter}");
+    }
+
+    let study = Study::read(&out.path().join("study.ron")).unwrap();
+    assert_eq!(study.model.effects, [effect]);
+    let (again, _out) = run_study(&study).unwrap();
+    assert_eq!(again.result.presets[0].selected, 24);
+}
+
+#[test]
+fn improving_finds_it_unasked_and_stops() {
+    let (effect, _) = truth();
+    let (outcome, out) = asked(&Verb::Improve);
+    let diagnosis = diagnosis(&outcome);
+    assert_eq!(diagnosis.verdict, Verdict::Adequate);
+    assert_eq!(outcome.result.effects, [effect.as_str()]);
+    assert!(*errors(diagnosis).last().unwrap() < 1.05);
+    assert!(diagnosis.stopped.is_some());
+    let file = json(&out.path().join("verdict.json"));
+    assert_eq!(file["verdict"], "adequate");
+    let last = file["ladder"].as_array().unwrap().last().unwrap();
+    assert!(last["selected_fraction"].as_f64().unwrap() > 0.95);
+}
