@@ -84,14 +84,21 @@ impl Page {
 }
 
 fn verdict(page: &mut Page, diagnosis: &Diagnosis) {
-    let known = diagnosis.ladder.iter().any(|rung| rung.error_over_noise.is_some());
+    let known = diagnosis
+        .ladder
+        .iter()
+        .any(|rung| rung.error_over_noise.is_some());
     let word = match diagnosis.verdict {
         Verdict::Adequate => "the model is adequate",
         Verdict::MissingEffect => "an effect is missing",
         Verdict::UnlistedEffect => "something is missing that is in no catalogue",
         // A comparison asks how much is missing, not what.
-        Verdict::Undecided if diagnosis.verb == "compare" && known => "the model leaves more than the noise",
-        Verdict::Undecided if diagnosis.verb == "compare" => "the model leaves an error, and the noise is not known",
+        Verdict::Undecided if diagnosis.verb == "compare" && known => {
+            "the model leaves more than the noise"
+        }
+        Verdict::Undecided if diagnosis.verb == "compare" => {
+            "the model leaves an error, and the noise is not known"
+        }
         Verdict::Undecided => "too little data to say",
     };
     page.heading(&format!("Verdict: {word}"));
@@ -101,9 +108,16 @@ fn verdict(page: &mut Page, diagnosis: &Diagnosis) {
     }
     let told = |name: &str| {
         let words = name.replace('_', " ");
-        diagnosis.reasons.iter().any(|reason| reason.contains(&words) && reason.contains("taken out"))
+        diagnosis
+            .reasons
+            .iter()
+            .any(|reason| reason.contains(&words) && reason.contains("taken out"))
     };
-    for corrected in diagnosis.corrected.iter().filter(|corrected| !told(&corrected.effect)) {
+    for corrected in diagnosis
+        .corrected
+        .iter()
+        .filter(|corrected| !told(&corrected.effect))
+    {
         page.paragraph(
             "  - ",
             &format!(
@@ -265,7 +279,9 @@ fn ranking(page: &mut Page, diagnosis: &Diagnosis) {
         .ranking
         .iter()
         .enumerate()
-        .filter(|(place, candidate)| *place < FIRST || !candidate.unlisted && candidate.p_family <= 0.05)
+        .filter(|(place, candidate)| {
+            *place < FIRST || !candidate.unlisted && candidate.p_family <= 0.05
+        })
         .take(CANDIDATES)
         .collect();
     let shown = candidates.len();
@@ -291,7 +307,11 @@ fn ranking(page: &mut Page, diagnosis: &Diagnosis) {
     for (place, candidate) in candidates {
         row(page, candidate, place < FIRST);
     }
-    let unlisted = diagnosis.ranking.iter().filter(|candidate| candidate.unlisted).count();
+    let unlisted = diagnosis
+        .ranking
+        .iter()
+        .filter(|candidate| candidate.unlisted)
+        .count();
     if unlisted > 0 {
         page.paragraph(
             "  ",

@@ -138,7 +138,7 @@ fn agree(shared_set: Constraints, own_set: impl Fn() -> Constraints, stacked_set
     let mut problem = DenseResidual::new(Stacked(Decays::new()));
     let stacked = solve(&mut problem, &start, &stacked_set, &Settings::default()).unwrap();
     let found = [pooled.own.concat(), pooled.shared.clone()].concat();
-    for (pooled, stacked) in found.iter().zip(&stacked.values) {
+    for (found_value, stacked_value) in found.iter().zip(&stacked.values) {
         assert!(
             (pooled - stacked).abs() < 1e-6,
             "{found:?} {:?}",

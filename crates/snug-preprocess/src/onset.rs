@@ -157,7 +157,7 @@ fn pulse(
 ///
 /// Searched backwards from the pulse, so that a disturbance earlier in the segment is not taken for it. The threshold is
 /// `threshold_sd` standard deviations or `threshold_peak_ratio` of the height above the baseline, whichever is larger.
-/// 0 when the torque never was at rest.
+/// From there the rise is followed back in a straight line to the baseline. 0 when the torque never was at rest.
 pub(crate) fn onset(
     torque_nm: &[f64],
     baseline: Baseline,
@@ -177,10 +177,32 @@ pub(crate) fn onset(
             below + 1
         };
         if below == hold {
-            return index + hold;
+            return back_to_rest(torque_nm, baseline, index + hold, hold);
         }
     }
     below
+}
+
+/// Where the straight line through the first `2 hold` samples of the rise leaves the baseline: a slow rise passes the
+/// threshold long after it began. At most `10 hold` samples before `crossing`.
+fn back_to_rest(torque_nm: &[f64], baseline: Baseline, crossing: usize, hold: usize) -> usize {
+    let rise = &torque_nm[crossing..(crossing + 2 * hold).min(torque_nm.len())];
+    let n = rise.len() as f64;
+    let middle = 0.5 * (n - 1.0);
+    let mean = rise.iter().sum::<f64>() / n;
+    let (mut along, mut squares) = (0.0, 0.0);
+    for (index, torque) in rise.iter().enumerate() {
+        let offset = index as f64 - middle;
+        along += offset * torque;
+        squares += offset * offset;
+    }
+    let slope = along / squares;
+    if !(slope > 0.0 && slope.is_finite()) {
+        return crossing;
+    }
+    let earlier = (mean - baseline.level_nm) / slope - middle;
+    let earlier = earlier.clamp(0.0, 10.0 * hold as f64).round() as usize;
+    crossing.saturating_sub(earlier)
 }
 
 #[cfg(test)]
@@ -210,6 +232,22 @@ mod tests {
             assert!(pulses[0].peak.abs_diff(PEAK) <= 3);
             assert!((ONSET + 1..=ONSET + 7).contains(&onset), "{onset}");
         }
+    }
+
+    /// A ramp of 0.01 Nm a sample in noise of 0.02 Nm passes a threshold of five standard deviations 10 samples late.
+    #[test]
+    fn a_slow_ramp_is_followed_back_to_where_it_began() {
+        let torque: Vec<f64> = white_noise(1000, 0.02, 3)
+            .iter()
+            .enumerate()
+            .map(|(index, noise)| noise + 0.01 * index.saturating_sub(500) as f64)
+            .collect();
+        let baseline = Baseline {
+            level_nm: 0.0,
+            sd_nm: 0.02,
+        };
+        let began = back_to_rest(&torque, baseline, 515, 10);
+        assert!(began.abs_diff(500) <= 5, "{began}");
     }
 
     #[test]
