@@ -1,6 +1,6 @@
 use super::DiagnosisSection;
 use crate::effect_words::{LEVEL, UNSURE, by_chance, effect_name, effect_names, parameter_name};
-use crate::effect_words::{share_with_error, sizes};
+use crate::effect_words::{sentence, share_with_error, sizes};
 use crate::figure::{Axis, Bar, Figure, Mark, Segment, captioned, legend};
 use crate::number::{fixed, p_value, plain, significant};
 use maud::{Markup, html};
@@ -204,7 +204,7 @@ fn entry(candidate: &RankedEffect, with_twins: bool, result: &CampaignResult) ->
 
 fn evidence(candidate: &RankedEffect, result: &CampaignResult) -> Markup {
     html! {
-        ul { @for sentence in &candidate.explanation { li { (sentence) } } }
+        ul { @for line in &candidate.explanation { li { (sentence(line)) } } }
         ul.note {
             li { "Kind: " (candidate.kind) "." }
             li { "How sure: " (by_chance(candidate.p_family)) ", over all candidates together." }
