@@ -46,7 +46,7 @@ fn render(diagnosis: &Diagnosis, result: &CampaignResult) -> Option<Markup> {
             details {
                 summary {
                     (rest.len()) " more were tried"
-                    @if unlisted > 0 { ", " (unlisted) " of them simple terms that are in no catalogue" }
+                    @if unlisted > 0 { "; terms that are in no catalogue among them: " (unlisted) }
                 }
                 div.candidates { @for candidate in &rest { (entry(candidate, false, result)) } }
             }
@@ -222,7 +222,7 @@ fn evidence(candidate: &RankedEffect, result: &CampaignResult) -> Markup {
                 li { "Its size lies on the edge of the plausible range, which speaks against it." }
             }
             @for parameter in &candidate.parameters {
-                li { (parameter_name(&parameter.name, result)) " (" (parameter.name) "): plausible from " (significant(parameter.minimum, 3)) " to " (significant(parameter.maximum, 3)) " " (crate::effect_words::unit_text(&parameter.unit)) "." }
+                li { (parameter_name(&parameter.name, result)) ": plausible from " (significant(parameter.minimum, 3)) " to " (significant(parameter.maximum, 3)) " " (crate::effect_words::unit_text(&parameter.unit)) "." }
             }
         }
     }
