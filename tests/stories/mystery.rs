@@ -28,13 +28,16 @@ fn truth() -> (String, Vec<f64>) {
 }
 
 fn asked(verb: &Verb) -> (Outcome, TempDir) {
+    asked_of(&Study::on(fixtures().join("mystery")), verb)
+}
+
+fn asked_of(study: &Study, verb: &Verb) -> (Outcome, TempDir) {
     let out = tempfile::tempdir().unwrap();
     let settings = RunSettings {
         out: out.path().to_path_buf(),
         threads: None,
     };
-    let study = Study::on(fixtures().join("mystery"));
-    let outcome = diagnose(&study, verb, &settings, &|_| (), &AtomicBool::new(false)).unwrap();
+    let outcome = diagnose(study, verb, &settings, &|_| (), &AtomicBool::new(false)).unwrap();
     for file in ["report.html", "verdict.json", "recording.mcap", "study.ron"] {
         assert!(out.path().join(file).is_file(), "{verb:?}: {file}");
     }
@@ -117,4 +120,14 @@ fn improving_finds_it_unasked_and_stops() {
     assert_eq!(file["verdict"], "adequate");
     let last = file["ladder"].as_array().unwrap().last().unwrap();
     assert!(last["selected_fraction"].as_f64().unwrap() > 0.95);
+}
+
+/// The README's example of a law of one's own is an effect like any other; it is not what the mystery hides.
+#[test]
+fn a_law_of_one_s_own_takes_part() {
+    let mut study = Study::read(&crate::campaign::study_file("own_law.ron")).unwrap();
+    study.model.effects = vec!["grip_damping".into()];
+    let (outcome, _out) = asked_of(&study, &Verb::Compare);
+    assert_eq!(outcome.result.effects, ["grip_damping"]);
+    assert!(errors(diagnosis(&outcome))[0] > 1.1);
 }

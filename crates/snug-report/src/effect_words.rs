@@ -62,6 +62,20 @@ pub fn size(parameter: &EffectParameter) -> Markup {
     }
 }
 
+/// A sentence with its `commands` set as code and its units raised; an expression keeps its signs.
+pub fn sentence(text: &str) -> Markup {
+    let raised = if text.contains('*') {
+        text.to_owned()
+    } else {
+        unit_text(text)
+    };
+    html! {
+        @for (place, part) in raised.split('`').enumerate() {
+            @if place % 2 == 1 { code { (part) } } @else { (part) }
+        }
+    }
+}
+
 /// Every parameter with its name and size.
 pub fn sizes(parameters: &[EffectParameter], result: &CampaignResult) -> Markup {
     html! {
@@ -73,16 +87,16 @@ pub fn sizes(parameters: &[EffectParameter], result: &CampaignResult) -> Markup 
 
 /// What the catalogue's parameters are called.
 const PARAMETERS: [(&str, &str); 27] = [
-    ("k3_n_per_m3", "cubic stiffness k3"),
-    ("k2_n_per_m2", "quadratic stiffness k2"),
+    ("k3_n_per_m3", "coefficient k3"),
+    ("k2_n_per_m2", "coefficient k2"),
     ("fc_n", "friction force"),
-    ("c2_n_s2_per_m2", "quadratic damping c2"),
+    ("c2_n_s2_per_m2", "coefficient c2"),
     ("c_rebound_kg_per_s", "extra damping on the way back"),
     ("gap_m", "gap"),
     ("k_m_n_per_m", "branch stiffness"),
     ("k_h_n_per_m", "hysteresis stiffness"),
     ("z_max_m", "largest hysteresis deflection"),
-    ("m2_kg", "second mass"),
+    ("m2_kg", "its mass"),
     ("k2_n_per_m", "its stiffness"),
     ("c2_kg_per_s", "its damping"),
     ("f_max_n", "largest grip force"),

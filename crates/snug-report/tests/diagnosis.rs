@@ -215,11 +215,11 @@ fn candidates_stand_with_gain_chance_size_and_twins() {
         "ranking",
         &[
             "misfit removed in held-out tightenings [%]",
-            "cubic stiffness 83 ± 4 % p 0.001 k3 9.90 × 10⁵ N/m³",
+            "cubic stiffness 83 ± 4 % p 0.001 coefficient k3 9.90 × 10⁵ N/m³",
             "not to be told from quadratic stiffness",
             "size not plausible",
-            "p*x^2*v (unlisted)",
-            "in no catalogue",
+            "4 more were tried; terms that are in no catalogue among them: 1",
+            "p*x^2*v 0 ± 2 % p 0.610",
             "whether the arm runs into a stop",
             "plausible from −4.95 × 10⁶ to 4.95 × 10⁶ N/m³",
         ],
@@ -302,7 +302,7 @@ fn errors_absence_and_false_alarms_are_stated() {
             "2 of 40 : 5.0 %",
             "[1.4, 16.5] %",
             "Meant were 5.0 %",
-            "coulomb friction fc 0.830 N 30.0 N",
+            "coulomb friction friction force 0.830 N 30.0 N",
         ],
     );
 }

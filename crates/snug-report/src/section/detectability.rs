@@ -1,6 +1,6 @@
 use super::DiagnosisSection;
-use crate::effect_words::{effect_name, parameter_name, unit_text};
-use crate::number::{missing, percent, percent_interval, significant};
+use crate::effect_words::{effect_name, parameter_name, sentence, unit_text};
+use crate::number::{percent, percent_interval, significant};
 use maud::{Markup, html};
 use snug_campaign::{CampaignResult, Detectability, Diagnosis, Interval, NegativeControl};
 
@@ -49,18 +49,16 @@ fn absent(list: &[Detectability], result: &CampaignResult) -> Markup {
                 th scope="col" { "effect" }
                 th scope="col" { "absent or smaller than" }
                 th scope="col" { "largest plausible" }
-                th.words scope="col" { "in words" }
             } }
             tbody { @for row in list { tr {
                 th scope="row" { (effect_name(&row.effect)) " " span.interval { (parameter_name(&row.parameter, result)) } }
                 td {
                     @match row.smallest_detectable.filter(|size| size.is_finite()) {
                         Some(size) => (amount(size, &row.unit)),
-                        None => (missing("no plausible size would be found in these data")),
+                        None => span.interval { (sentence(&row.statement)) },
                     }
                 }
                 td { (amount(row.largest_plausible, &row.unit)) }
-                td.words { (row.statement) }
             } } }
         } }
     }

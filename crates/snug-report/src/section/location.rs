@@ -58,8 +58,9 @@ fn remarks(location: &Location) -> Markup {
     html! {
         @if !location.remarks.is_empty() { ul.reasons { @for remark in &location.remarks { li { (remark) } } } }
         @if let Some(share) = location.repeatable_share.filter(|share| share.is_finite()) {
-            p { strong { (percent(share)) } " of the squared misfit repeats: a simple law learnt from the other tightenings \
-                predicts it. A missing effect can explain more than that, because its force need not follow so simple a law." }
+            @if share < 0.005 { p { "Nothing of the misfit repeats from tightening to tightening." } }
+            @else { p { strong { (percent(share)) } " of the squared misfit repeats: a simple law learnt from the other tightenings \
+                predicts it. A missing effect can explain more than that, because its force need not follow so simple a law." } }
         }
     }
 }

@@ -1,6 +1,6 @@
 use super::DiagnosisSection;
 use crate::effect_words::{LEVEL, UNSURE, by_chance, effect_name, effect_names, parameter_name};
-use crate::effect_words::{share_with_error, sizes};
+use crate::effect_words::{sentence, share_with_error, sizes};
 use crate::figure::{Axis, Bar, Figure, Mark, Segment, captioned, legend};
 use crate::number::{fixed, p_value, plain, significant};
 use maud::{Markup, html};
@@ -46,7 +46,7 @@ fn render(diagnosis: &Diagnosis, result: &CampaignResult) -> Option<Markup> {
             details {
                 summary {
                     (rest.len()) " more were tried"
-                    @if unlisted > 0 { ", " (unlisted) " of them simple terms that are in no catalogue" }
+                    @if unlisted > 0 { "; terms that are in no catalogue among them: " (unlisted) }
                 }
                 div.candidates { @for candidate in &rest { (entry(candidate, false, result)) } }
             }
@@ -204,7 +204,7 @@ fn entry(candidate: &RankedEffect, with_twins: bool, result: &CampaignResult) ->
 
 fn evidence(candidate: &RankedEffect, result: &CampaignResult) -> Markup {
     html! {
-        ul { @for sentence in &candidate.explanation { li { (sentence) } } }
+        ul { @for line in &candidate.explanation { li { (sentence(line)) } } }
         ul.note {
             li { "Kind: " (candidate.kind) "." }
             li { "How sure: " (by_chance(candidate.p_family)) ", over all candidates together." }
@@ -222,7 +222,7 @@ fn evidence(candidate: &RankedEffect, result: &CampaignResult) -> Markup {
                 li { "Its size lies on the edge of the plausible range, which speaks against it." }
             }
             @for parameter in &candidate.parameters {
-                li { (parameter_name(&parameter.name, result)) " (" (parameter.name) "): plausible from " (significant(parameter.minimum, 3)) " to " (significant(parameter.maximum, 3)) " " (crate::effect_words::unit_text(&parameter.unit)) "." }
+                li { (parameter_name(&parameter.name, result)) ": plausible from " (significant(parameter.minimum, 3)) " to " (significant(parameter.maximum, 3)) " " (crate::effect_words::unit_text(&parameter.unit)) "." }
             }
         }
     }

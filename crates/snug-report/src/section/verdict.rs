@@ -1,6 +1,6 @@
 use super::DiagnosisSection;
 use crate::effect_words::{
-    by_chance, effect_name, effect_names, share_with_error, sizes, unit_text,
+    by_chance, effect_name, effect_names, sentence, share_with_error, sizes, unit_text,
 };
 use crate::number::{fixed, percent, significant};
 use maud::{Markup, html};
@@ -17,9 +17,9 @@ pub const SECTION: DiagnosisSection = DiagnosisSection {
 fn render(diagnosis: &Diagnosis, result: &CampaignResult) -> Option<Markup> {
     Some(html! {
         p { span.verdict.(diagnosis.verdict.name()) { (word(diagnosis)) } }
-        p.lead { (diagnosis.headline) }
+        p.lead { (sentence(&diagnosis.headline)) }
         @if !diagnosis.reasons.is_empty() {
-            ul.reasons { @for reason in &diagnosis.reasons { li { (reason) } } }
+            ul.reasons { @for reason in &diagnosis.reasons { li { (sentence(reason)) } } }
         }
         @if !diagnosis.added.is_empty() {
             h3 { "What the model has beyond mass, damper and spring" }
@@ -74,7 +74,7 @@ fn added(effect: &AddedEffect, result: &CampaignResult) -> Markup {
                 p.attention { "These data cannot tell it from " strong { (effect_names(&effect.twins)) } "." }
             }
             @if !effect.explanation.is_empty() {
-                ul { @for sentence in &effect.explanation { li { (sentence) } } }
+                ul { @for line in &effect.explanation { li { (sentence(line)) } } }
             }
         }
     }
@@ -100,7 +100,7 @@ fn missing(diagnosis: &Diagnosis, result: &CampaignResult) -> Markup {
                 }
                 @if !first.plausible { p.attention { "Its size lies on the edge of what is plausible." } }
                 @if !first.explanation.is_empty() {
-                    ul { @for sentence in &first.explanation { li { (sentence) } } }
+                    ul { @for line in &first.explanation { li { (sentence(line)) } } }
                 }
             } }
             p { "To add it and see the error before and after: " code { "cargo xtask add " (first.effect) }
