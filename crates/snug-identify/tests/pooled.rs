@@ -140,7 +140,7 @@ fn agree(shared_set: Constraints, own_set: impl Fn() -> Constraints, stacked_set
     let found = [pooled.own.concat(), pooled.shared.clone()].concat();
     for (found_value, stacked_value) in found.iter().zip(&stacked.values) {
         assert!(
-            (pooled - stacked).abs() < 1e-6,
+            (found_value - stacked_value).abs() < 1e-6,
             "{found:?} {:?}",
             stacked.values
         );
