@@ -53,8 +53,8 @@ fn number(value: f64) -> String {
     }
     let decimals = 2 - value.abs().log10().floor() as i32;
     match decimals {
-        ..=-4 => format!("{value:.2e}"),
-        -3..=0 => format!("{value:.0}"),
+        ..=-3 => format!("{value:.2e}"),
+        -2..=0 => format!("{value:.0}"),
         1..=5 => format!("{value:.*}", decimals as usize),
         _ => format!("{value:.2e}"),
     }
