@@ -79,9 +79,10 @@ pub fn share(share: f64, error: f64) -> String {
         100.0 * share,
         (100.0 * error).max(0.1)
     );
-    match text.strip_prefix("-0 ").or(text.strip_prefix("-0.0 ")) {
-        Some(rest) => format!("0 {rest}"),
-        None => text,
+    // A rounded zero has no sign.
+    match text.strip_prefix('-') {
+        Some(rest) if rest.starts_with("0 ") || rest.starts_with("0.0 ") => rest.to_owned(),
+        _ => text,
     }
 }
 
