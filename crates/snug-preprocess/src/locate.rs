@@ -129,7 +129,9 @@ pub(crate) fn place(
     let before_onset = located.onset.saturating_sub(lead);
     let moved = before_onset..before_onset + configured.len();
     let pulse = &located.pulse;
-    let too_early = located.onset < configured.start;
+    // Where a rise began is known to the time that the torque must rest before it.
+    let hold = context.samples(context.settings.onset.hold_s);
+    let too_early = located.onset + hold < configured.start;
     let cut_off = pulse.range.end > configured.end && pulse.range.end <= moved.end;
     let late = located.onset > configured.start + configured.len() / 2;
     let too_late =

@@ -67,7 +67,7 @@ pub(crate) fn prepare(
     signals.crop(&range);
     complete(&mut signals.motion, context.interval_s);
     let mut tightening = context.tightening(remarks, signals, range.start, peak);
-    tightening.onset = located.onset.checked_sub(range.start);
+    tightening.onset = Some(located.onset.saturating_sub(range.start));
     tightening.noise = measured.floor(source);
     tightening.corrections = measured.corrections;
     Ok(Prepared {
