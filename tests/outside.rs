@@ -25,3 +25,8 @@ fn folder(variable: &str, what: &str) -> Option<PathBuf> {
     }
     folder
 }
+
+/// Whether every effect is to be hidden and found (`SNUG_BLIND` is set, or `cargo xtask test --blind`).
+pub fn blind() -> bool {
+    std::env::var_os("SNUG_BLIND").is_some()
+}

@@ -1,7 +1,7 @@
 //! Effects hidden by a simulator of its own (another integrator, an eighth of the step, a continuous torque) under coloured
 //! noise, a spread of people and a small bias: the climb must name them, reach the floor and stay quiet where nothing is.
 //!
-//! A handful by default; with `SNUG_MANY` every effect, every unlisted law and more campaigns that hide nothing.
+//! A handful by default; with `SNUG_BLIND` every effect, every unlisted law and more campaigns that hide nothing.
 
 use snug_campaign::{AddedEffect, Diagnosis, Verdict};
 use snug_diagnose::{Case, DiagnoseSettings, Goal, Question, examine};
@@ -157,7 +157,7 @@ fn verdict_on(effect: Hidden, strength: f64, seed: u64) -> (Vec<String>, (usize,
 #[test]
 fn a_hidden_effect_is_named_and_the_floor_reached() {
     let (mut wrong, mut inside, mut all) = (Vec::new(), 0, 0);
-    let cases = if snug_tests::many() {
+    let cases = if snug_tests::blind() {
         EVERY.as_slice()
     } else {
         FEW.as_slice()
@@ -179,7 +179,7 @@ fn a_hidden_effect_is_named_and_the_floor_reached() {
 
 #[test]
 fn nothing_is_named_where_nothing_is_hidden() {
-    let seeds = if snug_tests::many() { 20 } else { 1 };
+    let seeds = if snug_tests::blind() { 20 } else { 1 };
     let mut alarms = Vec::new();
     for seed in 1..=seeds {
         let diagnosis = ask(&campaign(&[], 0.0, seed).cases, Goal::Improve);
@@ -202,7 +202,7 @@ fn a_law_outside_the_catalogue_is_called_so() {
         Hidden::QuinticStiffness,
         Hidden::ExponentialStiffness,
     ];
-    let laws = if snug_tests::many() {
+    let laws = if snug_tests::blind() {
         &every[..]
     } else {
         &every[..1]

@@ -103,6 +103,9 @@ pub enum Verb {
         /// Also the statistical checks with many cases (minutes).
         #[arg(long)]
         many: bool,
+        /// Also every effect of the catalogue hidden and searched for (half an hour and more).
+        #[arg(long)]
+        blind: bool,
         /// Only tests whose name contains this.
         filter: Option<String>,
     },

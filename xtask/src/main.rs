@@ -60,7 +60,11 @@ fn main() -> ExitCode {
         Verb::Improve(options) => verbs::diagnose(&options, &snug_study::Verb::Improve),
         Verb::Effects { name } => verbs::effects(name.as_deref()),
         Verb::Fixtures => verbs::fixtures(),
-        Verb::Test { many, filter } => verbs::test(many, filter.as_deref()),
+        Verb::Test {
+            many,
+            blind,
+            filter,
+        } => verbs::test(many, blind, filter.as_deref()),
         Verb::Bench { filter } => verbs::bench(filter.as_deref()),
     }
 }

@@ -233,16 +233,17 @@ pub(crate) fn reasons(situation: &Situation<'_>) -> Vec<String> {
             joined(&names)
         ));
     }
-    if situation.verdict == Verdict::Undecided && situation.verb != "compare" {
-        if let Some(first) = situation.ranking.first() {
-            let wanted = (4.0 / first.score.max(0.5)).powi(2) * situation.tightenings as f64;
-            reasons.push(format!(
-                "The best candidate is {} (chance alone does as well in {} of 100 campaigns). About {} tightenings like these would decide.",
-                first.effect.replace('_', " "),
-                (first.p_family * 100.0).ceil(),
-                (wanted / 4.0).ceil() * 4.0
-            ));
-        }
+    if situation.verdict == Verdict::Undecided
+        && situation.verb != "compare"
+        && let Some(first) = situation.ranking.first()
+    {
+        let wanted = (4.0 / first.score.max(0.5)).powi(2) * situation.tightenings as f64;
+        reasons.push(format!(
+            "The best candidate is {} (chance alone does as well in {} of 100 campaigns). About {} tightenings like these would decide.",
+            first.effect.replace('_', " "),
+            (first.p_family * 100.0).ceil(),
+            (wanted / 4.0).ceil() * 4.0
+        ));
     }
     reasons
 }
