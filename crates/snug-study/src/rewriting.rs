@@ -2,43 +2,51 @@
 
 use crate::study::options;
 use crate::{Study, StudyError};
+use snug_model::CustomEffectSettings;
 use std::path::Path;
 
-/// Writes `effects` into the file's model.
+/// Writes `effects` into the file's model, and declares those laws among `custom` that the file does not declare yet.
 ///
-/// Only the list itself is replaced, or put in where there was none. Should the file be written in a way that this cannot
+/// Only the lists themselves are replaced, or put in where there were none. Should the file be written in a way that this cannot
 /// follow, it is written anew with every default, and its comments are lost.
 ///
 /// # Errors
 /// [`StudyError::Read`] and [`StudyError::Syntax`] for a file that is no study, [`StudyError::Write`].
-pub fn rewrite_effects(path: &Path, effects: &[String]) -> Result<(), StudyError> {
+pub fn rewrite_effects(
+    path: &Path,
+    effects: &[String],
+    custom: &[CustomEffectSettings],
+) -> Result<(), StudyError> {
     let read = |source| StudyError::Read {
         path: path.to_path_buf(),
         source,
     };
     let text = std::fs::read_to_string(path).map_err(read)?;
-    let mut wanted = parse(path, &text)?;
+    let mut wanted = Study::parse(&text, path)?;
+    if wanted.model.effects == effects {
+        return Ok(());
+    }
     wanted.model.effects = effects.to_vec();
-    let replaced = with_effects(&text, effects);
+    let declared: Vec<&str> = (wanted.model.custom.iter())
+        .map(|law| law.name.as_str())
+        .collect();
+    let new: Vec<CustomEffectSettings> = (custom.iter())
+        .filter(|law| effects.contains(&law.name) && !declared.contains(&law.name.as_str()))
+        .cloned()
+        .collect();
+    wanted.model.custom.extend(new.iter().cloned());
+    let replaced = with_effects(&text, effects).and_then(|text| match new.as_slice() {
+        [] => Some(text),
+        new => with_laws(&text, new),
+    });
     let new = match replaced {
-        Some(new) if parse(path, &new).is_ok_and(|study| study == wanted) => new,
+        Some(new) if Study::parse(&new, path).is_ok_and(|study| study == wanted) => new,
         _ => wanted.to_ron()?,
     };
     std::fs::write(path, new).map_err(|source| StudyError::Write {
         path: path.to_path_buf(),
         source,
     })
-}
-
-fn parse(path: &Path, text: &str) -> Result<Study, StudyError> {
-    options()
-        .from_str(text)
-        .map_err(|source| StudyError::Syntax {
-            path: path.to_path_buf(),
-            line: source.span.start.line,
-            column: source.span.start.col,
-            message: source.code.to_string(),
-        })
 }
 
 /// The text with the model's list of effects replaced or put in.
@@ -66,6 +74,21 @@ fn with_effects(text: &str, effects: &[String]) -> Option<String> {
     Some(format!("{}{list}{}", &text[..old], &text[end..]))
 }
 
+/// The text with a list of the study's own laws put in behind the list of effects; `None` where it has one already.
+fn with_laws(text: &str, laws: &[CustomEffectSettings]) -> Option<String> {
+    if text.contains("custom:") {
+        return None;
+    }
+    let written = options().to_string(&laws).ok()?;
+    let list = text.find("effects:")?;
+    let end = list + text[list..].find(']')? + 1;
+    Some(format!(
+        "{}, custom: {written}{}",
+        &text[..end],
+        &text[end..]
+    ))
+}
+
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
@@ -75,8 +98,41 @@ mod tests {
         let file = tempfile::NamedTempFile::new().unwrap();
         std::fs::write(file.path(), text).unwrap();
         let effects: Vec<String> = effects.iter().map(|name| (*name).to_owned()).collect();
-        rewrite_effects(file.path(), &effects).unwrap();
+        rewrite_effects(file.path(), &effects, &laws()).unwrap();
         std::fs::read_to_string(file.path()).unwrap()
+    }
+
+    fn laws() -> Vec<CustomEffectSettings> {
+        vec![CustomEffectSettings {
+            name: "cubic_damping".into(),
+            expression: "p*v^3".into(),
+            parameters: vec![snug_model::CustomParameterSettings {
+                name: "p".into(),
+                unit: "N s^3/m^3".into(),
+                ..Default::default()
+            }],
+            ..Default::default()
+        }]
+    }
+
+    /// A law that was found is declared beside the list that names it, once, and the file can be run.
+    #[test]
+    fn a_law_of_the_study_s_own_is_declared_where_it_is_used() {
+        let first = rewritten(
+            "// mine\n(model: (intersample: Linear))",
+            &["cubic_damping"],
+        );
+        assert!(
+            first.starts_with("// mine\n(model: (effects: [\"cubic_damping\"], custom: ["),
+            "{first}"
+        );
+        let study: Study = options().from_str(&first).unwrap();
+        assert_eq!(study.model.custom, laws());
+        study.model.effect("cubic_damping").unwrap();
+        let again: Study = options()
+            .from_str(&rewritten(&first, &["cubic_damping"]))
+            .unwrap();
+        assert_eq!(again.model.custom.len(), 1);
     }
 
     #[test]

@@ -67,20 +67,28 @@ impl Study {
             path: path.to_path_buf(),
             source,
         })?;
-        let mut study: Self = options()
-            .from_str(&text)
-            .map_err(|source| StudyError::Syntax {
-                path: path.to_path_buf(),
-                line: source.span.start.line,
-                column: source.span.start.col,
-                message: source.code.to_string(),
-            })?;
+        let mut study = Self::parse(&text, path)?;
         let folder = path.parent().unwrap_or(Path::new(""));
         study.source.path = folder.join(&study.source.path);
         // What the file leaves out has the default preset's choices; they are to be those of the preset it names.
         study.follow(Preset::default(), study.preprocess.preset);
         study.check().map_err(|error| error.in_file(path, &text))?;
         Ok(study)
+    }
+
+    /// The study that `text` (RON), the content of the file at `path`, describes; its data path is taken as it stands.
+    ///
+    /// # Errors
+    /// [`StudyError::Syntax`] with line and column.
+    pub fn parse(text: &str, path: &Path) -> Result<Self, StudyError> {
+        options()
+            .from_str(text)
+            .map_err(|source| StudyError::Syntax {
+                path: path.to_path_buf(),
+                line: source.span.start.line,
+                column: source.span.start.col,
+                message: source.code.to_string(),
+            })
     }
 
     /// The study with every default written out, as RON that [`Study::read`] takes.

@@ -23,7 +23,10 @@ pub fn diagnose(options: &RunOptions, verb: &Verb) -> ExitCode {
         |settings, progress, interrupted| {
             let outcome = snug_study::diagnose(&study, verb, settings, progress, interrupted)?;
             if let (Some(path), Verb::Add(_) | Verb::Improve) = (&options.study, verb) {
-                write_model(path, &outcome.result.effects)?;
+                let laws = snug_study::Study::parse(&outcome.result.study_ron, path)?
+                    .model
+                    .custom;
+                snug_study::rewrite_effects(path, &outcome.result.effects, &laws)?;
             }
             Ok(outcome)
         },
@@ -41,7 +44,7 @@ pub fn remove(study: &Path, effect: &str) -> ExitCode {
             });
         }
         effects.retain(|name| name != effect);
-        write_model(study, &effects)?;
+        snug_study::rewrite_effects(study, &effects, &[])?;
         Ok(effects)
     });
     match taken_out {
@@ -61,11 +64,6 @@ pub fn remove(study: &Path, effect: &str) -> ExitCode {
             exit::bad_arguments()
         }
     }
-}
-
-/// Writes the model's effects into the study file, comments and all else untouched.
-fn write_model(path: &Path, effects: &[String]) -> Result<(), StudyError> {
-    snug_study::rewrite_effects(path, effects)
 }
 
 /// The options to repeat in the next command.
