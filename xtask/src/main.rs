@@ -38,8 +38,10 @@ mod exit {
         ExitCode::from(3)
     }
     /// Stopped by Ctrl-C, as shells count it.
+    pub const INTERRUPTED: u8 = 130;
+    /// The same, as this program's exit code.
     pub fn interrupted() -> ExitCode {
-        ExitCode::from(130)
+        ExitCode::from(INTERRUPTED)
     }
 }
 

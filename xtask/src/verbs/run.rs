@@ -35,7 +35,13 @@ pub fn carry_out(
     };
     let interrupted = Arc::new(AtomicBool::new(false));
     let flag = Arc::clone(&interrupted);
-    if let Err(error) = ctrlc::set_handler(move || flag.store(true, Ordering::Relaxed)) {
+    let stop = move || {
+        if flag.swap(true, Ordering::Relaxed) {
+            std::process::exit(exit::INTERRUPTED.into());
+        }
+        eprintln!("stopping after what is at hand; Ctrl-C again stops at once");
+    };
+    if let Err(error) = ctrlc::set_handler(stop) {
         tracing::warn!(%error, "Ctrl-C will stop at once instead of after the current file");
     }
     let progress = Progress::new(options.quiet);
