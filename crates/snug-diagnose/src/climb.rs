@@ -136,6 +136,11 @@ pub(crate) fn candidates(
     all.extend(custom);
     all.extend(terms()?);
     all.retain(|effect| !current.effects.contains(effect));
+    // What a simulation cannot carry beside the effects that are there is no candidate.
+    all.retain(|&effect| {
+        let with = [current.effects.as_slice(), &[effect]].concat();
+        cases[0].model_with(&with).is_ok()
+    });
     Ok(all)
 }
 
