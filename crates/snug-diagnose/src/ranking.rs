@@ -210,6 +210,9 @@ fn refit(
     }
     let (best, shared) = rough(cases, current, effect, &effects, &starts)?;
     start.shared = shared;
+    let afar = hypothesis.fit_blurred(&start, &CANDIDATE)?;
+    start.shared = afar.fit.shared;
+    start.own = afar.fit.own;
     let mut end = hypothesis.fit(&start, &CANDIDATE)?;
     if effect.description().parameters.len() == 1 {
         // The whole way from the start may lead each tightening's own parameters past where they would be caught.
@@ -252,7 +255,7 @@ fn rough(
     for (index, values) in starts.iter().enumerate() {
         let mut start = with_effect(&hypothesis, &current.only(&few), effect, values);
         start.own.truncate(some.len());
-        let Ok(end) = hypothesis.fit(&start, &settings) else {
+        let Ok(end) = hypothesis.fit_blurred(&start, &settings) else {
             continue;
         };
         if best
