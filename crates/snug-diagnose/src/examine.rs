@@ -1,9 +1,10 @@
 //! One verb of the diagnosis from tightenings to answer: compare, diagnose, add, improve.
 
-use crate::climb::{Addition, Attempt, Climb, add, climb, misfit, misfits, rank_only};
+use crate::climb::{Addition, Attempt, Climb, misfit, misfits};
 use crate::experiment::separating_experiment;
 use crate::fitted::Fitted;
-use crate::ranking::{Candidate, Ranking, fit_effects};
+use crate::ranking::{Candidate, Ranking};
+use crate::search::Search;
 use crate::sight::Sight;
 use crate::sizes::parameters;
 use crate::units::Units;
@@ -83,19 +84,25 @@ pub fn examine(
             reason: "every tightening was left out; the findings say why",
         });
     }
-    let units = Units::of(cases);
-    let own = &question.effects;
-    let climbed = match &question.goal {
-        Goal::Compare => Climb::only(fit_effects(cases, own, None, units)?),
-        Goal::Diagnose => rank_only(cases, own, &question.custom, units, settings, tell)?,
-        Goal::Add(effects) => add(cases, own, effects, &question.custom, units, settings, tell)?,
-        Goal::Improve => climb(cases, own, &question.custom, units, settings, tell)?,
+    let search = Search {
+        cases,
+        own: &question.effects,
+        custom: &question.custom,
+        units: Units::of(cases),
+        settings,
+        tell,
+    };
+    let climb = match &question.goal {
+        Goal::Compare => search.compare()?,
+        Goal::Diagnose => search.diagnose()?,
+        Goal::Add(effects) => search.add(effects)?,
+        Goal::Improve => search.improve()?,
     };
     tell("looking where the model fails");
     Examination {
         question,
         settings,
-        climb: climbed,
+        climb,
         tell,
     }
     .answer()
