@@ -4,7 +4,7 @@
 //! A handful by default; with `SNUG_BLIND` every effect, every unlisted law and more campaigns that hide nothing.
 
 use snug_campaign::{AddedEffect, Diagnosis, Verdict};
-use snug_diagnose::{Case, DiagnoseSettings, Goal, Question, examine};
+use snug_diagnose::{Case, DiagnoseSettings, Goal, Question, Watch, examine};
 use snug_study::Study;
 use snug_synthetic::{
     CampaignPlan, HiddenEffect as Hidden, MatStyle, NoiseKind, Truth, ZeroErrors, simulate,
@@ -70,7 +70,7 @@ fn campaign(effects: &[Hidden], strength: f64, seed: u64) -> Campaign {
         .unwrap();
     let study = Study::on(folder.path().join("data"));
     let listing = snug_ingest::list(&study.source, &study.source.path).unwrap();
-    let (cases, _) = snug_study::cases(&study, &listing.files, usize::MAX).unwrap();
+    let cases = snug_study::cases(&study, &listing.files, usize::MAX).unwrap();
     Campaign {
         cases,
         truth: simulated.truth,
@@ -84,9 +84,13 @@ fn ask(cases: &[Case], goal: Goal) -> Diagnosis {
         custom: Vec::new(),
         goal,
     };
-    examine(&question, &DiagnoseSettings::default(), &|_| ())
-        .unwrap()
-        .diagnosis
+    examine(
+        &question,
+        &DiagnoseSettings::default(),
+        &Watch::new(&|_| ()),
+    )
+    .unwrap()
+    .diagnosis
 }
 
 fn error(diagnosis: &Diagnosis) -> f64 {

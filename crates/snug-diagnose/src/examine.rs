@@ -11,7 +11,7 @@ use crate::units::Units;
 use crate::unlisted::{declaration, is_unlisted};
 use crate::wording::{self, Situation};
 use crate::{
-    Case, DiagnoseError, DiagnoseSettings, compare, detectability, drifts, ladder, locate,
+    Case, DiagnoseError, DiagnoseSettings, Watch, compare, detectability, drifts, ladder, locate,
     preparation, trend,
 };
 use snug_campaign::{
@@ -68,14 +68,13 @@ pub struct Answer {
 
 /// Answers a question.
 ///
-/// `tell` hears of each stage as it begins.
-///
 /// # Errors
-/// [`DiagnoseError::NothingToCompare`] without tightenings, otherwise what the model or the fit refuses.
+/// [`DiagnoseError::NothingToCompare`] without tightenings, [`DiagnoseError::Interrupted`] when `watch` ends it,
+/// otherwise what the model or the fit refuses.
 pub fn examine(
     question: &Question<'_>,
     settings: &DiagnoseSettings,
-    tell: &(dyn Fn(&str) + Sync),
+    watch: &Watch<'_>,
 ) -> Result<Answer, DiagnoseError> {
     let cases = question.cases;
     if cases.is_empty() {
@@ -90,7 +89,7 @@ pub fn examine(
         custom: &question.custom,
         units: Units::of(cases),
         settings,
-        tell,
+        watch,
     };
     let climb = match &question.goal {
         Goal::Compare => search.compare()?,
@@ -98,12 +97,12 @@ pub fn examine(
         Goal::Add(effects) => search.add(effects)?,
         Goal::Improve => search.improve()?,
     };
-    tell("looking where the model fails");
+    watch.begin("looking where the model fails")?;
     Examination {
         question,
         settings,
         climb,
-        tell,
+        watch,
     }
     .answer()
 }
@@ -112,7 +111,7 @@ struct Examination<'a> {
     question: &'a Question<'a>,
     settings: &'a DiagnoseSettings,
     climb: Climb,
-    tell: &'a (dyn Fn(&str) + Sync),
+    watch: &'a Watch<'a>,
 }
 
 impl Examination<'_> {
@@ -159,7 +158,8 @@ impl Examination<'_> {
         };
         let experiment = match situation.twin_pair() {
             Some((first, second)) => {
-                (self.tell)("looking for the experiment that tells the twins apart");
+                self.watch
+                    .begin("looking for the experiment that tells the twins apart")?;
                 separating_experiment(cases, first, second)
             }
             None => None,
@@ -291,7 +291,6 @@ impl Examination<'_> {
                 .is_weighted
                 .then(|| candidate.fitted.error()),
             behind_first: first.map_or(0.0, |first| first.ahead_of(candidate)),
-            likeness: None,
             twins: twins.iter().map(|twin| twin.name().to_owned()).collect(),
             plausible: candidate.fitted.converged
                 && sizes

@@ -25,6 +25,7 @@ mod torque_noise;
 mod trend;
 mod units;
 mod unlisted;
+mod watch;
 mod wording;
 
 pub use case::Case;
@@ -32,3 +33,4 @@ pub use error::DiagnoseError;
 pub use examine::{Answer, Goal, Question, RungModel, examine};
 pub use locate::{Seen, compare, drifts, locate};
 pub use settings::DiagnoseSettings;
+pub use watch::Watch;

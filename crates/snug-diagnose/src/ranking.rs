@@ -7,7 +7,7 @@ use crate::fitted::Fitted;
 use crate::hypothesis::{Hypothesis, Start};
 use crate::score::{Column, Control, Scored, Scorer};
 use crate::units::Units;
-use crate::{Case, DiagnoseSettings};
+use crate::{Case, DiagnoseSettings, Watch};
 use rayon::prelude::*;
 use snug_identify::PooledSettings;
 use snug_model::{BASE_PARAMETERS, Effect, Law, Scope};
@@ -103,6 +103,7 @@ pub(crate) fn rank(
     units: Units,
     settings: &DiagnoseSettings,
     control_campaigns: usize,
+    watch: &Watch<'_>,
 ) -> Result<Ranking, DiagnoseError> {
     let hypothesis = Hypothesis::new(cases, &current.effects)?;
     let control = Control {
@@ -125,6 +126,7 @@ pub(crate) fn rank(
     let refitted: Vec<Result<Option<Candidate>, DiagnoseError>> = candidates
         .par_iter()
         .map(|&effect| {
+            watch.go_on()?;
             let fitted = refit(cases, current, effect, &columns, units, settings);
             let Some(fitted) = possible(fitted)? else {
                 return Ok(None);

@@ -5,7 +5,7 @@ use crate::fitted::Fitted;
 use crate::ranking::{Candidate, Ranking, fit_effects, gains, rank};
 use crate::units::Units;
 use crate::unlisted::{is_unlisted, terms};
-use crate::{Case, DiagnoseError, DiagnoseSettings, tidying};
+use crate::{Case, DiagnoseError, DiagnoseSettings, Watch, tidying};
 use snug_campaign::Quantity;
 use snug_model::Effect;
 
@@ -18,8 +18,7 @@ pub(crate) struct Search<'a> {
     pub custom: &'a [Effect],
     pub units: Units,
     pub settings: &'a DiagnoseSettings,
-    /// Hears of each stage as it begins.
-    pub tell: &'a (dyn Fn(&str) + Sync),
+    pub watch: &'a Watch<'a>,
 }
 
 /// Effects a model can be extended by before the climb is called off.
@@ -101,10 +100,10 @@ impl Search<'_> {
         current: &Fitted,
         control_campaigns: usize,
     ) -> Result<Ranking, DiagnoseError> {
-        (self.tell)(&format!(
+        self.watch.begin(&format!(
             "ranking what is missing beside {}",
             list(&current.effects)
-        ));
+        ))?;
         let all = candidates(self.cases, current, self.custom)?;
         rank(
             self.cases,
@@ -113,6 +112,7 @@ impl Search<'_> {
             self.units,
             self.settings,
             control_campaigns,
+            self.watch,
         )
     }
 
@@ -127,8 +127,16 @@ impl Search<'_> {
         if !all.contains(&effect) {
             all.push(effect);
         }
-        (self.tell)(&format!("adding {}", effect.name()));
-        rank(self.cases, current, &all, self.units, self.settings, 0)
+        self.watch.begin(&format!("adding {}", effect.name()))?;
+        rank(
+            self.cases,
+            current,
+            &all,
+            self.units,
+            self.settings,
+            0,
+            self.watch,
+        )
     }
 
     /// The best candidate, or a supported catalogue effect that is as good.
@@ -199,10 +207,19 @@ impl Search<'_> {
             .take(SEEDS);
         for (seed, candidate) in seeds {
             let first = &candidate.fitted;
-            (self.tell)(&format!("looking ahead from {}", list(&first.effects)));
+            self.watch
+                .begin(&format!("looking ahead from {}", list(&first.effects)))?;
             let mut seconds = candidates(self.cases, first, self.custom)?;
             seconds.retain(|&effect| !is_unlisted(effect));
-            let next = rank(self.cases, first, &seconds, self.units, self.settings, 0)?;
+            let next = rank(
+                self.cases,
+                first,
+                &seconds,
+                self.units,
+                self.settings,
+                0,
+                self.watch,
+            )?;
             let Ok(second) = justified(&next, first, self.settings) else {
                 continue;
             };

@@ -16,7 +16,9 @@ pub(crate) fn try_removals(search: &Search<'_>, climb: &mut Climb) -> Result<(),
     let added: Vec<Effect> = climb.additions.iter().map(|one| one.effect).collect();
     for effect in added {
         let full = climb.last().clone();
-        (search.tell)(&format!("trying to do without {}", effect.name()));
+        search
+            .watch
+            .begin(&format!("trying to do without {}", effect.name()))?;
         let mut effects = full.effects.clone();
         effects.retain(|known| *known != effect);
         let without = fit_effects(search.cases, &effects, Some(&full), search.units)?;
@@ -58,11 +60,11 @@ pub(crate) fn look_at_twins_again(
         addition.twins.retain(|twin| !full.effects.contains(twin));
         let mut kept = Vec::new();
         for &twin in &addition.twins {
-            (search.tell)(&format!(
+            search.watch.begin(&format!(
                 "trying {} in place of {}",
                 twin.name(),
                 addition.effect.name()
-            ));
+            ))?;
             if does_as_well(search, &full, &heldout, addition.effect, twin)? {
                 kept.push(twin);
             }

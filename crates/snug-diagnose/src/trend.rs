@@ -56,7 +56,6 @@ pub(crate) fn fatigue(drifts: &[Drift], cases: &[Case]) -> Option<RankedEffect> 
         heldout_gain_error: 0.0,
         error_over_noise: None,
         behind_first: 0.0,
-        likeness: None,
         twins: Vec::new(),
         plausible: parameters
             .iter()
