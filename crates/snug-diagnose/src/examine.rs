@@ -15,10 +15,10 @@ use crate::{
     preparation, trend,
 };
 use snug_campaign::{
-    AddedEffect, Diagnosis, EffectParameter, NegativeControl, Quantity, RankedEffect, Removal,
-    UnlistedTerm, Verdict,
+    AddedEffect, Diagnosis, EffectParameter, NegativeControl, RankedEffect, Removal, UnlistedTerm,
+    Verdict,
 };
-use snug_model::{CustomEffectSettings, Effect, Kind, Law};
+use snug_model::{CustomEffectSettings, Effect, Law};
 
 /// What is asked of the data.
 #[derive(Debug, Clone, PartialEq)]
@@ -177,7 +177,7 @@ impl Examination<'_> {
             stopped,
             tightenings: cases.len(),
             noise: preparation::noise(cases),
-            compared_output: quantity_name(cases[0].quantity).to_owned(),
+            compared_output: cases[0].quantity.name().to_owned(),
             added: self.added(),
             corrected,
             ladder: self
@@ -280,7 +280,7 @@ impl Examination<'_> {
         };
         RankedEffect {
             effect: candidate.effect.name().to_owned(),
-            kind: kind_name(candidate.effect).to_owned(),
+            kind: candidate.effect.description().kind.name().to_owned(),
             unlisted: is_unlisted(candidate.effect),
             score: candidate.score,
             p_family: candidate.p_family,
@@ -319,7 +319,7 @@ impl Examination<'_> {
                 let sizes = parameters(cases, last, effect);
                 AddedEffect {
                     effect: effect.name().to_owned(),
-                    kind: kind_name(effect).to_owned(),
+                    kind: effect.description().kind.name().to_owned(),
                     expression: declaration(effect.name()).map(|d| d.expression),
                     twins: one.map_or_else(Vec::new, |one| {
                         one.twins
@@ -417,23 +417,5 @@ fn removal(attempt: &Attempt) -> Removal {
         effect: attempt.effect.name().to_owned(),
         removed: attempt.removed,
         statement: wording::removal(attempt),
-    }
-}
-
-pub(crate) fn quantity_name(quantity: Quantity) -> &'static str {
-    match quantity {
-        Quantity::Displacement => "displacement",
-        Quantity::Velocity => "velocity",
-        Quantity::Acceleration => "acceleration",
-    }
-}
-
-pub(crate) fn kind_name(effect: Effect) -> &'static str {
-    match effect.description().kind {
-        Kind::Mechanical => "mechanical",
-        Kind::Muscular => "muscular",
-        Kind::Measurement => "measurement",
-        Kind::Trend => "trend",
-        Kind::Custom => "custom",
     }
 }

@@ -16,6 +16,19 @@ pub enum Kind {
     Custom,
 }
 
+impl Kind {
+    /// What it is called in texts and files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Mechanical => "mechanical",
+            Self::Muscular => "muscular",
+            Self::Measurement => "measurement",
+            Self::Trend => "trend",
+            Self::Custom => "custom",
+        }
+    }
+}
+
 /// Over what an effect's parameter is constant.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]

@@ -1,5 +1,5 @@
 use crate::exit;
-use snug_model::{Description, Effect, INVISIBLE, Invisible, Kind, Law, TRENDS};
+use snug_model::{Description, Effect, INVISIBLE, Invisible, Law, TRENDS};
 use std::process::ExitCode;
 
 /// The catalogue as a table, or one effect in full.
@@ -38,7 +38,7 @@ fn table() {
         println!(
             "{:<26} {:<12} {}",
             description.name,
-            kind(description.kind),
+            description.kind.name(),
             description.summary
         );
     }
@@ -61,7 +61,7 @@ fn why_never(invisible: &Invisible) {
 }
 
 fn in_full(description: &Description) {
-    println!("{} ({})", description.name, kind(description.kind));
+    println!("{} ({})", description.name, description.kind.name());
     println!("  {}\n", description.summary);
     println!("  Equation    {}", description.equation);
     println!("  Excited by  {}", description.excited_by);
@@ -84,15 +84,5 @@ fn in_full(description: &Description) {
             parameter.minimum,
             parameter.maximum
         );
-    }
-}
-
-fn kind(kind: Kind) -> &'static str {
-    match kind {
-        Kind::Mechanical => "mechanical",
-        Kind::Muscular => "muscular",
-        Kind::Measurement => "measurement",
-        Kind::Trend => "trend",
-        Kind::Custom => "custom",
     }
 }
