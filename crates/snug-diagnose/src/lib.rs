@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 mod case;
+mod cases;
 mod climb;
 mod dense;
 mod detectability;
@@ -21,6 +22,7 @@ mod settings;
 mod sight;
 mod sizes;
 mod tidying;
+mod together;
 mod torque_noise;
 mod trend;
 mod units;
@@ -33,4 +35,5 @@ pub use error::DiagnoseError;
 pub use examine::{Answer, Goal, Question, RungModel, examine};
 pub use locate::{Seen, compare, drifts, locate};
 pub use settings::DiagnoseSettings;
+pub use together::{Together, fit_together};
 pub use watch::Watch;

@@ -1,17 +1,18 @@
 //! The way up: rank, add the best, tidy up, again, until nothing more is justified.
 
+use crate::cases::Cases;
 use crate::climb::{Addition, Climb, EQUAL, Stop, justified, misfit, twins};
 use crate::fitted::Fitted;
 use crate::ranking::{Candidate, Ranking, fit_effects, gains, rank};
 use crate::units::Units;
 use crate::unlisted::{is_unlisted, terms};
-use crate::{Case, DiagnoseError, DiagnoseSettings, Watch, tidying};
+use crate::{DiagnoseError, DiagnoseSettings, Watch, tidying};
 use snug_campaign::Quantity;
 use snug_model::Effect;
 
 /// What stays the same while effects are looked for.
 pub(crate) struct Search<'a> {
-    pub cases: &'a [Case],
+    pub cases: Cases<'a>,
     /// Effects of the study's own model.
     pub own: &'a [Effect],
     /// Effects that the study declares but does not use: candidates, too.
@@ -253,7 +254,7 @@ const SEEDS: usize = 3;
 
 /// The effects that may be missing beside `current`.
 fn candidates(
-    cases: &[Case],
+    cases: Cases<'_>,
     current: &Fitted,
     custom: &[Effect],
 ) -> Result<Vec<Effect>, DiagnoseError> {
