@@ -385,7 +385,7 @@ impl Examination<'_> {
         let declared = declaration(effect.name())?;
         let sizes = parameters(self.question.cases, fitted, effect);
         Some(UnlistedTerm {
-            statement: wording::unlisted(&declared, gain, &sizes),
+            statement: wording::unlisted(effect, &declared, gain, &sizes),
             ron: wording::paste(&declared, &sizes),
             expression: declared.expression,
             heldout_gain: gain,

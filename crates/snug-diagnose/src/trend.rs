@@ -63,7 +63,10 @@ pub(crate) fn fatigue(drifts: &[Drift], cases: &[Case]) -> Option<RankedEffect> 
         explanation: vec![
             description.summary.to_owned(),
             format!("How it shows: {}.", description.shows_as),
-            format!("Its size in these data: {}.", wording::sizes(&parameters)),
+            format!(
+                "Its size in these data: {}.",
+                wording::sizes(description, &parameters)
+            ),
             description.check.to_owned(),
         ],
         parameters,

@@ -44,6 +44,8 @@ pub enum Scope {
 pub struct ParameterSpec {
     /// Name with unit suffix.
     pub name: &'static str,
+    /// What it is, in a few words.
+    pub meaning: &'static str,
     /// Unit as people write it.
     pub unit: &'static str,
     /// Starting values, the usual one first; more than one where the cost has several minima.

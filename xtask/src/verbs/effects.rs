@@ -72,17 +72,18 @@ fn in_full(description: &Description) {
     println!("  Check       {}", description.check);
     println!("  Source      {}\n", description.source);
     println!(
-        "  {:<30} {:<14} {:>12} {:>12} {:>12}",
-        "Parameter", "Unit", "start", "from", "to"
+        "  {:<30} {:<14} {:>12} {:>12} {:>12}  {}",
+        "Parameter", "Unit", "start", "from", "to", "What it is"
     );
     for parameter in description.parameters {
         println!(
-            "  {:<30} {:<14} {:>12} {:>12} {:>12}",
+            "  {:<30} {:<14} {:>12} {:>12} {:>12}  {}",
             parameter.name,
             parameter.unit,
             parameter.starts[0],
             parameter.minimum,
-            parameter.maximum
+            parameter.maximum,
+            parameter.meaning
         );
     }
 }

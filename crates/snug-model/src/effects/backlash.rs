@@ -29,6 +29,7 @@ impl Law for Backlash {
             equation: "spring and damper act on x beyond +-g",
             parameters: &[ParameterSpec {
                 name: "gap_m",
+                meaning: "gap to either side",
                 unit: "m",
                 starts: &[0.0005, 4e-5, 0.00012, 0.0015, 0.004],
                 minimum: 0.0,
