@@ -1,8 +1,9 @@
 //! From measurement files to report, in a process of its own: time and peak memory.
 
 use crate::campaign::Campaign;
-use crate::measure::Times;
-use crate::table::{alone, left_out, section, short, shown};
+use crate::measure::{Times, once};
+use crate::ranking::bare_fits;
+use crate::table::{Reference, alone, left_out, section, short, times_the};
 use snug_study::{RunSettings, Study, Verb, diagnose};
 use snug_synthetic::HiddenEffect;
 use std::path::Path;
@@ -37,11 +38,16 @@ pub fn fill(is_long: bool) {
             .reduce(f64::max);
         let memory =
             memory.map_or_else(|| "not known".to_owned(), |mb| format!("{} MB", short(mb)));
-        let count = campaign.tightenings;
-        alone(
-            &shown(&times),
-            &format!("{count} tightenings, {}", measured[0].found),
+        let (count, cases) = (campaign.tightenings, campaign.cases());
+        let reference = Reference {
+            name: "bare scalar loops",
+            times: &once(|| bare_fits(&cases)),
+        };
+        let found = &measured[0].found;
+        let what = format!(
+            "{count} tightenings ({found}); the reference fits the base model to each once"
         );
+        times_the(&reference, &times, &what);
         alone(&memory, &format!("{count} tightenings, peak memory"));
     }
 }

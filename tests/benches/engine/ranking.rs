@@ -53,7 +53,8 @@ fn row(
     times_the(&reference, ours, &what);
 }
 
-fn bare_fits(cases: &[Case]) {
+/// One base-model fit of each by the bare scalar loop.
+pub fn bare_fits(cases: &[Case]) {
     for case in cases {
         black_box(bare_loop::fit(&record(case), START));
     }
