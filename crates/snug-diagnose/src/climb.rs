@@ -1,11 +1,11 @@
 //! The climb: rank, add the best, tidy up, again, until nothing more is justified.
 
+use crate::applicability::candidates;
 use crate::fitted::Fitted;
 use crate::ranking::{Candidate, Ranking, fit_effects, gains, rank};
 use crate::units::Units;
-use crate::unlisted::{is_unlisted, terms};
+use crate::unlisted::is_unlisted;
 use crate::{Case, DiagnoseError, DiagnoseSettings};
-use snug_campaign::Quantity;
 use snug_model::Effect;
 
 /// An effect that was added, with what spoke for it then.
@@ -113,35 +113,14 @@ pub(crate) fn justified(
             }
         }
         None => {
-            let all = ranking.candidates.iter();
+            let gains =
+                |candidate: &&Candidate| candidate.gain() > 0.0 && candidate.clearness() > 1.0;
+            let all = ranking.candidates.iter().filter(gains);
             Err(Stop::NothingSupported {
                 best_p: all.map(|candidate| candidate.p_family).fold(1.0, f64::min),
             })
         }
     }
-}
-
-/// The effects that may be missing beside `current`.
-pub(crate) fn candidates(
-    cases: &[Case],
-    current: &Fitted,
-    custom: &[Effect],
-) -> Result<Vec<Effect>, DiagnoseError> {
-    let acceleration = cases
-        .iter()
-        .all(|case| case.quantity == Quantity::Acceleration);
-    let mut all: Vec<Effect> = Effect::ALL.to_vec();
-    // In the acceleration an offset of the output is the bias: ranked once.
-    all.retain(|effect| !(acceleration && effect.name() == "output_offset"));
-    all.extend(custom);
-    all.extend(terms()?);
-    all.retain(|effect| !current.effects.contains(effect));
-    // What a simulation cannot carry beside the effects that are there is no candidate.
-    all.retain(|&effect| {
-        let with = [current.effects.as_slice(), &[effect]].concat();
-        cases[0].model_with(&with).is_ok()
-    });
-    Ok(all)
 }
 
 /// The study's own model and what could be missing beside it; nothing is added.
@@ -308,12 +287,19 @@ impl Search<'_> {
     fn single(&self, ranking: &Ranking, best: usize) -> usize {
         match self.listed(ranking) {
             Some(listed)
-                if ranking.candidates[best].ahead_of(&ranking.candidates[listed]) < EQUAL =>
+                if ranking.candidates[best].ahead_of(&ranking.candidates[listed]) < EQUAL
+                    && !self
+                        .leaves_more(&ranking.candidates[listed], &ranking.candidates[best]) =>
             {
                 listed
             }
             _ => best,
         }
+    }
+
+    /// Whether `one` plainly leaves more than `other` of a long record, whose few stretches hardly make that a statistic.
+    fn leaves_more(&self, one: &Candidate, other: &Candidate) -> bool {
+        !self.units.are_whole() && one.fitted.squares() > PLAINLY_MORE * other.fitted.squares()
     }
 
     /// The first supported effect of the catalogue.
@@ -399,7 +385,10 @@ impl Search<'_> {
             (self.tell)(&format!("trying to do without {}", effect.name()));
             let mut effects = full.effects.clone();
             effects.retain(|known| *known != effect);
-            let without = fit_effects(self.cases, &effects, Some(&full), self.units)?;
+            // A model that cannot even be run without it needs it.
+            let Ok(without) = fit_effects(self.cases, &effects, Some(&full), self.units) else {
+                continue;
+            };
             let losses = gains(&without.heldout_beyond_torque_noise(), &full);
             let loss: f64 = losses.iter().sum();
             let growth = loss / full.squares();
@@ -453,6 +442,9 @@ pub(crate) fn misfit(fitted: &Fitted) -> f64 {
     };
     (squares - noise).max(squares * 1e-3)
 }
+
+/// Growth of the squared residual of a long record that is no matter of chance.
+const PLAINLY_MORE: f64 = 1.3;
 
 /// Standard deviations within which two candidates explain equally much.
 pub(crate) const EQUAL: f64 = 2.0;
