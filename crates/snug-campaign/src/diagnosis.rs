@@ -77,8 +77,6 @@ pub struct RankedEffect {
     pub error_over_noise: Option<f64>,
     /// Standard deviations by which the first of the ranking explains more, over tightenings; 0 for the first.
     pub behind_first: f64,
-    /// Cosine of its projected signature with that of the ranking's first.
-    pub likeness: Option<f64>,
     /// Effects that these data cannot tell from it.
     pub twins: Vec<String>,
     /// Whether its size is physically plausible: no estimate lies on a bound of its range.

@@ -11,6 +11,17 @@ pub enum Quantity {
     Acceleration,
 }
 
+impl Quantity {
+    /// What it is called in texts and files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Displacement => "displacement",
+            Self::Velocity => "velocity",
+            Self::Acceleration => "acceleration",
+        }
+    }
+}
+
 /// What the input (torque) does between two samples.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Intersample {

@@ -13,6 +13,9 @@ pub enum DiagnoseError {
         /// Why not.
         reason: &'static str,
     },
+    /// Whoever watches ended it.
+    #[error("interrupted before there was a result")]
+    Interrupted,
     /// The model refuses the effects it is asked to carry.
     #[error(transparent)]
     Model(#[from] ModelError),

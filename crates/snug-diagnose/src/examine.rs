@@ -1,23 +1,24 @@
 //! One verb of the diagnosis from tightenings to answer: compare, diagnose, add, improve.
 
-use crate::climb::{Addition, Attempt, Climb, add, climb, misfit, misfits, rank_only};
+use crate::climb::{Addition, Attempt, Climb, misfit, misfits};
 use crate::experiment::separating_experiment;
 use crate::fitted::Fitted;
-use crate::ranking::{Candidate, Ranking, fit_effects};
+use crate::ranking::{Candidate, Ranking};
+use crate::search::Search;
 use crate::sight::Sight;
 use crate::sizes::parameters;
 use crate::units::Units;
 use crate::unlisted::{declaration, is_unlisted};
 use crate::wording::{self, Situation};
 use crate::{
-    Case, DiagnoseError, DiagnoseSettings, compare, detectability, drifts, ladder, locate,
+    Case, DiagnoseError, DiagnoseSettings, Watch, compare, detectability, drifts, ladder, locate,
     preparation, trend,
 };
 use snug_campaign::{
-    AddedEffect, Diagnosis, EffectParameter, NegativeControl, Quantity, RankedEffect, Removal,
-    UnlistedTerm, Verdict,
+    AddedEffect, Diagnosis, EffectParameter, NegativeControl, RankedEffect, Removal, UnlistedTerm,
+    Verdict,
 };
-use snug_model::{CustomEffectSettings, Effect, Kind, Law};
+use snug_model::{CustomEffectSettings, Effect, Law};
 
 /// What is asked of the data.
 #[derive(Debug, Clone, PartialEq)]
@@ -69,14 +70,13 @@ pub struct Answer {
 
 /// Answers a question.
 ///
-/// `tell` hears of each stage as it begins.
-///
 /// # Errors
-/// [`DiagnoseError::NothingToCompare`] without tightenings, otherwise what the model or the fit refuses.
+/// [`DiagnoseError::NothingToCompare`] without tightenings, [`DiagnoseError::Interrupted`] when `watch` ends it,
+/// otherwise what the model or the fit refuses.
 pub fn examine(
     question: &Question<'_>,
     settings: &DiagnoseSettings,
-    tell: &(dyn Fn(&str) + Sync),
+    watch: &Watch<'_>,
 ) -> Result<Answer, DiagnoseError> {
     let cases = question.cases;
     if cases.is_empty() {
@@ -85,20 +85,26 @@ pub fn examine(
             reason: "every tightening was left out; the findings say why",
         });
     }
-    let units = Units::of(cases);
-    let own = &question.effects;
-    let climbed = match &question.goal {
-        Goal::Compare => Climb::only(fit_effects(cases, own, None, units)?),
-        Goal::Diagnose => rank_only(cases, own, &question.custom, units, settings, tell)?,
-        Goal::Add(effects) => add(cases, own, effects, &question.custom, units, settings, tell)?,
-        Goal::Improve => climb(cases, own, &question.custom, units, settings, tell)?,
+    let search = Search {
+        cases,
+        own: &question.effects,
+        custom: &question.custom,
+        units: Units::of(cases),
+        settings,
+        watch,
     };
-    tell("looking where the model fails");
+    let climb = match &question.goal {
+        Goal::Compare => search.compare()?,
+        Goal::Diagnose => search.diagnose()?,
+        Goal::Add(effects) => search.add(effects)?,
+        Goal::Improve => search.improve()?,
+    };
+    watch.begin("looking where the model fails")?;
     Examination {
         question,
         settings,
-        climb: climbed,
-        tell,
+        climb,
+        watch,
     }
     .answer()
 }
@@ -107,7 +113,7 @@ struct Examination<'a> {
     question: &'a Question<'a>,
     settings: &'a DiagnoseSettings,
     climb: Climb,
-    tell: &'a (dyn Fn(&str) + Sync),
+    watch: &'a Watch<'a>,
 }
 
 impl Examination<'_> {
@@ -155,7 +161,8 @@ impl Examination<'_> {
         };
         let experiment = match situation.twin_pair() {
             Some((first, second)) => {
-                (self.tell)("looking for the experiment that tells the twins apart");
+                self.watch
+                    .begin("looking for the experiment that tells the twins apart")?;
                 separating_experiment(cases, first, second)
             }
             None => None,
@@ -173,7 +180,7 @@ impl Examination<'_> {
             stopped,
             tightenings: cases.len(),
             noise: preparation::noise(cases),
-            compared_output: quantity_name(cases[0].quantity).to_owned(),
+            compared_output: cases[0].quantity.name().to_owned(),
             added: self.added(),
             corrected,
             ladder: self
@@ -276,7 +283,7 @@ impl Examination<'_> {
         };
         RankedEffect {
             effect: candidate.effect.name().to_owned(),
-            kind: kind_name(candidate.effect).to_owned(),
+            kind: candidate.effect.description().kind.name().to_owned(),
             unlisted: is_unlisted(candidate.effect),
             score: candidate.score,
             p_family: candidate.p_family,
@@ -287,7 +294,6 @@ impl Examination<'_> {
                 .is_weighted
                 .then(|| candidate.fitted.error()),
             behind_first: first.map_or(0.0, |first| first.ahead_of(candidate)),
-            likeness: None,
             twins: twins.iter().map(|twin| twin.name().to_owned()).collect(),
             plausible: candidate.fitted.converged
                 && sizes
@@ -316,7 +322,7 @@ impl Examination<'_> {
                 let sizes = parameters(cases, last, effect);
                 AddedEffect {
                     effect: effect.name().to_owned(),
-                    kind: kind_name(effect).to_owned(),
+                    kind: effect.description().kind.name().to_owned(),
                     expression: declaration(effect.name()).map(|d| d.expression),
                     twins: one.map_or_else(Vec::new, |one| {
                         one.twins
@@ -376,7 +382,13 @@ impl Examination<'_> {
         let declared = declaration(effect.name())?;
         let sizes = parameters(self.question.cases, fitted, effect);
         Some(UnlistedTerm {
-            statement: wording::unlisted(&declared, gain, &sizes, Units::of(self.question.cases)),
+            statement: wording::unlisted(
+                effect,
+                &declared,
+                gain,
+                &sizes,
+                Units::of(self.question.cases),
+            ),
             ron: wording::paste(&declared, &sizes),
             expression: declared.expression,
             heldout_gain: gain,
@@ -415,23 +427,5 @@ fn removal(attempt: &Attempt) -> Removal {
         effect: attempt.effect.name().to_owned(),
         removed: attempt.removed,
         statement: wording::removal(attempt),
-    }
-}
-
-pub(crate) fn quantity_name(quantity: Quantity) -> &'static str {
-    match quantity {
-        Quantity::Displacement => "displacement",
-        Quantity::Velocity => "velocity",
-        Quantity::Acceleration => "acceleration",
-    }
-}
-
-pub(crate) fn kind_name(effect: Effect) -> &'static str {
-    match effect.description().kind {
-        Kind::Mechanical => "mechanical",
-        Kind::Muscular => "muscular",
-        Kind::Measurement => "measurement",
-        Kind::Trend => "trend",
-        Kind::Custom => "custom",
     }
 }

@@ -23,6 +23,8 @@ pub(crate) struct Hypothesis<'a> {
     own_sets: Vec<Constraints>,
     shared_set: Constraints,
     room: Room,
+    /// Samples to either side over which residuals are averaged, see [`Hypothesis::fit_blurred`].
+    blur: usize,
 }
 
 /// Buffers of one evaluation.
@@ -94,6 +96,7 @@ impl<'a> Hypothesis<'a> {
             own_sets,
             shared_set,
             room: Room::default(),
+            blur: 0,
         })
     }
 
@@ -175,6 +178,21 @@ impl<'a> Hypothesis<'a> {
             settings,
         )?;
         Ok(PooledEnd { fit })
+    }
+
+    /// Fits what is left of the residual once it is averaged over `BLUR` samples to either side.
+    ///
+    /// Where a law sets in with a jump, the residual of a slightly wrong parameter is a spike at the wrong instant, and no
+    /// slope leads from one instant to the other. Averaged, they overlap.
+    pub fn fit_blurred(
+        &mut self,
+        start: &Start,
+        settings: &PooledSettings,
+    ) -> Result<PooledEnd, DiagnoseError> {
+        self.blur = BLUR;
+        let end = self.fit(start, settings);
+        self.blur = 0;
+        end
     }
 
     /// The fit with what follows from it.
@@ -280,6 +298,24 @@ pub(crate) struct PooledEnd {
     pub fit: snug_identify::PooledFit,
 }
 
+/// 2 ms at 10 kHz.
+const BLUR: usize = 20;
+
+/// Averages over `reach` samples to either side, fewer at the ends.
+fn blur(signal: &mut [f64], reach: usize) {
+    let sums: Vec<f64> = std::iter::once(0.0)
+        .chain(signal.iter().scan(0.0, |sum, value| {
+            *sum += value;
+            Some(*sum)
+        }))
+        .collect();
+    let last = signal.len();
+    for (index, value) in signal.iter_mut().enumerate() {
+        let (from, to) = (index.saturating_sub(reach), (index + reach + 1).min(last));
+        *value = (sums[to] - sums[from]) / (to - from) as f64;
+    }
+}
+
 /// Number of weighted residuals of a case.
 fn scored(case: &Case, whitening: Option<&Whitening>) -> usize {
     let lost = whitening.map_or(0, Whitening::order);
@@ -317,6 +353,12 @@ impl PooledResidual for Hypothesis<'_> {
         let order = [self.own.as_slice(), &self.shared].concat();
         let mut room = std::mem::take(&mut self.room);
         let (residual, jacobian) = self.weighted(member, &values, &order, &mut room);
+        if self.blur > 0 {
+            blur(residual, self.blur);
+            for column in jacobian.chunks_exact_mut(residual.len()) {
+                blur(column, self.blur);
+            }
+        }
         let outcome = linearization.set_jacobian(residual, jacobian);
         self.room = room;
         outcome

@@ -8,7 +8,7 @@ use crate::hypothesis::{Hypothesis, Start};
 use crate::long_record;
 use crate::score::{Column, Control, Scored, Scorer};
 use crate::units::Units;
-use crate::{Case, DiagnoseSettings};
+use crate::{Case, DiagnoseSettings, Watch};
 use rayon::prelude::*;
 use snug_identify::PooledSettings;
 use snug_model::{BASE_PARAMETERS, Effect, Law, Scope};
@@ -107,6 +107,7 @@ pub(crate) fn rank(
     units: Units,
     settings: &DiagnoseSettings,
     control_campaigns: usize,
+    watch: &Watch<'_>,
 ) -> Result<Ranking, DiagnoseError> {
     let hypothesis = Hypothesis::new(cases, &current.effects)?;
     let control = Control {
@@ -129,6 +130,7 @@ pub(crate) fn rank(
     let refitted: Vec<Result<Option<Candidate>, DiagnoseError>> = candidates
         .par_iter()
         .map(|&effect| {
+            watch.go_on()?;
             let fitted = refit(cases, current, effect, &columns, units, settings);
             let Some(fitted) = possible(fitted)? else {
                 return Ok(None);
@@ -224,6 +226,9 @@ fn refit(
     }
     let (best, shared) = rough(cases, current, effect, &effects, &starts)?;
     start.shared = shared;
+    let afar = hypothesis.fit_blurred(&start, &CANDIDATE)?;
+    start.shared = afar.fit.shared;
+    start.own = afar.fit.own;
     let mut end = hypothesis.fit(&start, &CANDIDATE)?;
     if effect.description().parameters.len() == 1 {
         // The whole way from the start may lead each tightening's own parameters past where they would be caught.
@@ -266,7 +271,7 @@ fn rough(
     for (index, values) in starts.iter().enumerate() {
         let mut start = with_effect(&hypothesis, &current.only(&few), effect, values);
         start.own.truncate(some.len());
-        let Ok(end) = hypothesis.fit(&start, &settings) else {
+        let Ok(end) = hypothesis.fit_blurred(&start, &settings) else {
             continue;
         };
         if best

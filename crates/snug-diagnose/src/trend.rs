@@ -56,7 +56,6 @@ pub(crate) fn fatigue(drifts: &[Drift], cases: &[Case]) -> Option<RankedEffect> 
         heldout_gain_error: 0.0,
         error_over_noise: None,
         behind_first: 0.0,
-        likeness: None,
         twins: Vec::new(),
         plausible: parameters
             .iter()
@@ -64,7 +63,10 @@ pub(crate) fn fatigue(drifts: &[Drift], cases: &[Case]) -> Option<RankedEffect> 
         explanation: vec![
             description.summary.to_owned(),
             format!("How it shows: {}.", description.shows_as),
-            format!("Its size in these data: {}.", wording::sizes(&parameters)),
+            format!(
+                "Its size in these data: {}.",
+                wording::sizes(description, &parameters)
+            ),
             description.check.to_owned(),
         ],
         parameters,

@@ -8,7 +8,7 @@ use crate::ranking::Candidate;
 use crate::units::Units;
 use crate::unlisted::{declaration, is_unlisted};
 use snug_campaign::{CorrectedEffect, EffectParameter, RankedEffect, Verdict};
-use snug_model::{CustomEffectSettings, Effect, Law};
+use snug_model::{CustomEffectSettings, Description, Effect, Law, TRENDS};
 
 /// What the words are about.
 pub(crate) struct Situation<'a> {
@@ -63,13 +63,9 @@ fn number(value: f64) -> String {
     }
 }
 
-/// `fc_n = 1.18 N (1.14 to 1.23)`.
-fn size(parameter: &EffectParameter) -> String {
-    let value = format!(
-        "{} = {}",
-        parameter.name,
-        amount(parameter.value, &parameter.unit)
-    );
+/// `friction force 1.18 N (1.14 to 1.23)`.
+fn size(meaning: &str, parameter: &EffectParameter) -> String {
+    let value = format!("{} {}", meaning, amount(parameter.value, &parameter.unit));
     let range = match (parameter.low, parameter.high) {
         (Some(low), Some(high)) => format!(" ({} to {})", number(low), number(high)),
         _ => " (at the edge of its plausible range)".to_owned(),
@@ -84,9 +80,15 @@ fn size(parameter: &EffectParameter) -> String {
     value + &range + &own
 }
 
-/// Values with their ranges, one after the other.
-pub(crate) fn sizes(parameters: &[EffectParameter]) -> String {
-    parameters.iter().map(size).collect::<Vec<_>>().join(", ")
+/// What each parameter of an effect is, with its range, one after the other.
+pub(crate) fn sizes(description: &Description, parameters: &[EffectParameter]) -> String {
+    let told = parameters.iter().map(|parameter| {
+        // Beside an effect with a parameter of the same name it is called after its own: torque_lag_tau_s.
+        let mut specs = description.parameters.iter();
+        let spec = specs.find(|spec| parameter.name.ends_with(spec.name));
+        size(spec.map_or(&parameter.name, |spec| spec.meaning), parameter)
+    });
+    told.collect::<Vec<_>>().join(", ")
 }
 
 fn spoken(effect: Effect) -> String {
@@ -198,7 +200,10 @@ pub(crate) fn reasons(situation: &Situation<'_>) -> Vec<String> {
             first.p_family,
             situation,
         ));
-        reasons.push(format!("Its size: {}.", sizes(&first.parameters)));
+        reasons.push(format!(
+            "Its size: {}.",
+            sizes(chosen.effect.description(), &first.parameters)
+        ));
         let twins: Vec<String> = first
             .twins
             .iter()
@@ -211,16 +216,17 @@ pub(crate) fn reasons(situation: &Situation<'_>) -> Vec<String> {
             ));
         }
     }
-    if let Some(trend) = situation
-        .ranking
-        .iter()
-        .find(|one| one.kind == "trend" && one.p_family <= situation.settings.level)
-    {
-        reasons.push(format!(
-            "Beside the misfit, mass, damping or stiffness drift with the tightening's number ({}): {}.",
-            trend.effect,
-            sizes(&trend.parameters)
-        ));
+    for trend in TRENDS {
+        let supported = |one: &&RankedEffect| {
+            one.effect == trend.name && one.p_family <= situation.settings.level
+        };
+        if let Some(found) = situation.ranking.iter().find(supported) {
+            reasons.push(format!(
+                "Beside the misfit, mass, damping or stiffness drift with the tightening's number ({}): {}.",
+                trend.name,
+                sizes(trend, &found.parameters)
+            ));
+        }
     }
     for one in situation.corrected {
         reasons.push(format!(
@@ -307,13 +313,19 @@ pub(crate) fn explanation(effect: Effect, parameters: &[EffectParameter]) -> Vec
                 "A term in no catalogue: the hand's force gains {}.",
                 declared.expression
             ),
-            format!("Its size in these data: {}.", sizes(parameters)),
+            format!(
+                "Its size in these data: {}.",
+                sizes(description, parameters)
+            ),
         ];
     }
     let mut sentences = vec![
         description.summary.to_owned(),
         format!("How it shows: {}.", description.shows_as),
-        format!("Its size in these data: {}.", sizes(parameters)),
+        format!(
+            "Its size in these data: {}.",
+            sizes(description, parameters)
+        ),
         description.check.to_owned(),
     ];
     sentences.retain(|sentence| !sentence.is_empty());
@@ -334,6 +346,7 @@ pub(crate) fn removal(attempt: &Attempt) -> String {
 
 /// The unlisted term in words.
 pub(crate) fn unlisted(
+    effect: Effect,
     declared: &CustomEffectSettings,
     gain: f64,
     parameters: &[EffectParameter],
@@ -343,7 +356,7 @@ pub(crate) fn unlisted(
     format!(
         "The simplest term that describes it is a force {} with {}; it removes {:.0} % of the misfit in {held_out} that took no part in finding its size. It describes; what causes it is for the bench to find out.",
         declared.expression,
-        sizes(parameters),
+        sizes(effect.description(), parameters),
         (gain * 100.0).clamp(0.0, 100.0)
     )
 }

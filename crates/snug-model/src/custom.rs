@@ -181,6 +181,7 @@ fn describe(settings: &CustomEffectSettings, program: &Program) -> &'static Desc
         .iter()
         .map(|parameter| ParameterSpec {
             name: kept(parameter.name.clone()),
+            meaning: kept(parameter.name.clone()),
             unit: kept(parameter.unit.clone()),
             starts: Box::leak(Box::new([parameter.start])),
             minimum: parameter.minimum,

@@ -16,6 +16,19 @@ pub enum Kind {
     Custom,
 }
 
+impl Kind {
+    /// What it is called in texts and files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Mechanical => "mechanical",
+            Self::Muscular => "muscular",
+            Self::Measurement => "measurement",
+            Self::Trend => "trend",
+            Self::Custom => "custom",
+        }
+    }
+}
+
 /// Over what an effect's parameter is constant.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -31,6 +44,8 @@ pub enum Scope {
 pub struct ParameterSpec {
     /// Name with unit suffix.
     pub name: &'static str,
+    /// What it is, in a few words.
+    pub meaning: &'static str,
     /// Unit as people write it.
     pub unit: &'static str,
     /// Starting values, the usual one first; more than one where the cost has several minima.

@@ -159,23 +159,29 @@ impl Input {
     ///
     /// Between samples it is what a torque without anything above half the sampling rate has there: that keeps the
     /// power of the torque's noise, where a straight line between samples takes half of it away and a shift by half a
-    /// sample would always fit better than none. A held input is straight: shifted by part of an interval, it has the
-    /// straight line's values as its means over the intervals.
+    /// sample would always fit better than none. The slope of a torque that is straight between samples is that of
+    /// [`Input::slope_at`], which hardly knows the noise: noise that moves along with a delay says nothing about it, and a
+    /// slope that counted it would make the delay's interval far too narrow. A held input is straight: shifted by part of
+    /// an interval, it has the straight line's values as its means over the intervals.
     pub fn at(&self, time_s: f64) -> (f64, f64) {
         if self.held {
             return self.straight(time_s, |index| self.grid[index]);
         }
-        let between = match self.substeps {
-            1 => self
-                .between
-                .get_or_init(|| band_limited::between_samples(&self.grid, BAND_LIMITED_SUBSTEPS)),
-            _ => &self.grid,
+        let fine_interval_s =
+            self.grid_interval_s * self.substeps as f64 / BAND_LIMITED_SUBSTEPS as f64;
+        if self.substeps > 1 {
+            return curved(&self.grid, time_s, fine_interval_s);
+        }
+        let between = (self.between)
+            .get_or_init(|| band_limited::between_samples(&self.grid, BAND_LIMITED_SUBSTEPS));
+        let (torque, exact_slope) = curved(between, time_s, fine_interval_s);
+        let is_held = exact_slope == 0.0;
+        let slope = if is_held {
+            0.0
+        } else {
+            self.slope_at(time_s).0
         };
-        curved(
-            between,
-            time_s,
-            self.grid_interval_s * self.substeps as f64 / BAND_LIMITED_SUBSTEPS as f64,
-        )
+        (torque, slope)
     }
 
     /// Slope of the torque \[Nm/s\] and how fast it changes \[Nm/s²\] at `time_s` after the first sample.
@@ -187,19 +193,20 @@ impl Input {
         self.straight(time_s, |index| slopes[index])
     }
 
-    /// Σ j y(i + j) / (Σ j² Δ) over as many points on either side as there are.
+    /// Σ j y(i + j) / (Σ j² Δ), over fewer points near the ends, over one interval at them.
     fn fitted_slopes(&self) -> Vec<f64> {
-        let (n, reach) = (self.grid.len(), SLOPE_REACH * self.substeps);
-        (0..n)
+        let last = self.grid.len().saturating_sub(1);
+        (0..self.grid.len())
             .map(|index| {
-                let from = index.saturating_sub(reach);
-                let to = (index + reach).min(n - 1);
-                let middle = 0.5 * (from + to) as f64;
+                let reach = (SLOPE_REACH * self.substeps)
+                    .min(index)
+                    .min(last - index)
+                    .max(1);
                 let (mut along, mut squares) = (0.0, 0.0);
-                for point in from..=to {
-                    let offset = point as f64 - middle;
-                    along += offset * self.grid[point];
-                    squares += offset * offset;
+                for j in 1..=reach {
+                    let (before, after) = (index.saturating_sub(j), (index + j).min(last));
+                    along += j as f64 * (self.grid[after] - self.grid[before]);
+                    squares += (j * (after - before)) as f64;
                 }
                 along / (squares * self.grid_interval_s).max(f64::MIN_POSITIVE)
             })

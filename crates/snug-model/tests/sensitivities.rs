@@ -38,6 +38,17 @@ fn inner_value(effect: Effect, index: usize) -> f64 {
     }
 }
 
+/// How exact the slopes to `parameter` are meant to be, as a share of the largest.
+fn tolerance(effects: &[Effect], intersample: Intersample, parameter: usize) -> f64 {
+    // The torque's slope is that of a line over m = 5 samples on either side, lest noise pass for knowledge of the delay:
+    // Δ² (3m² + 3m − 1)/30 of its second derivative off, 0.3 % for this pulse at 2 kHz, and more where the pulse begins
+    // and ends with a kink.
+    if (effects, intersample, parameter) == (&[Effect::TorqueDelay], Intersample::Linear, 3) {
+        return 0.06;
+    }
+    2e-6
+}
+
 fn check(effects: &[Effect], intersample: Intersample, quantity: Quantity) {
     let model = Model::new(RIG, effects).expect("a valid rig");
     let input = Input::new(&pulse(), 5e-4, intersample).with_rest_before(0.4);
@@ -89,7 +100,8 @@ fn check(effects: &[Effect], intersample: Intersample, quantity: Quantity) {
         for (index, analytic) in column.iter().enumerate() {
             let difference = (up[index] - down[index]) / (2.0 * step);
             assert!(
-                (analytic - difference).abs() < 2e-6 * largest,
+                (analytic - difference).abs()
+                    < tolerance(effects, intersample, parameter) * largest,
                 "{effects:?} {quantity:?} {intersample:?} parameter {parameter} sample {index}: {analytic} against {difference}"
             );
         }

@@ -13,9 +13,7 @@ impl Channel {
     pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Torque => "torque",
-            Self::Motion(Quantity::Displacement) => "displacement",
-            Self::Motion(Quantity::Velocity) => "velocity",
-            Self::Motion(Quantity::Acceleration) => "acceleration",
+            Self::Motion(quantity) => quantity.name(),
             Self::GripForce => "grip_force",
         }
     }

@@ -232,12 +232,6 @@ pub(crate) const RANKING: Message = Message {
             "Standard deviations behind the first",
         ),
         field(
-            "likeness",
-            Kind::Double,
-            "",
-            "Likeness to the first, 1 = the same",
-        ),
-        field(
             "twins",
             Kind::List(&Kind::Text),
             "",

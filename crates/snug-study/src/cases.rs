@@ -3,54 +3,44 @@
 use crate::evaluation::input;
 use crate::{Study, StudyError};
 use rayon::prelude::*;
-use snug_campaign::{Finding, Rejection};
+use snug_campaign::Rejection;
 use snug_diagnose::Case;
 use snug_preprocess::preprocess;
 use std::path::{Path, PathBuf};
 
 /// Reads and prepares at most `most` tightenings, evenly spread over the files and within each; tightenings with faulty
 /// data and those kept for validation take no part.
-pub fn cases(
-    study: &Study,
-    files: &[PathBuf],
-    most: usize,
-) -> Result<(Vec<Case>, Vec<Finding>), StudyError> {
+pub fn cases(study: &Study, files: &[PathBuf], most: usize) -> Result<Vec<Case>, StudyError> {
     let stride = files.len().div_ceil(most.max(1)).max(1);
     let some: Vec<&PathBuf> = files.iter().step_by(stride).collect();
     let most_each = (most / some.len().max(1)).max(1);
     let read = some
         .par_iter()
         .map(|path| {
-            let (mut cases, findings) = cases_of_file(study, path)?;
+            let mut cases = cases_of_file(study, path)?;
             let stride = cases.len().div_ceil(most_each).max(1);
             let mut index = 0;
             cases.retain(|_| {
                 index += 1;
                 (index - 1) % stride == 0
             });
-            Ok((cases, findings))
+            Ok(cases)
         })
         .collect::<Vec<Result<_, StudyError>>>();
-    let (mut cases, mut findings) = (Vec::new(), Vec::new());
-    for file in read {
-        let (some, found): (Vec<Case>, Vec<Finding>) = file?;
-        cases.extend(some);
-        findings.extend(found);
-    }
-    Ok((cases, findings))
+    let read = read.into_iter().collect::<Result<Vec<_>, _>>()?;
+    Ok(read.into_iter().flatten().collect())
 }
 
-fn cases_of_file(study: &Study, path: &Path) -> Result<(Vec<Case>, Vec<Finding>), StudyError> {
+fn cases_of_file(study: &Study, path: &Path) -> Result<Vec<Case>, StudyError> {
     let lever_arm_m = study.preprocess.rig.lever_arm_m;
-    let ingested = match snug_ingest::read(&study.source, path, lever_arm_m) {
-        Ok(ingested) => ingested,
-        Err(error) => return Ok((Vec::new(), vec![error.finding()])),
+    // What cannot be read, and everything else that is left out, the run of the study names in its findings.
+    let Ok(ingested) = snug_ingest::read(&study.source, path, lever_arm_m) else {
+        return Ok(Vec::new());
     };
     let only_simulated = study.validation_segments();
-    let (mut cases, mut findings) = (Vec::new(), ingested.findings);
+    let mut cases = Vec::new();
     for recording in &ingested.recordings {
         let prepared = preprocess(recording, &study.preprocess, study.identify.fitted_output)?;
-        findings.extend(prepared.findings);
         for one in prepared.tightenings {
             let faulty = one.rejections().contains(&Rejection::DataQuality);
             if faulty || only_simulated.contains(&one.tightening.id.number) {
@@ -79,5 +69,5 @@ fn cases_of_file(study: &Study, path: &Path) -> Result<(Vec<Case>, Vec<Finding>)
             }
         }
     }
-    Ok((cases, findings))
+    Ok(cases)
 }

@@ -9,8 +9,9 @@ use crate::{ProgressEvent, Study, StudyError};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use snug_campaign::{Diagnosis, Rejection, Rung, Showcase, TighteningId, Traces};
-use snug_diagnose::{Answer, Case, Goal, Question, RungModel, examine};
+use snug_diagnose::{Answer, Case, DiagnoseError, Goal, Question, RungModel, Watch, examine};
 use snug_model::{Effect, ParameterSettings};
+use snug_statistics::descriptive::median;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -127,8 +128,7 @@ pub fn diagnose(
         what: "reading tightenings",
     });
     let pool = pool(settings.threads)?;
-    let (cases, _) =
-        pool.install(|| cases(study, &listing.files, study.diagnosis.most_tightenings))?;
+    let cases = pool.install(|| cases(study, &listing.files, study.diagnosis.most_tightenings))?;
     if interrupted.load(Ordering::Relaxed) {
         return Err(StudyError::Interrupted);
     }
@@ -136,7 +136,7 @@ pub fn diagnose(
     let (study, cases, remarks) = match &settled {
         Some(Settled { study, remarks }) => {
             let most = study.diagnosis.most_tightenings;
-            let (cases, _) = pool.install(|| self::cases(study, &listing.files, most))?;
+            let cases = pool.install(|| self::cases(study, &listing.files, most))?;
             (study, cases, remarks.as_slice())
         }
         None => (study, cases, [].as_slice()),
@@ -155,7 +155,11 @@ pub fn diagnose(
         },
     };
     let tell = |what: &str| progress(ProgressEvent::Stage { what });
-    let mut answer = pool.install(|| examine(&question, &search, &tell))?;
+    let watch = Watch::new(&tell).until(interrupted);
+    let mut answer = match pool.install(|| examine(&question, &search, &watch)) {
+        Err(DiagnoseError::Interrupted) => return Err(StudyError::Interrupted),
+        answer => answer?,
+    };
     answer.diagnosis.reasons.extend_from_slice(remarks);
     drop(cases);
     let (last, diagnosis) =
@@ -297,20 +301,9 @@ fn measure(
             traces = traces.or(one.traces);
         }
     }
-    fits.sort_by(f64::total_cmp);
     rung.selected_fraction = selected as f64 / count.max(1) as f64;
-    rung.fit_percent_median = median(&fits);
+    rung.fit_percent_median = median(&fits).ok();
     rung.rms_displacement_rad =
         (!squares.is_empty()).then(|| (squares.iter().sum::<f64>() / squares.len() as f64).sqrt());
     Ok(traces)
-}
-
-/// Median of ascending values.
-fn median(sorted: &[f64]) -> Option<f64> {
-    let middle = sorted.len() / 2;
-    match sorted.len() {
-        0 => None,
-        n if n.is_multiple_of(2) => Some(0.5 * (sorted[middle - 1] + sorted[middle])),
-        _ => Some(sorted[middle]),
-    }
 }

@@ -190,7 +190,7 @@ impl Collected {
             title: study.title(),
             study_ron,
             preset: study.preprocess.preset.name().to_owned(),
-            fitted_output: format!("{:?}", study.identify.fitted_output).to_lowercase(),
+            fitted_output: study.identify.fitted_output.name().to_owned(),
             units,
             effects: study.model.effects.clone(),
             presets,

@@ -30,7 +30,6 @@ fn candidate(effect: &str, gain: f64, p: f64, size: EffectParameter) -> RankedEf
         heldout_gain_error: 0.04,
         error_over_noise: Some(1.4),
         behind_first: 0.0,
-        likeness: None,
         twins: vec!["quadratic_stiffness".into()],
         plausible: true,
         explanation: vec![],

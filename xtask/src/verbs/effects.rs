@@ -1,5 +1,5 @@
 use crate::exit;
-use snug_model::{Description, Effect, INVISIBLE, Invisible, Kind, Law, TRENDS};
+use snug_model::{Description, Effect, INVISIBLE, Invisible, Law, TRENDS};
 use std::process::ExitCode;
 
 /// The catalogue as a table, or one effect in full.
@@ -38,7 +38,7 @@ fn table() {
         println!(
             "{:<26} {:<12} {}",
             description.name,
-            kind(description.kind),
+            description.kind.name(),
             description.summary
         );
     }
@@ -61,7 +61,7 @@ fn why_never(invisible: &Invisible) {
 }
 
 fn in_full(description: &Description) {
-    println!("{} ({})", description.name, kind(description.kind));
+    println!("{} ({})", description.name, description.kind.name());
     println!("  {}\n", description.summary);
     println!("  Equation    {}", description.equation);
     println!("  Excited by  {}", description.excited_by);
@@ -72,27 +72,18 @@ fn in_full(description: &Description) {
     println!("  Check       {}", description.check);
     println!("  Source      {}\n", description.source);
     println!(
-        "  {:<30} {:<14} {:>12} {:>12} {:>12}",
-        "Parameter", "Unit", "start", "from", "to"
+        "  {:<30} {:<14} {:>12} {:>12} {:>12}  {}",
+        "Parameter", "Unit", "start", "from", "to", "What it is"
     );
     for parameter in description.parameters {
         println!(
-            "  {:<30} {:<14} {:>12} {:>12} {:>12}",
+            "  {:<30} {:<14} {:>12} {:>12} {:>12}  {}",
             parameter.name,
             parameter.unit,
             parameter.starts[0],
             parameter.minimum,
-            parameter.maximum
+            parameter.maximum,
+            parameter.meaning
         );
-    }
-}
-
-fn kind(kind: Kind) -> &'static str {
-    match kind {
-        Kind::Mechanical => "mechanical",
-        Kind::Muscular => "muscular",
-        Kind::Measurement => "measurement",
-        Kind::Trend => "trend",
-        Kind::Custom => "custom",
     }
 }

@@ -10,7 +10,9 @@ use snug_campaign::{Aspect, Share};
 /// Share of the misfit that counts as most of it.
 const MOST: f64 = 0.6;
 /// Share of the misfit from which on a shape of the force is told.
-const FOLLOWS: f64 = 0.5;
+const RESEMBLES: f64 = 0.5;
+/// Share of the misfit from which on the force is said to have that shape.
+const FOLLOWS: f64 = 0.8;
 /// A part with less of the misfit is not worth a sentence.
 const WORTH: f64 = 0.2;
 /// Share of the misfit over share of the data that is more than its due.
@@ -186,16 +188,21 @@ impl Told<'_> {
 
 /// What the missing force follows, where one shape explains most of it; with others that do so nearly as well.
 fn follows(shapes: &[(&str, f64)]) -> Option<String> {
-    let (best, share) = shapes.first().filter(|(_, share)| *share >= FOLLOWS)?;
+    let (best, share) = shapes.first().filter(|(_, share)| *share >= RESEMBLES)?;
+    let described = percent(*share);
+    if *share < FOLLOWS {
+        return Some(format!(
+            "No simple function of displacement and velocity describes the missing force: the best, {best}, leaves {} of the misfit.",
+            percent(1.0 - share)
+        ));
+    }
     let others: Vec<String> = shapes[1..]
         .iter()
         .filter(|(_, other)| *other >= share - NEARLY_AS_WELL)
         .map(|(shape, other)| format!("{shape} ({})", percent(*other)))
         .collect();
-    let mut told = format!(
-        "The missing force follows {best}: that describes {} of the misfit",
-        percent(*share)
-    );
+    let mut told =
+        format!("The missing force follows {best}: that describes {described} of the misfit");
     if !others.is_empty() {
         told.push_str(&format!("; nearly as well: {}", others.join("; ")));
     }

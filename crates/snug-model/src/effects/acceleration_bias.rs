@@ -17,6 +17,7 @@ impl Law for AccelerationBias {
             equation: "a + b",
             parameters: &[ParameterSpec {
                 name: "bias_rad_per_s2",
+                meaning: "bias",
                 unit: "rad/s^2",
                 starts: &[0.0],
                 minimum: -2.0,

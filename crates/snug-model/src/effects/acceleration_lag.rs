@@ -18,6 +18,7 @@ impl Law for AccelerationLag {
             equation: "a + tau da/dt = alpha",
             parameters: &[ParameterSpec {
                 name: "tau_s",
+                meaning: "time constant of the lag",
                 unit: "s",
                 starts: &[0.0, 0.004],
                 minimum: 0.0,

@@ -1,19 +1,22 @@
 //! Play in the grip: the hand's spring and damper act only beyond a gap g, on the deflection d(x) that is left.
 //!
 //! ```text
-//! d(x) = x + ½ (√((x − g)² + s²) − √((x + g)² + s²)),  F = k d + c dd/dt,  s = 0.02 mm
+//! d(x) = x + ½ (√((x − g)² + s²) − √((x + g)² + s²)),  F = k d + c v ∂d/∂x,  s² = (1 µm)² + (v · 0.05 ms)²
 //! ```
 //!
-//! This is x ∓ g beyond the gap and 0 within, with corners rounded over s (skin), so that the damper does not set in
-//! with a jump and the response can be differentiated. g = 0 is the base model exactly. F has the sign of the base model.
+//! This is x ∓ g beyond the gap and 0 within. The damper sets in with a jump there; its corner is rounded over what the
+//! tool moves in half a sample, so that the response can be differentiated and yet no sample sees the rounding. g = 0 is the
+//! base model exactly. F has the sign of the base model.
 //! Parameter: gap_m \[m\], 0 to 0.005. Excited by any motion; relatively strongest in weak pulses. In the residual it shows
 //! at the first onset and at every passage through rest. Source: dead zone with contact damping.
 
 use crate::Number;
 use crate::effect::{Deflection, Description, Kind, Law, ParameterSpec, Scope};
 
-/// s, the length over which contact sets in \[m\].
-const SKIN_M: f64 = 2e-5;
+/// Least length over which contact sets in \[m\].
+const SKIN_M: f64 = 1e-6;
+/// Time over which contact sets in \[s\].
+const CONTACT_S: f64 = 5e-5;
 
 pub struct Backlash;
 
@@ -26,6 +29,7 @@ impl Law for Backlash {
             equation: "spring and damper act on x beyond +-g",
             parameters: &[ParameterSpec {
                 name: "gap_m",
+                meaning: "gap to either side",
                 unit: "m",
                 starts: &[0.0005, 4e-5, 0.00012, 0.0015, 0.004],
                 minimum: 0.0,
@@ -37,13 +41,14 @@ impl Law for Backlash {
             excited_by: "any motion; relatively strongest in weak pulses",
             shows_as: "misfit at the onset and at every passage through rest, where the tool moves as if free",
             check: "With the tool off, rock the handle and look for free play between tool, reaction bar, mounting and palm.",
-            source: "dead zone, rounded over 0.05 mm",
+            source: "dead zone with contact damping",
         }
     }
 
     #[inline(always)]
     fn deflection<N: Number>(&self, p: &[N], between: Deflection<N>) -> Option<Deflection<N>> {
-        let rounding = SKIN_M * SKIN_M;
+        let travelled = between.v_m_per_s * CONTACT_S;
+        let rounding = travelled * travelled + SKIN_M * SKIN_M;
         let (above, below) = (between.x_m - p[0], between.x_m + p[0]);
         let from_above = (above * above + rounding).sqrt();
         let from_below = (below * below + rounding).sqrt();

@@ -22,6 +22,7 @@ impl Law for BoucWen {
             equation: "F + k_h z,  dz/dt = v (1 - (sgn(v z)/2 + 1/2) abs(z) / z_max)",
             parameters: &[ParameterSpec {
                 name: "k_h_n_per_m",
+                meaning: "stiffness that lets go",
                 unit: "N/m",
                 starts: &[200.0],
                 minimum: 0.0,
@@ -29,6 +30,7 @@ impl Law for BoucWen {
                 scope: Scope::Shared,
             }, ParameterSpec {
                 name: "z_max_m",
+                meaning: "way until it lets go",
                 unit: "m",
                 starts: &[0.0025, 0.0008, 0.008],
                 minimum: 1e-4,

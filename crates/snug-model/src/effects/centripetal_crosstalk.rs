@@ -18,6 +18,7 @@ impl Law for CentripetalCrosstalk {
             equation: "a + epsilon omega^2",
             parameters: &[ParameterSpec {
                 name: "epsilon",
+                meaning: "share of the squared speed",
                 unit: "1",
                 starts: &[0.0],
                 minimum: -1.0,

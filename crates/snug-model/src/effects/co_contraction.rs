@@ -19,6 +19,7 @@ impl Law for CoContraction {
             equation: "k (1 + r s((t - t_on) / t_rise))",
             parameters: &[ParameterSpec {
                 name: "rise_ratio",
+                meaning: "rise of the stiffness (1 = doubled)",
                 unit: "1",
                 starts: &[0.1],
                 minimum: -0.9,
@@ -26,6 +27,7 @@ impl Law for CoContraction {
                 scope: Scope::Shared,
             }, ParameterSpec {
                 name: "onset_s",
+                meaning: "begin after the pulse",
                 unit: "s",
                 starts: &[0.08, 0.04, 0.15, 0.22],
                 minimum: 0.0,
@@ -33,6 +35,7 @@ impl Law for CoContraction {
                 scope: Scope::Shared,
             }, ParameterSpec {
                 name: "rise_s",
+                meaning: "duration of the rise",
                 unit: "s",
                 starts: &[0.05, 0.15],
                 minimum: 0.01,

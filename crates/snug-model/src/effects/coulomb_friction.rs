@@ -20,6 +20,7 @@ impl Law for CoulombFriction {
             equation: "F + Fc tanh(v / 0.01 m/s)",
             parameters: &[ParameterSpec {
                 name: "fc_n",
+                meaning: "friction force",
                 unit: "N",
                 starts: &[1.0],
                 minimum: 0.0,

@@ -18,6 +18,7 @@ impl Law for CubicStiffness {
             equation: "F + k3 x^3",
             parameters: &[ParameterSpec {
                 name: "k3_n_per_m3",
+                meaning: "cubic stiffness",
                 unit: "N/m^3",
                 starts: &[0.0],
                 minimum: -5e6,

@@ -18,6 +18,7 @@ impl Law for DirectionalDamping {
             equation: "F + c_r v where v < 0",
             parameters: &[ParameterSpec {
                 name: "c_rebound_kg_per_s",
+                meaning: "extra damping of the rebound",
                 unit: "kg/s",
                 starts: &[0.0],
                 minimum: -200.0,

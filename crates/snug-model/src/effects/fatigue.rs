@@ -6,9 +6,10 @@
 
 use crate::effect::{Description, Kind, ParameterSpec, Scope};
 
-const fn slope(name: &'static str) -> ParameterSpec {
+const fn slope(name: &'static str, meaning: &'static str) -> ParameterSpec {
     ParameterSpec {
         name,
+        meaning,
         unit: "1/tightening",
         starts: &[0.0],
         minimum: -0.1,
@@ -24,9 +25,9 @@ pub const DESCRIPTION: Description = Description {
     summary: "The arm tires: mass, damping and stiffness drift from one tightening to the next.",
     equation: "m (1 + s_m n), c (1 + s_c n), k (1 + s_k n),  n: the tightening's number",
     parameters: &[
-        slope("mass_slope_per_tightening"),
-        slope("damping_slope_per_tightening"),
-        slope("stiffness_slope_per_tightening"),
+        slope("mass_slope_per_tightening", "growth of the mass"),
+        slope("damping_slope_per_tightening", "growth of the damping"),
+        slope("stiffness_slope_per_tightening", "growth of the stiffness"),
     ],
     states: &[],
     twins: &[],

@@ -18,6 +18,7 @@ impl Law for GravityLeakage {
             equation: "a + gamma sin(theta)",
             parameters: &[ParameterSpec {
                 name: "gamma_rad_per_s2",
+                meaning: "acceleration at a right angle",
                 unit: "rad/s^2",
                 starts: &[0.0],
                 minimum: -30.0,

@@ -18,6 +18,7 @@ impl Law for GripSlip {
             equation: "F_max tanh(F / F_max)",
             parameters: &[ParameterSpec {
                 name: "f_max_n",
+                meaning: "force at which the grip slips",
                 unit: "N",
                 starts: &[150.0, 60.0, 280.0],
                 minimum: 10.0,

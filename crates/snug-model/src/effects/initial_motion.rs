@@ -17,6 +17,7 @@ impl Law for InitialMotion {
             parameters: &[
                 ParameterSpec {
                     name: "theta0_rad",
+                    meaning: "angle at the start",
                     unit: "rad",
                     starts: &[0.0],
                     minimum: -0.2,
@@ -25,6 +26,7 @@ impl Law for InitialMotion {
                 },
                 ParameterSpec {
                     name: "omega0_rad_per_s",
+                    meaning: "speed at the start",
                     unit: "rad/s",
                     starts: &[0.0],
                     minimum: -5.0,

@@ -18,6 +18,7 @@ impl Law for MaxwellBranch {
             parameters: &[
                 ParameterSpec {
                     name: "k_m_n_per_m",
+                    meaning: "stiffness that relaxes",
                     unit: "N/m",
                     starts: &[200.0],
                     minimum: 0.0,
@@ -26,6 +27,7 @@ impl Law for MaxwellBranch {
                 },
                 ParameterSpec {
                     name: "tau_s",
+                    meaning: "time in which it relaxes",
                     unit: "s",
                     starts: &[0.03, 0.01, 0.1],
                     minimum: 0.005,

@@ -16,6 +16,7 @@ impl Law for OutputOffset {
             equation: "y + y0",
             parameters: &[ParameterSpec {
                 name: "y0",
+                meaning: "offset",
                 unit: "output unit",
                 starts: &[0.0],
                 minimum: -10.0,

@@ -18,6 +18,7 @@ impl Law for QuadraticDamping {
             equation: "F + c2 v abs(v)",
             parameters: &[ParameterSpec {
                 name: "c2_n_s2_per_m2",
+                meaning: "quadratic damping",
                 unit: "N s^2/m^2",
                 starts: &[0.0],
                 minimum: 0.0,

@@ -18,6 +18,7 @@ impl Law for QuadraticStiffness {
             equation: "F + k2 x^2",
             parameters: &[ParameterSpec {
                 name: "k2_n_per_m2",
+                meaning: "quadratic stiffness",
                 unit: "N/m^2",
                 starts: &[0.0],
                 minimum: -1e5,

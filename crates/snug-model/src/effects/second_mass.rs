@@ -22,6 +22,7 @@ impl Law for SecondMass {
             equation: "k (x - x2) + c (v - v2),  m2 dv2/dt = F_hand - k2 x2 - c2 v2",
             parameters: &[ParameterSpec {
                 name: "m2_kg",
+                meaning: "second mass",
                 unit: "kg",
                 starts: &[2.0, 0.7, 6.0],
                 minimum: 0.2,
@@ -29,6 +30,7 @@ impl Law for SecondMass {
                 scope: Scope::Shared,
             }, ParameterSpec {
                 name: "k2_n_per_m",
+                meaning: "stiffness behind it",
                 unit: "N/m",
                 starts: &[1e4, 2e3, 4e4],
                 minimum: 100.0,
@@ -36,6 +38,7 @@ impl Law for SecondMass {
                 scope: Scope::Shared,
             }, ParameterSpec {
                 name: "c2_kg_per_s",
+                meaning: "damping behind it",
                 unit: "kg/s",
                 starts: &[100.0, 20.0],
                 minimum: 0.0,

@@ -19,6 +19,7 @@ impl Law for StretchReflex {
             equation: "F + k_r x(t - tau)",
             parameters: &[ParameterSpec {
                 name: "k_r_n_per_m",
+                meaning: "stiffness of the reflex",
                 unit: "N/m",
                 starts: &[100.0],
                 minimum: -5000.0,
@@ -26,6 +27,7 @@ impl Law for StretchReflex {
                 scope: Scope::Shared,
             }, ParameterSpec {
                 name: "tau_s",
+                meaning: "delay of the reflex",
                 unit: "s",
                 starts: &[0.06, 0.03, 0.1],
                 minimum: 0.02,

@@ -17,6 +17,7 @@ impl Law for TorqueDelay {
             equation: "T(t) -> T(t - d)",
             parameters: &[ParameterSpec {
                 name: "delay_s",
+                meaning: "delay",
                 unit: "s",
                 starts: &[0.0],
                 minimum: -0.01,

@@ -18,6 +18,7 @@ impl Law for TorqueDependentStiffness {
             equation: "k (1 + kappa abs(T))",
             parameters: &[ParameterSpec {
                 name: "kappa_per_nm",
+                meaning: "growth of the stiffness per Nm",
                 unit: "1/Nm",
                 starts: &[0.0],
                 minimum: -0.02,

@@ -18,6 +18,7 @@ impl Law for TorqueLag {
             equation: "T + tau dT/dt acts, T is logged",
             parameters: &[ParameterSpec {
                 name: "tau_s",
+                meaning: "time constant of the lag",
                 unit: "s",
                 starts: &[0.0],
                 minimum: 0.0,

@@ -17,6 +17,7 @@ impl Law for TorqueOffset {
             equation: "T - T0 acts, T is logged",
             parameters: &[ParameterSpec {
                 name: "offset_nm",
+                meaning: "offset",
                 unit: "Nm",
                 starts: &[0.0],
                 minimum: -2.0,

@@ -18,6 +18,7 @@ impl Law for VoluntaryPush {
             equation: "F + F_v s((t - t_on) / t_rise)",
             parameters: &[ParameterSpec {
                 name: "f_n",
+                meaning: "push",
                 unit: "N",
                 starts: &[2.0],
                 minimum: -50.0,
@@ -25,6 +26,7 @@ impl Law for VoluntaryPush {
                 scope: Scope::Shared,
             }, ParameterSpec {
                 name: "onset_s",
+                meaning: "begin after the pulse",
                 unit: "s",
                 starts: &[0.08, 0.04, 0.15, 0.22],
                 minimum: 0.0,
@@ -32,6 +34,7 @@ impl Law for VoluntaryPush {
                 scope: Scope::Shared,
             }, ParameterSpec {
                 name: "rise_s",
+                meaning: "duration of the rise",
                 unit: "s",
                 starts: &[0.05, 0.15],
                 minimum: 0.01,

@@ -40,7 +40,6 @@ fn candidate(effect: &str, gain: f64) -> RankedEffect {
         heldout_gain_error: 0.04,
         error_over_noise: None,
         behind_first: 0.0,
-        likeness: None,
         twins: vec!["quadratic_stiffness".into()],
         plausible: true,
         explanation: vec!["A spring that hardens.".into()],

@@ -93,7 +93,7 @@ fn panels(diagnosis: &Diagnosis, showcase: &Showcase) -> Vec<Panel> {
     ]
     .into_iter()
     .flat_map(|quantity| {
-        let compared = diagnosis.compared_output.contains(word(quantity));
+        let compared = diagnosis.compared_output.contains(quantity.name());
         // Velocity is drawn only where it is what is compared.
         if quantity == Quantity::Velocity && !compared {
             return vec![];
@@ -101,14 +101,6 @@ fn panels(diagnosis: &Diagnosis, showcase: &Showcase) -> Vec<Panel> {
         of_quantity(diagnosis, showcase, quantity).unwrap_or_default()
     })
     .collect()
-}
-
-fn word(quantity: Quantity) -> &'static str {
-    match quantity {
-        Quantity::Displacement => "displacement",
-        Quantity::Velocity => "velocity",
-        Quantity::Acceleration => "acceleration",
-    }
 }
 
 fn of_quantity(
@@ -135,7 +127,7 @@ fn of_quantity(
         Panel {
             title: format!(
                 "{}: model and measurement",
-                crate::quantity::capitalised(word(quantity))
+                crate::quantity::capitalised(quantity.name())
             ),
             axis: format!("{symbol} [{unit}]"),
             lines: vec![
@@ -156,7 +148,7 @@ fn of_quantity(
         Panel {
             title: format!(
                 "{}: what is left over",
-                crate::quantity::capitalised(word(quantity))
+                crate::quantity::capitalised(quantity.name())
             ),
             axis: format!("measured − simulated [{unit}]"),
             lines: vec![

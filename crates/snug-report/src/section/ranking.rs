@@ -212,9 +212,6 @@ fn evidence(candidate: &RankedEffect, result: &CampaignResult) -> Markup {
             @if candidate.behind_first > 0.0 {
                 li { "The first candidate explains more by " (significant(candidate.behind_first, 2)) " standard deviations over tightenings." }
             }
-            @if let Some(likeness) = candidate.likeness {
-                li { "Likeness to the first candidate in these data: " (fixed(likeness, 2)) " (1 = the same, 0 = nothing in common)." }
-            }
             @if !candidate.twins.is_empty() {
                 li { "These data cannot tell it from " (effect_names(&candidate.twins)) "." }
             }

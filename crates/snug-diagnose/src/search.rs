@@ -1,0 +1,272 @@
+//! The way up: rank, add the best, tidy up, again, until nothing more is justified.
+
+use crate::applicability::candidates;
+use crate::climb::{Addition, Climb, EQUAL, Stop, justified, misfit, twins};
+use crate::fitted::Fitted;
+use crate::ranking::{Candidate, Ranking, fit_effects, gains, rank};
+use crate::units::Units;
+use crate::unlisted::is_unlisted;
+use crate::{Case, DiagnoseError, DiagnoseSettings, Watch, tidying};
+use snug_model::Effect;
+
+/// What stays the same while effects are looked for.
+pub(crate) struct Search<'a> {
+    pub cases: &'a [Case],
+    /// Effects of the study's own model.
+    pub own: &'a [Effect],
+    /// Effects that the study declares but does not use: candidates, too.
+    pub custom: &'a [Effect],
+    pub units: Units,
+    pub settings: &'a DiagnoseSettings,
+    pub watch: &'a Watch<'a>,
+}
+
+/// Effects a model can be extended by before the climb is called off.
+const MOST_EFFECTS: usize = 5;
+
+impl Search<'_> {
+    /// The study's own model, nothing ranked beside it.
+    pub fn compare(&self) -> Result<Climb, DiagnoseError> {
+        let fitted = fit_effects(self.cases, self.own, None, self.units)?;
+        Ok(Climb::only(fitted))
+    }
+
+    /// The study's own model and what could be missing beside it; nothing is added.
+    pub fn diagnose(&self) -> Result<Climb, DiagnoseError> {
+        let mut climb = self.compare()?;
+        climb.ranking = self.rank(climb.last(), self.settings.control_campaigns)?;
+        match justified(&climb.ranking, climb.last(), self.settings) {
+            Ok(best) => {
+                let steps = self.choose(climb.last(), &climb.ranking, best, MOST_EFFECTS)?;
+                let first = steps.first().map(|(addition, _)| addition.effect);
+                let all = &climb.ranking.candidates;
+                climb.chosen = all
+                    .iter()
+                    .position(|candidate| Some(candidate.effect) == first);
+            }
+            Err(stop) => climb.stopped = Some(stop),
+        }
+        Ok(climb)
+    }
+
+    /// The study's own model with `effects` added one after the other, and what is missing then.
+    pub fn add(&self, effects: &[Effect]) -> Result<Climb, DiagnoseError> {
+        let mut climb = self.compare()?;
+        for &effect in effects {
+            let ranking = self.rank_these(climb.last(), effect)?;
+            let index = ranking.candidates.iter().position(|c| c.effect == effect);
+            let Some(index) = index else { continue };
+            let (addition, fitted) = step(&ranking, index, climb.last());
+            climb.additions.push(addition);
+            climb.rungs.push(self.settled(&fitted)?);
+        }
+        climb.ranking = self.rank(climb.last(), self.settings.control_campaigns)?;
+        match justified(&climb.ranking, climb.last(), self.settings) {
+            Ok(best) => climb.chosen = Some(self.single(&climb.ranking, best)),
+            Err(stop) => climb.stopped = Some(stop),
+        }
+        Ok(climb)
+    }
+
+    /// Climbs from the study's own effects as far as the data justify.
+    pub fn improve(&self) -> Result<Climb, DiagnoseError> {
+        let mut climb = self.compare()?;
+        loop {
+            climb.ranking = self.rank(climb.last(), self.settings.control_campaigns)?;
+            if climb.additions.len() >= MOST_EFFECTS {
+                climb.stopped = Some(Stop::Full);
+                break;
+            }
+            let best = match justified(&climb.ranking, climb.last(), self.settings) {
+                Ok(best) => best,
+                Err(stop) => {
+                    climb.stopped = Some(stop);
+                    break;
+                }
+            };
+            let room = MOST_EFFECTS - climb.additions.len();
+            for (addition, fitted) in self.choose(climb.last(), &climb.ranking, best, room)? {
+                climb.additions.push(addition);
+                climb.rungs.push(self.settled(&fitted)?);
+            }
+        }
+        tidying::try_removals(self, &mut climb)?;
+        tidying::look_at_twins_again(self, &mut climb)?;
+        Ok(climb)
+    }
+
+    pub fn rank(
+        &self,
+        current: &Fitted,
+        control_campaigns: usize,
+    ) -> Result<Ranking, DiagnoseError> {
+        self.watch.begin(&format!(
+            "ranking what is missing beside {}",
+            list(&current.effects)
+        ))?;
+        let all = candidates(self.cases, current, self.custom)?;
+        rank(
+            self.cases,
+            current,
+            &all,
+            self.units,
+            self.settings,
+            control_campaigns,
+            self.watch,
+        )
+    }
+
+    /// The same effects, fitted from there to the end.
+    fn settled(&self, fitted: &Fitted) -> Result<Fitted, DiagnoseError> {
+        fit_effects(self.cases, &fitted.effects, Some(fitted), self.units)
+    }
+
+    /// The ranking, with `effect` among the candidates whatever it is.
+    fn rank_these(&self, current: &Fitted, effect: Effect) -> Result<Ranking, DiagnoseError> {
+        let mut all = candidates(self.cases, current, self.custom)?;
+        if !all.contains(&effect) {
+            all.push(effect);
+        }
+        self.watch.begin(&format!("adding {}", effect.name()))?;
+        rank(
+            self.cases,
+            current,
+            &all,
+            self.units,
+            self.settings,
+            0,
+            self.watch,
+        )
+    }
+
+    /// The best candidate, or a supported catalogue effect that is as good.
+    fn single(&self, ranking: &Ranking, best: usize) -> usize {
+        match self.listed(ranking) {
+            Some(listed)
+                if ranking.candidates[best].ahead_of(&ranking.candidates[listed]) < EQUAL
+                    && !self
+                        .leaves_more(&ranking.candidates[listed], &ranking.candidates[best]) =>
+            {
+                listed
+            }
+            _ => best,
+        }
+    }
+
+    /// Whether `one` plainly leaves more than `other` of a long record, whose few stretches hardly make that a statistic.
+    fn leaves_more(&self, one: &Candidate, other: &Candidate) -> bool {
+        !self.units.are_whole() && one.fitted.squares() > PLAINLY_MORE * other.fitted.squares()
+    }
+
+    /// The first supported effect of the catalogue.
+    fn listed(&self, ranking: &Ranking) -> Option<usize> {
+        let all = &ranking.candidates;
+        all.iter()
+            .position(|c| !is_unlisted(c.effect) && c.is_supported(self.settings))
+    }
+
+    /// What to add: one effect, or, where one leaves much, the two that together leave least. Of equals a catalogue
+    /// effect comes before an unlisted term.
+    fn choose(
+        &self,
+        current: &Fitted,
+        ranking: &Ranking,
+        best: usize,
+        room: usize,
+    ) -> Result<Vec<Step>, DiagnoseError> {
+        let winner = &ranking.candidates[best];
+        let single = self.single(ranking, best);
+        let left = &ranking.candidates[single].fitted;
+        let leaves_much = misfit(left) > MUCH_LEFT * misfit(current)
+            && (!left.is_weighted || left.scale() > 1.0 + 2.0 * self.settings.smallest_gain);
+        let half = |listed: usize| ranking.candidates[listed].gain() > 0.5 * winner.gain();
+        let challenged = is_unlisted(winner.effect) && self.listed(ranking).is_some_and(half);
+        let alone = vec![step(ranking, single, current)];
+        // In stretches of one long record the next rung shows as much, for a third of the work.
+        let pays = room > 1 && self.units.are_whole();
+        if !pays || !(challenged || leaves_much) {
+            return Ok(alone);
+        }
+        let Some((seed, together, second)) = self.best_pair(current, ranking)? else {
+            return Ok(alone);
+        };
+        let one = &ranking.candidates[single];
+        let better = together.gain() > one.gain() && together.ahead_of(one) > EQUAL;
+        // Two catalogue effects that leave as little as one unlisted term are the likelier story.
+        let as_good = is_unlisted(one.effect) && one.ahead_of(&together) < EQUAL;
+        Ok(match better || as_good {
+            true => vec![step(ranking, seed, current), second],
+            false => alone,
+        })
+    }
+
+    /// The two catalogue effects that together explain most: where the first stands in the ranking, both, the second.
+    fn best_pair(
+        &self,
+        current: &Fitted,
+        ranking: &Ranking,
+    ) -> Result<Option<(usize, Candidate, Step)>, DiagnoseError> {
+        let heldout = current.heldout_beyond_torque_noise();
+        let mut pair: Option<(usize, Candidate, Step)> = None;
+        let all = ranking.candidates.iter().enumerate();
+        let seeds = all
+            .filter(|(_, c)| !is_unlisted(c.effect) && c.is_supported(self.settings))
+            .take(SEEDS);
+        for (seed, candidate) in seeds {
+            let first = &candidate.fitted;
+            self.watch
+                .begin(&format!("looking ahead from {}", list(&first.effects)))?;
+            let mut seconds = candidates(self.cases, first, self.custom)?;
+            seconds.retain(|&effect| !is_unlisted(effect));
+            let next = rank(
+                self.cases,
+                first,
+                &seconds,
+                self.units,
+                self.settings,
+                0,
+                self.watch,
+            )?;
+            let Ok(second) = justified(&next, first, self.settings) else {
+                continue;
+            };
+            let mut together = next.candidates[second].clone();
+            together.gains = gains(&heldout, &together.fitted);
+            if (pair.as_ref()).is_none_or(|(_, known, _)| together.gain() > known.gain()) {
+                pair = Some((seed, together, step(&next, second, first)));
+            }
+        }
+        Ok(pair)
+    }
+}
+
+type Step = (Addition, Fitted);
+
+fn step(ranking: &Ranking, index: usize, current: &Fitted) -> Step {
+    let candidate = &ranking.candidates[index];
+    let addition = Addition {
+        effect: candidate.effect,
+        p_family: candidate.p_family,
+        heldout_gain: candidate.gain() / misfit(current),
+        twins: twins(ranking, index),
+    };
+    (addition, candidate.fitted.clone())
+}
+
+/// Growth of the squared residual of a long record that is no matter of chance.
+const PLAINLY_MORE: f64 = 1.3;
+/// Share of the misfit left by one effect beyond which two are tried together.
+const MUCH_LEFT: f64 = 0.1;
+/// Effects from which a second is looked for.
+const SEEDS: usize = 3;
+
+fn list(effects: &[Effect]) -> String {
+    match effects {
+        [] => "the base model".to_owned(),
+        some => some
+            .iter()
+            .map(|effect| effect.name())
+            .collect::<Vec<_>>()
+            .join(" + "),
+    }
+}
