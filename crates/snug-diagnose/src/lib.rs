@@ -1,5 +1,6 @@
 #![doc = include_str!("../README.md")]
 
+mod applicability;
 mod case;
 mod cases;
 mod climb;
@@ -14,6 +15,7 @@ mod fitted;
 mod hypothesis;
 mod ladder;
 mod locate;
+mod long_record;
 mod preparation;
 mod ranking;
 mod score;

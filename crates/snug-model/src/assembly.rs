@@ -84,7 +84,7 @@ impl Assembly {
         input: &Input,
         mut sample: impl FnMut(usize, Kinematics<N>),
     ) {
-        if !self.moves_as_base() {
+        if !self.moves_as_base() || input.is_restarted() {
             return match self.state_count {
                 2 => runge_kutta::respond::<N, 2>(self, p, input, sample),
                 3 => runge_kutta::respond::<N, 3>(self, p, input, sample),

@@ -7,6 +7,7 @@ mod assembly;
 mod band_limited;
 mod custom;
 mod custom_settings;
+mod dry_friction;
 mod dual;
 mod effect;
 mod effects;
@@ -23,7 +24,9 @@ mod model;
 mod number;
 mod oscillation;
 mod plant;
+mod restart;
 mod runge_kutta;
+mod scale;
 mod sensors;
 mod settings;
 mod zeroed;
@@ -47,4 +50,5 @@ pub use number::Number;
 pub use oscillation::{
     damped_frequency_hz, damping_ratio, natural_frequency_hz, thesis_damping_ratio,
 };
+pub use scale::{PlausibleRange, Scale};
 pub use settings::{ModelSettings, ParameterSettings};

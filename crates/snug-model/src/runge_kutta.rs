@@ -8,7 +8,7 @@ use crate::effect::Kinematics;
 use crate::plant::{Plant, initial_state};
 use crate::{Input, Number};
 
-/// Simulates from rest (or the effects' initial motion) and hands every sample's true motion to `sample`.
+/// Simulates from rest (or the effects' initial motion, or again and again from the input's restarts) and hands every sample's true motion to `sample`.
 ///
 /// `p` are all parameters of the assembly in its order, `S` is at least the number of its states.
 ///
@@ -29,6 +29,9 @@ pub fn respond<N: Number, const S: usize>(
     let mut torque = plant.acting_torque(0);
     let mut index = 0;
     for point in 0..input.grid().len() {
+        if let Some([angle, velocity]) = input.restart_at(point) {
+            (state[0], state[1]) = (N::from(angle), N::from(velocity));
+        }
         plant.note(&state);
         let next = plant.acting_torque((point + 1).min(last));
         let rise = if input.held() {
