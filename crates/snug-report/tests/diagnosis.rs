@@ -5,10 +5,10 @@ mod diagnosed;
 mod markup;
 mod specimen;
 
-use snug_campaign::{CampaignResult, Comparison, Diagnosis, Location};
+use snug_campaign::{CampaignResult, Comparison, Diagnosis, Location, WorkDone};
 use snug_report::html;
 
-const ANCHORS: [&str; 7] = [
+const ANCHORS: [&str; 8] = [
     "verdict",
     "ladder",
     "before-after",
@@ -16,6 +16,7 @@ const ANCHORS: [&str; 7] = [
     "location",
     "comparison",
     "detectability",
+    "effort",
 ];
 
 /// The markup of one section; `None` when the page does not have it.
@@ -70,8 +71,8 @@ fn sections_stand_right_after_the_overview_and_only_with_a_diagnosis() {
         .map(|tag| tag.attributes.split('"').nth(1).unwrap())
         .collect();
     assert_eq!(sections[0], "overview");
-    assert_eq!(sections[1..8], ANCHORS);
-    assert_eq!(sections.len(), 21);
+    assert_eq!(sections[1..9], ANCHORS);
+    assert_eq!(sections.len(), 22);
     for anchor in ANCHORS {
         assert!(
             page.contains(&format!("href=\"#{anchor}\"")),
@@ -82,6 +83,18 @@ fn sections_stand_right_after_the_overview_and_only_with_a_diagnosis() {
     for anchor in ANCHORS {
         assert!(section(&plain, anchor).is_none(), "{anchor}");
     }
+}
+
+#[test]
+fn the_work_done_is_counted() {
+    has(
+        &html(&diagnosed::improve()),
+        "effort",
+        &[
+            "rankings of all candidates 3",
+            "simulations with sensitivities in them 29616",
+        ],
+    );
 }
 
 #[test]
@@ -323,6 +336,7 @@ fn absent_parts_leave_their_sections_out() {
         diagnosis.final_location = None;
         diagnosis.control = None;
         diagnosis.showcase = None;
+        diagnosis.work = WorkDone::default();
         diagnosis.stopped = None;
     });
     let page = html(&result);

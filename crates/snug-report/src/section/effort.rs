@@ -1,8 +1,8 @@
 use super::DiagnosisSection;
 use maud::{Markup, html};
-use snug_campaign::{CampaignResult, Diagnosis};
+use snug_campaign::{CampaignResult, Diagnosis, WorkDone};
 
-/// How much work the diagnosis was.
+/// How much work the diagnosis was, where that was counted.
 pub const SECTION: DiagnosisSection = DiagnosisSection {
     anchor: "effort",
     short_title: "Work done",
@@ -12,6 +12,9 @@ pub const SECTION: DiagnosisSection = DiagnosisSection {
 
 fn render(diagnosis: &Diagnosis, _result: &CampaignResult) -> Option<Markup> {
     let work = &diagnosis.work;
+    if *work == WorkDone::default() {
+        return None;
+    }
     let rows = [
         ("rankings of all candidates", work.rankings),
         (
