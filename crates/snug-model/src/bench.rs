@@ -1,0 +1,72 @@
+use crate::assembly::Assembly;
+use crate::{Input, Real};
+use std::borrow::Cow;
+
+/// What is given from outside, lane by lane: rig and input of every tightening that is simulated side by side.
+pub struct Bench<'a, R: Real> {
+    inputs: Vec<&'a Input>,
+    /// Logged torque at the grid points \[Nm\].
+    torque_nm: Cow<'a, [R]>,
+    /// Any number, to make others from.
+    pub zero: R,
+    /// l \[m\].
+    pub lever_arm_m: R,
+    /// I_n \[kg m²\].
+    pub known_inertia_kg_m2: R,
+    /// Time between grid points \[s\].
+    pub interval_s: R,
+    /// Grid points per sample.
+    pub substeps: usize,
+    /// Whether the input keeps each grid value until the next.
+    pub held: bool,
+    onset_s: R,
+    rest_before_s: R,
+}
+
+impl<'a, R: Real> Bench<'a, R> {
+    /// One assembly and input for each lane; of the inputs each must be [alike](Self::are_alike) the first.
+    pub fn new(zero: R, of: impl Fn(usize) -> (&'a Assembly, &'a Input)) -> Self {
+        let inputs: Vec<&Input> = (0..R::LANES).map(|lane| of(lane).1).collect();
+        let grids: Vec<&[f64]> = inputs.iter().map(|input| input.grid()).collect();
+        Self {
+            torque_nm: zero.interleave(&grids),
+            lever_arm_m: zero.from_lanes(|lane| of(lane).0.rig().lever_arm_m),
+            known_inertia_kg_m2: zero.from_lanes(|lane| of(lane).0.rig().known_inertia_kg_m2),
+            interval_s: zero.from_lanes(|lane| inputs[lane].grid_interval_s()),
+            onset_s: zero.from_lanes(|lane| inputs[lane].onset_s()),
+            rest_before_s: zero.from_lanes(|lane| inputs[lane].rest_before_s()),
+            substeps: inputs[0].substeps(),
+            held: inputs[0].held(),
+            inputs,
+            zero,
+        }
+    }
+
+    /// Whether two inputs can go side by side: the integration takes the same steps, whatever their length.
+    pub fn are_alike(one: &Input, other: &Input) -> bool {
+        one.substeps() == other.substeps() && one.held() == other.held()
+    }
+
+    /// The input of every lane.
+    pub fn inputs(&self) -> &[&'a Input] {
+        &self.inputs
+    }
+
+    /// Logged torque at the grid points \[Nm\], as many as the longest input has.
+    #[inline(always)]
+    pub fn torque_nm(&self) -> &[R] {
+        &self.torque_nm
+    }
+
+    /// Time since the pulses began, `time_s` after the first samples \[s\].
+    #[inline(always)]
+    pub fn since_onset_s(&self, time_s: R) -> R {
+        time_s - self.onset_s
+    }
+
+    /// Time since the integration of the sensor's signal began, at sample `index` \[s\].
+    #[inline(always)]
+    pub fn since_rest_s(&self, index: usize) -> R {
+        self.rest_before_s + self.interval_s * index as f64 * self.substeps as f64
+    }
+}
