@@ -279,16 +279,23 @@ const BLUR: usize = 20;
 
 /// Averages over `reach` samples to either side, fewer at the ends.
 fn blur(signal: &mut [f64], reach: usize) {
-    let sums: Vec<f64> = std::iter::once(0.0)
-        .chain(signal.iter().scan(0.0, |sum, value| {
-            *sum += value;
-            Some(*sum)
-        }))
-        .collect();
     let last = signal.len();
-    for (index, value) in signal.iter_mut().enumerate() {
-        let (from, to) = (index.saturating_sub(reach), (index + reach + 1).min(last));
-        *value = (sums[to] - sums[from]) / (to - from) as f64;
+    let mut sums = vec![0.0; last + 1];
+    let mut sum = 0.0;
+    for (value, upto) in signal.iter().zip(&mut sums[1..]) {
+        sum += value;
+        *upto = sum;
+    }
+    let mean = |from: usize, to: usize| (sums[to] - sums[from]) / (to - from) as f64;
+    let inner = reach.min(last)..last.saturating_sub(reach).max(reach.min(last));
+    for index in (0..inner.start).chain(inner.end..last) {
+        signal[index] = mean(index.saturating_sub(reach), (index + reach + 1).min(last));
+    }
+    // Where nothing ends, all means are over the same number of samples.
+    let width = 2 * reach + 1;
+    let pairs = sums.iter().zip(sums.iter().skip(width));
+    for (value, (from, to)) in signal[inner].iter_mut().zip(pairs) {
+        *value = (to - from) / width as f64;
     }
 }
 

@@ -58,18 +58,30 @@ pub(crate) fn add_scaled(y: &mut [f64], s: f64, x: &[f64]) {
 /// Matrix Computations, 5.2.1), applying them to `right` as well. R stands in the upper triangle afterwards, Qᵀ·right in
 /// `right`; what was below the diagonal is meaningless.
 pub(crate) fn triangularize(matrix: &mut [f64], right: &mut [f64], rows: usize, columns: usize) {
+    if rows < LONG {
+        return reflect(matrix, right, rows, columns, dot);
+    }
     on_this_processor(
         #[inline(always)]
-        || reflect(matrix, right, rows, columns),
+        || reflect(matrix, right, rows, columns, long_dot),
     );
 }
 
+/// Rows from which wide registers pay.
+const LONG: usize = 256;
+
 #[inline(always)]
-fn reflect(matrix: &mut [f64], right: &mut [f64], rows: usize, columns: usize) {
+fn reflect(
+    matrix: &mut [f64],
+    right: &mut [f64],
+    rows: usize,
+    columns: usize,
+    dot: impl Fn(&[f64], &[f64]) -> f64,
+) {
     for k in 0..columns.min(rows) {
         let (head, tail) = matrix.split_at_mut((k + 1) * rows);
         let pivot = &mut head[k * rows + k..];
-        let length = long_dot(pivot, pivot).sqrt();
+        let length = dot(pivot, pivot).sqrt();
         if length == 0.0 {
             continue;
         }
@@ -78,10 +90,10 @@ fn reflect(matrix: &mut [f64], right: &mut [f64], rows: usize, columns: usize) {
         // ‖v‖² = 2 ‖x‖ (‖x‖ + |x₀|) without cancellation.
         let beta = 1.0 / (length * pivot[0].abs());
         for column in tail.chunks_exact_mut(rows) {
-            let projection = beta * long_dot(pivot, &column[k..]);
+            let projection = beta * dot(pivot, &column[k..]);
             add_scaled(&mut column[k..], -projection, pivot);
         }
-        let projection = beta * long_dot(pivot, &right[k..]);
+        let projection = beta * dot(pivot, &right[k..]);
         add_scaled(&mut right[k..], -projection, pivot);
         pivot[0] = diagonal;
     }

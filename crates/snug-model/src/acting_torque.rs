@@ -7,7 +7,13 @@ use crate::{Number, Real};
 pub struct ActingTorque<'a, N: Number> {
     bench: &'a Bench<'a, N::Real>,
     /// Absent when the one that is logged acts.
-    logged: Option<(LoggedTorque<N>, Vec<Shifted<N::Real>>)>,
+    logged: Option<Logged<N>>,
+}
+
+/// How it is logged, and what was logged before every grid point.
+struct Logged<N: Number> {
+    how: LoggedTorque<N>,
+    shifted: Vec<Shifted<N::Real>>,
 }
 
 /// The logged torque a delay ago.
@@ -33,7 +39,10 @@ impl<'a, N: Number> ActingTorque<'a, N> {
             });
         Self {
             bench,
-            logged: logged.map(|logged| (logged, shifted(bench, logged.delay_s.value()))),
+            logged: logged.map(|how| Logged {
+                shifted: shifted(bench, how.delay_s.value()),
+                how,
+            }),
         }
     }
 
@@ -45,14 +54,14 @@ impl<'a, N: Number> ActingTorque<'a, N> {
     /// Torque at grid point number `point` of the input \[Nm\].
     #[inline(always)]
     pub fn at(&self, point: usize) -> N {
-        let Some((logged, shifted)) = &self.logged else {
+        let Some(Logged { how, shifted }) = &self.logged else {
             return N::from(self.bench.torque_nm()[point]);
         };
         let then = shifted[point];
-        let delay = logged.delay_s;
+        let delay = how.delay_s;
         delay.chain(then.torque_nm, -then.slope_nm_per_s)
-            + logged.lag_s * delay.chain(then.rate_nm_per_s, -then.change_nm_per_s2)
-            - logged.offset_nm
+            + how.lag_s * delay.chain(then.rate_nm_per_s, -then.change_nm_per_s2)
+            - how.offset_nm
     }
 }
 
@@ -69,10 +78,10 @@ fn shifted<R: Real>(bench: &Bench<'_, R>, delay_s: R) -> Vec<Shifted<R>> {
                 found[lane] = [torque, slope, rate, change];
             }
             Shifted {
-                torque_nm: zero.from_lanes(|lane| found[lane][0]),
-                slope_nm_per_s: zero.from_lanes(|lane| found[lane][1]),
-                rate_nm_per_s: zero.from_lanes(|lane| found[lane][2]),
-                change_nm_per_s2: zero.from_lanes(|lane| found[lane][3]),
+                torque_nm: zero.lane_by_lane(|lane| found[lane][0]),
+                slope_nm_per_s: zero.lane_by_lane(|lane| found[lane][1]),
+                rate_nm_per_s: zero.lane_by_lane(|lane| found[lane][2]),
+                change_nm_per_s2: zero.lane_by_lane(|lane| found[lane][3]),
             }
         })
         .collect()

@@ -30,11 +30,11 @@ impl<'a, R: Real> Bench<'a, R> {
         let grids: Vec<&[f64]> = inputs.iter().map(|input| input.grid()).collect();
         Self {
             torque_nm: zero.interleave(&grids),
-            lever_arm_m: zero.from_lanes(|lane| of(lane).0.rig().lever_arm_m),
-            known_inertia_kg_m2: zero.from_lanes(|lane| of(lane).0.rig().known_inertia_kg_m2),
-            interval_s: zero.from_lanes(|lane| inputs[lane].grid_interval_s()),
-            onset_s: zero.from_lanes(|lane| inputs[lane].onset_s()),
-            rest_before_s: zero.from_lanes(|lane| inputs[lane].rest_before_s()),
+            lever_arm_m: zero.lane_by_lane(|lane| of(lane).0.rig().lever_arm_m),
+            known_inertia_kg_m2: zero.lane_by_lane(|lane| of(lane).0.rig().known_inertia_kg_m2),
+            interval_s: zero.lane_by_lane(|lane| inputs[lane].grid_interval_s()),
+            onset_s: zero.lane_by_lane(|lane| inputs[lane].onset_s()),
+            rest_before_s: zero.lane_by_lane(|lane| inputs[lane].rest_before_s()),
             substeps: inputs[0].substeps(),
             held: inputs[0].held(),
             inputs,

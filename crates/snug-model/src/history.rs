@@ -40,7 +40,7 @@ impl<N: Number> History<N> {
         let late = position.value().is_above(zero.constant(last as f64));
         let held = N::from(position.value().within(0.0, last as f64));
         let position = N::select(early, held, N::select(late, held, position));
-        let whole = zero.from_lanes(
+        let whole = zero.lane_by_lane(
             #[inline(always)]
             |lane| {
                 let position = position.value().lanes()[lane] as usize;
@@ -66,8 +66,8 @@ impl<N: Number> History<N> {
         let mut found = self.noted[first as usize + further];
         // As a rule all have the same delay and the same interval.
         if lanes.iter().any(|&other| other != first) {
-            for lane in 1..lanes.len() {
-                let own = self.noted[lanes[lane] as usize + further];
+            for (lane, &own) in lanes.iter().enumerate().skip(1) {
+                let own = self.noted[own as usize + further];
                 let here = whole.only(lane);
                 found = [
                     N::select(here, own[0], found[0]),

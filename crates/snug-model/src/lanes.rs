@@ -181,7 +181,7 @@ impl<S: Simd, A: Alignment> Real for Lanes<S, A> {
     type Mask = S::m64s;
 
     #[inline(always)]
-    fn from_lanes(self, mut of: impl FnMut(usize) -> f64) -> Self {
+    fn lane_by_lane(self, mut of: impl FnMut(usize) -> f64) -> Self {
         let mut register = [S::f64s::zeroed()];
         for (lane, value) in cast_slice_mut(&mut register).iter_mut().enumerate() {
             *value = of(lane);
@@ -251,5 +251,63 @@ impl<T: Task> WithSimd for Vectorized<T> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, _simd: S) -> T::Output {
         self.0.run()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Dual;
+
+    /// Bits of values and slopes of what laws are made of, lane by lane, from lane `first` of all.
+    struct Probe {
+        first: usize,
+    }
+
+    impl LaneTask for Probe {
+        type Output = Vec<Vec<u64>>;
+        fn run<R: Real>(self, zero: R) -> Self::Output {
+            let place = zero.lane_by_lane(|lane| 0.37 * (self.first + lane) as f64 - 0.9);
+            let x = Dual::<1, R>::parameter(place, 0);
+            let positive = x.abs() + 0.1;
+            let results = [
+                x * x / positive - x,
+                x.tanh(),
+                (x * 30.0).exp(),
+                positive.sqrt(),
+                x.sign() + x.step(),
+                x.power(-3),
+                positive.power_of(x),
+                x.smooth_step(),
+                x.sin() + x.atan(),
+                Dual::select(place.is_positive(), x, -x),
+            ];
+            let bits = |lane: usize| {
+                let both = results
+                    .iter()
+                    .flat_map(|dual| [dual.value, dual.partials[0]]);
+                both.map(|real| real.lanes()[lane].to_bits()).collect()
+            };
+            (0..R::LANES).map(bits).collect()
+        }
+    }
+
+    #[test]
+    fn every_kind_of_register_has_the_bits_of_one_number() {
+        let mut kinds = vec![in_lanes(Probe { first: 0 })];
+        #[cfg(target_arch = "x86_64")]
+        {
+            use pulp::x86::{V3, V4};
+            let probe = Probe { first: 0 };
+            kinds.extend(V3::try_new().map(|v3| probe.run(Lanes::<_, Bytes32>::new(v3, 0.0))));
+            let probe = Probe { first: 0 };
+            kinds.extend(V4::try_new().map(|v4| probe.run(Lanes::<_, Bytes64>::new(v4, 0.0))));
+        }
+        for kind in kinds {
+            let alone: Vec<Vec<u64>> = (0..kind.len())
+                .flat_map(|first| Probe { first }.run(0.0))
+                .collect();
+            assert_eq!(kind, alone, "{} lanes", kind.len());
+        }
     }
 }

@@ -60,7 +60,7 @@ impl<R: Real> Recursion<R> {
             })
             .collect();
         let e: [[R; 6]; 6] = std::array::from_fn(|row| {
-            std::array::from_fn(|column| zero.from_lanes(|lane| exponentials[lane][row][column]))
+            std::array::from_fn(|column| zero.lane_by_lane(|lane| exponentials[lane][row][column]))
         });
         Self {
             own: [[e[0][0], e[0][1]], [e[1][0], e[1][1]]],

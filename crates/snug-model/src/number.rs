@@ -189,7 +189,7 @@ fn whole_power<R: Real>(value: R, exponent: i32) -> R {
 
 /// Value and slope of a power of a number that is not negative; an infinite slope at 0 is taken as 0.
 fn real_power<R: Real>(value: R, exponent: R) -> (R, R) {
-    let raised = |to: R| value.from_lanes(|lane| value.lanes()[lane].powf(to.lanes()[lane]));
+    let raised = |to: R| value.lane_by_lane(|lane| value.lanes()[lane].powf(to.lanes()[lane]));
     let (zero, one) = (value.constant(0.0), value.constant(1.0));
     let slope = exponent * raised(exponent - 1.0);
     let at_zero = Real::choose(one.is_above(exponent), zero, slope);

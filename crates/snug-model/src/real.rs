@@ -13,7 +13,7 @@ pub trait Real: Number<Real = Self> + std::fmt::Debug {
     type Mask: Copy;
 
     /// `of(lane)` in every lane.
-    fn from_lanes(self, of: impl FnMut(usize) -> f64) -> Self;
+    fn lane_by_lane(self, of: impl FnMut(usize) -> f64) -> Self;
     /// The lanes' values.
     fn lanes(&self) -> &[f64];
     /// Signals, one for each lane, as one signal; a lane whose signal has ended keeps its last value.
@@ -45,7 +45,7 @@ pub trait Real: Number<Real = Self> + std::fmt::Debug {
     /// True in one lane only.
     #[inline(always)]
     fn only(self, lane: usize) -> Self::Mask {
-        let marked = self.from_lanes(|other| f64::from(u8::from(other == lane)));
+        let marked = self.lane_by_lane(|other| f64::from(u8::from(other == lane)));
         marked.is_positive()
     }
 
@@ -74,7 +74,7 @@ pub trait Real: Number<Real = Self> + std::fmt::Debug {
     /// A function that no hot loop needs, lane by lane.
     #[inline(always)]
     fn each(self, of: impl Fn(f64) -> f64) -> Self {
-        self.from_lanes(
+        self.lane_by_lane(
             #[inline(always)]
             |lane| of(self.lanes()[lane]),
         )
@@ -103,7 +103,7 @@ impl Real for f64 {
     type Mask = bool;
 
     #[inline(always)]
-    fn from_lanes(self, mut of: impl FnMut(usize) -> f64) -> Self {
+    fn lane_by_lane(self, mut of: impl FnMut(usize) -> f64) -> Self {
         of(0)
     }
     #[inline(always)]

@@ -71,7 +71,7 @@ impl LaneTask for Together<'_, '_> {
             let of = |lane: usize| side[lane.min(side.len() - 1)];
             let bench = Bench::new(zero, |lane| (of(lane).0.assembly(), of(lane).1));
             let values: Vec<R> = (0..side[0].2.len())
-                .map(|index| zero.from_lanes(|lane| of(lane).2[index]))
+                .map(|index| zero.lane_by_lane(|lane| of(lane).2[index]))
                 .collect();
             Group {
                 quantity: runs[0].quantity,

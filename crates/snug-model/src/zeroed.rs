@@ -31,7 +31,7 @@ impl<N: Number> Zeroed<N> {
         Some(Self {
             zero_at: bench
                 .zero
-                .from_lanes(|lane| zero_at(lane).map_or(-1.0, |sample| sample as f64)),
+                .lane_by_lane(|lane| zero_at(lane).map_or(-1.0, |sample| sample as f64)),
             known_from,
             zero: N::from(bench.zero),
             waiting: Vec::with_capacity(known_from + 1),

@@ -50,7 +50,7 @@ fn member(effects: &[Effect], number: usize, intersample: Intersample) -> Member
         input: Input::new(&torque, 5e-4 + 1e-6 * own, intersample)
             .with_rest_before(0.2 + 0.01 * own)
             .with_onset(0.001 * own)
-            .with_zero_at((number % 3 > 0).then_some(7 * number)),
+            .with_zero_at((!number.is_multiple_of(3)).then_some(7 * number)),
     }
 }
 
