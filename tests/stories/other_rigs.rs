@@ -1,8 +1,9 @@
 //! Rigs that are no nutrunner, described in a study file: an electronic oscillator and a pendulum.
 
 use crate::campaign::{run_study, study_file};
-use snug_campaign::Rejection;
-use snug_study::{Outcome, Study};
+use snug_campaign::{Rejection, Verdict};
+use snug_study::{Outcome, RunSettings, Study, Verb, diagnose};
+use std::sync::atomic::AtomicBool;
 use tempfile::TempDir;
 
 /// Published root-mean-square errors of linear models \[V\], on multisine test, arrow without extrapolation, full arrow.
@@ -70,4 +71,56 @@ fn a_pendulum_runs_and_is_told_apart_from_a_spring() {
     let tightening = &outcome.result.tightenings[0];
     assert!(tightening.estimate.is_some());
     assert_eq!(tightening.selection.rejections, [Rejection::PoorFit]);
+}
+
+/// Three recordings of the published set, driven by three different controllers: each says that gravity is missing, a
+/// force that goes with the sine of the angle, and no spring of any other shape.
+#[test]
+fn a_pendulum_asks_for_gravity() {
+    let Some(data) = snug_tests::data("pendulum") else {
+        return;
+    };
+    for recording in ["pd_sysid", "direct_collocation", "ilqr"] {
+        let mut study = Study::read(&study_file("pendulum.ron")).unwrap();
+        study.set_data(&data.join(format!("pendulum-torque/{recording}_measured.csv")));
+        let out = tempfile::tempdir().unwrap();
+        let settings = RunSettings {
+            out: out.path().to_path_buf(),
+            threads: None,
+        };
+        let quiet = |_: snug_study::ProgressEvent<'_>| ();
+        let outcome = diagnose(
+            &study,
+            &Verb::Improve,
+            &settings,
+            &quiet,
+            &AtomicBool::new(false),
+        );
+        let diagnosis = outcome.unwrap().result.diagnosis.unwrap();
+        assert_eq!(diagnosis.verdict, Verdict::UnlistedEffect, "{recording}");
+        assert_eq!(diagnosis.added[0].effect, "sine_law", "{recording}");
+        let error = |rung: usize| diagnosis.ladder[rung].rms_displacement_rad.unwrap();
+        assert!(
+            error(1) < error(0) / 3.0,
+            "{recording}: {} to {}",
+            error(0),
+            error(1)
+        );
+        // A body of some 0.5 kg at 0.5 m, as the rig's authors say: m g l of 2 to 3 Nm. The logged torque is too large
+        // for it by a factor that nobody has explained (see the set's provenance), so no more than this is asked.
+        let (lever_arm_m, size) = (0.5, &diagnosis.added[0].parameters[0]);
+        let torque_nm = size.value * lever_arm_m;
+        assert!(
+            (1.5..6.0).contains(&torque_nm),
+            "{recording}: {torque_nm} Nm"
+        );
+        assert!(
+            diagnosis
+                .reasons
+                .iter()
+                .any(|reason| reason.contains("Restarted"))
+        );
+        let written = std::fs::read_to_string(out.path().join("study.ron")).unwrap();
+        assert!(written.contains("Restarted"), "the choice is written out");
+    }
 }

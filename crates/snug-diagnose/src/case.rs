@@ -42,7 +42,7 @@ impl Case {
 
     /// The study's own model with other effects after its own; what the study says of shared parameters stays.
     pub(crate) fn model_with(&self, effects: &[Effect]) -> Result<Model, DiagnoseError> {
-        let mut model = Model::new(*self.model.rig(), effects)?;
+        let mut model = Model::scaled(*self.model.rig(), effects, self.model.scale())?;
         for parameter in model.parameters_mut() {
             let own = self.model.parameters();
             if let Some(said) = own.iter().find(|own| own.name == parameter.name) {

@@ -113,7 +113,9 @@ pub(crate) fn justified(
             }
         }
         None => {
-            let all = ranking.candidates.iter();
+            let gains =
+                |candidate: &&Candidate| candidate.gain() > 0.0 && candidate.clearness() > 1.0;
+            let all = ranking.candidates.iter().filter(gains);
             Err(Stop::NothingSupported {
                 best_p: all.map(|candidate| candidate.p_family).fold(1.0, f64::min),
             })

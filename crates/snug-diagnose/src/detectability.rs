@@ -43,7 +43,7 @@ fn card(column: &Column, needed: f64) -> Detectability {
     let description = column.effect.description();
     let (parameter, unit_size) = column.size();
     let spec = &description.parameters[parameter];
-    let largest = spec.minimum.abs().max(spec.maximum.abs());
+    let largest = column.largest[parameter];
     let multiple = (needed / column.information).sqrt();
     let smallest = (multiple * unit_size.abs())
         .is_finite()

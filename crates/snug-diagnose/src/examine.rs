@@ -53,6 +53,8 @@ pub struct RungModel {
     pub effects: Vec<String>,
     /// Declarations of those effects that the study does not know yet.
     pub declarations: Vec<CustomEffectSettings>,
+    /// Mass, damping and stiffness that go with them, as a place to begin; only where few long records were fitted.
+    pub base: Vec<(String, f64)>,
     /// Sizes of the effects, shared ones and each tightening's own.
     pub parameters: Vec<EffectParameter>,
 }
@@ -143,6 +145,7 @@ impl Examination<'_> {
             verb: self.verb(),
             verdict,
             tightenings: cases.len(),
+            units: Units::of(cases),
             before: first,
             after: last,
             additions: &self.climb.additions,
@@ -379,7 +382,13 @@ impl Examination<'_> {
         let declared = declaration(effect.name())?;
         let sizes = parameters(self.question.cases, fitted, effect);
         Some(UnlistedTerm {
-            statement: wording::unlisted(effect, &declared, gain, &sizes),
+            statement: wording::unlisted(
+                effect,
+                &declared,
+                gain,
+                &sizes,
+                Units::of(self.question.cases),
+            ),
             ron: wording::paste(&declared, &sizes),
             expression: declared.expression,
             heldout_gain: gain,
@@ -404,6 +413,7 @@ fn rung_model(cases: &[Case], fitted: &Fitted) -> RungModel {
             .iter()
             .filter_map(|effect| declaration(effect.name()))
             .collect(),
+        base: fitted.base(),
         parameters: fitted
             .effects
             .iter()

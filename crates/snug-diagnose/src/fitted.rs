@@ -199,6 +199,20 @@ impl Fitted {
             .collect()
     }
 
+    /// Free parameters of the base model, the mean over records; none where there are many tightenings.
+    pub fn base(&self) -> Vec<(String, f64)> {
+        if self.units.are_whole() {
+            return Vec::new();
+        }
+        let count = self.own.len() as f64;
+        let mean = |column: usize| self.own.iter().map(|own| own[column]).sum::<f64>() / count;
+        let free = self.own_names.len() - self.own_effect_count;
+        let names = self.own_names[..free].iter().enumerate();
+        names
+            .map(|(column, name)| (name.clone(), mean(column)))
+            .collect()
+    }
+
     /// Names of the shared parameters.
     pub fn shared_names(&self) -> &[String] {
         &self.shared_names

@@ -1,5 +1,6 @@
 #![doc = include_str!("../README.md")]
 
+mod applicability;
 mod case;
 mod climb;
 mod dense;
@@ -13,6 +14,7 @@ mod fitted;
 mod hypothesis;
 mod ladder;
 mod locate;
+mod long_record;
 mod nuisance;
 mod preparation;
 mod ranking;

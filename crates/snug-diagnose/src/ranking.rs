@@ -5,6 +5,7 @@ use crate::evidence::{clearness, spread_of_sum};
 use crate::family::Family;
 use crate::fitted::Fitted;
 use crate::hypothesis::{Hypothesis, Start};
+use crate::long_record;
 use crate::score::{Column, Control, Scored, Scorer};
 use crate::units::Units;
 use crate::{Case, DiagnoseSettings, Watch};
@@ -91,7 +92,10 @@ pub(crate) fn fit_effects(
         Some(fitted) => hypothesis.start_from(fitted),
         None => hypothesis.usual_start(),
     };
-    let end = hypothesis.fit(&start, &PooledSettings::default())?;
+    let end = match units.are_whole() {
+        true => hypothesis.fit(&start, &PooledSettings::default())?,
+        false => long_record::to_the_end(&mut hypothesis, &start)?,
+    };
     hypothesis.finish(end, &units)
 }
 
@@ -195,9 +199,13 @@ fn refit(
         .filter(|column| column.effect == effect)
         .collect();
     own.sort_by(|a, b| b.predicted_gain().total_cmp(&a.predicted_gain()));
+    let most = match units.are_whole() {
+        true => settings.starts,
+        false => long_record::most_starts(cases, settings),
+    };
     let mut starts: Vec<&[f64]> = Vec::new();
     for column in own {
-        if !starts.contains(&column.start.as_slice()) && starts.len() < settings.starts {
+        if !starts.contains(&column.start.as_slice()) && starts.len() < most {
             starts.push(&column.start);
         }
     }
@@ -206,6 +214,12 @@ fn refit(
         return fit_effects(cases, &effects, Some(current), units);
     };
     let mut start = with_effect(&hypothesis, current, effect, first);
+    if !units.are_whole() {
+        let begin = |values: &[f64]| with_effect(&hypothesis, current, effect, values);
+        let starts: Vec<Start> = starts.iter().map(|values| begin(values)).collect();
+        let end = long_record::best_of(&mut hypothesis, &starts, &CANDIDATE)?;
+        return hypothesis.finish(end, &units);
+    }
     if rest.is_empty() {
         let end = hypothesis.fit(&start, &CANDIDATE)?;
         return hypothesis.finish(end, &units);

@@ -14,7 +14,7 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 use rayon::prelude::*;
-use snug_model::{Effect, Input, Law, ParameterSpec, Scope};
+use snug_model::{Effect, Input, Law, PlausibleRange, Scope};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 /// One direction in which an effect could push: the derivative to a parameter, or one of its starts against none.
@@ -25,6 +25,8 @@ pub(crate) struct Column {
     along: Option<usize>,
     /// Values of the effect's own parameters to begin a refit with.
     pub start: Vec<f64>,
+    /// Largest plausible size of each of the effect's own parameters.
+    pub largest: Vec<f64>,
     /// The physics knows only one sign.
     one_sided: bool,
     /// Every tightening has its own size.
@@ -102,7 +104,17 @@ impl Column {
     /// A column with these scores, for tests of what is made of them.
     #[cfg(test)]
     pub fn with_scores(effect: Effect, scores: Vec<f64>) -> Self {
-        let mut column = directions(effect, true).swap_remove(0);
+        let hand = |spec| {
+            snug_model::Scale::HandOnTool.range(
+                spec,
+                &snug_campaign::Rig {
+                    lever_arm_m: 0.33,
+                    known_inertia_kg_m2: 0.15,
+                },
+            )
+        };
+        let ranges: Vec<_> = effect.description().parameters.iter().map(hand).collect();
+        let mut column = directions(effect, &ranges, true).swap_remove(0);
         column.variances = vec![1.0; scores.len()];
         column.scores = scores;
         column.bound();
@@ -218,9 +230,10 @@ impl<'a, 'h> Scorer<'a, 'h> {
     /// All columns of `effects`.
     pub fn score(&self, effects: &[Effect]) -> Result<Scored, DiagnoseError> {
         let whole = self.units.are_whole();
+        let model = &self.hypothesis.cases[0].model;
         let mut columns: Vec<Column> = effects
             .iter()
-            .flat_map(|&effect| directions(effect, whole))
+            .flat_map(|&effect| directions(effect, &model.ranges(effect), whole))
             .collect();
         let mut others = Vec::new();
         for &effect in effects {
@@ -444,7 +457,7 @@ fn chi_squared_tail(x: f64, freedom: f64) -> f64 {
 }
 
 /// The directions of an effect: derivatives where it vanishes at its start, else each combination of its starts.
-fn directions(effect: Effect, whole: bool) -> Vec<Column> {
+fn directions(effect: Effect, ranges: &[PlausibleRange], whole: bool) -> Vec<Column> {
     let specs = effect.description().parameters;
     let own = whole && specs.iter().all(|spec| spec.scope == Scope::PerTightening);
     let column = |start: Vec<f64>, along: Option<usize>| Column {
@@ -452,6 +465,7 @@ fn directions(effect: Effect, whole: bool) -> Vec<Column> {
         along,
         start,
         one_sided: specs[0].minimum >= 0.0,
+        largest: ranges.iter().map(PlausibleRange::largest).collect(),
         own,
         scores: Vec::new(),
         bounded: Vec::new(),
@@ -459,25 +473,25 @@ fn directions(effect: Effect, whole: bool) -> Vec<Column> {
         information: 0.0,
         cross: Vec::new(),
     };
-    let usual: Vec<f64> = specs.iter().map(|spec| spec.starts[0]).collect();
+    let usual: Vec<f64> = ranges.iter().map(|range| range.starts[0]).collect();
     if usual.iter().all(|&start| start == 0.0) {
         return (0..specs.len())
             .map(|parameter| column(usual.clone(), Some(parameter)))
             .collect();
     }
-    combinations(specs)
+    combinations(ranges)
         .into_iter()
         .map(|start| column(start, None))
         .collect()
 }
 
 /// Every combination of the starts of an effect's parameters.
-fn combinations(specs: &[ParameterSpec]) -> Vec<Vec<f64>> {
-    specs.iter().fold(vec![Vec::new()], |partial, spec| {
+fn combinations(ranges: &[PlausibleRange]) -> Vec<Vec<f64>> {
+    ranges.iter().fold(vec![Vec::new()], |partial, range| {
         partial
             .iter()
             .flat_map(|values: &Vec<f64>| {
-                spec.starts.iter().map(|&start| {
+                range.starts.iter().map(|&start| {
                     let mut values = values.clone();
                     values.push(start);
                     values

@@ -1,12 +1,12 @@
 //! The way up: rank, add the best, tidy up, again, until nothing more is justified.
 
+use crate::applicability::candidates;
 use crate::climb::{Addition, Climb, EQUAL, Stop, justified, misfit, twins};
 use crate::fitted::Fitted;
 use crate::ranking::{Candidate, Ranking, fit_effects, gains, rank};
 use crate::units::Units;
-use crate::unlisted::{is_unlisted, terms};
+use crate::unlisted::is_unlisted;
 use crate::{Case, DiagnoseError, DiagnoseSettings, Watch, tidying};
-use snug_campaign::Quantity;
 use snug_model::Effect;
 
 /// What stays the same while effects are looked for.
@@ -143,12 +143,19 @@ impl Search<'_> {
     fn single(&self, ranking: &Ranking, best: usize) -> usize {
         match self.listed(ranking) {
             Some(listed)
-                if ranking.candidates[best].ahead_of(&ranking.candidates[listed]) < EQUAL =>
+                if ranking.candidates[best].ahead_of(&ranking.candidates[listed]) < EQUAL
+                    && !self
+                        .leaves_more(&ranking.candidates[listed], &ranking.candidates[best]) =>
             {
                 listed
             }
             _ => best,
         }
+    }
+
+    /// Whether `one` plainly leaves more than `other` of a long record, whose few stretches hardly make that a statistic.
+    fn leaves_more(&self, one: &Candidate, other: &Candidate) -> bool {
+        !self.units.are_whole() && one.fitted.squares() > PLAINLY_MORE * other.fitted.squares()
     }
 
     /// The first supported effect of the catalogue.
@@ -246,33 +253,12 @@ fn step(ranking: &Ranking, index: usize, current: &Fitted) -> Step {
     (addition, candidate.fitted.clone())
 }
 
+/// Growth of the squared residual of a long record that is no matter of chance.
+const PLAINLY_MORE: f64 = 1.3;
 /// Share of the misfit left by one effect beyond which two are tried together.
 const MUCH_LEFT: f64 = 0.1;
 /// Effects from which a second is looked for.
 const SEEDS: usize = 3;
-
-/// The effects that may be missing beside `current`.
-fn candidates(
-    cases: &[Case],
-    current: &Fitted,
-    custom: &[Effect],
-) -> Result<Vec<Effect>, DiagnoseError> {
-    let acceleration = cases
-        .iter()
-        .all(|case| case.quantity == Quantity::Acceleration);
-    let mut all: Vec<Effect> = Effect::ALL.to_vec();
-    // In the acceleration an offset of the output is the bias: ranked once.
-    all.retain(|effect| !(acceleration && effect.name() == "output_offset"));
-    all.extend(custom);
-    all.extend(terms()?);
-    all.retain(|effect| !current.effects.contains(effect));
-    // What a simulation cannot carry beside the effects that are there is no candidate.
-    all.retain(|&effect| {
-        let with = [current.effects.as_slice(), &[effect]].concat();
-        cases[0].model_with(&with).is_ok()
-    });
-    Ok(all)
-}
 
 fn list(effects: &[Effect]) -> String {
     match effects {

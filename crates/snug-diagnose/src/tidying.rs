@@ -21,7 +21,10 @@ pub(crate) fn try_removals(search: &Search<'_>, climb: &mut Climb) -> Result<(),
             .begin(&format!("trying to do without {}", effect.name()))?;
         let mut effects = full.effects.clone();
         effects.retain(|known| *known != effect);
-        let without = fit_effects(search.cases, &effects, Some(&full), search.units)?;
+        // A model that cannot even be run without it needs it.
+        let Ok(without) = fit_effects(search.cases, &effects, Some(&full), search.units) else {
+            continue;
+        };
         let losses = gains(&without.heldout_beyond_torque_noise(), &full);
         let loss: f64 = losses.iter().sum();
         let growth = loss / full.squares();
@@ -83,7 +86,9 @@ fn does_as_well(
 ) -> Result<bool, DiagnoseError> {
     let swap = |known: &Effect| if *known == effect { twin } else { *known };
     let effects: Vec<Effect> = full.effects.iter().map(swap).collect();
-    let swapped = fit_effects(search.cases, &effects, Some(full), search.units)?;
+    let Ok(swapped) = fit_effects(search.cases, &effects, Some(full), search.units) else {
+        return Ok(false);
+    };
     let lost: Vec<f64> = gains(heldout, &swapped).iter().map(|gain| -gain).collect();
     Ok(clearness(&lost, full.scale()) < EQUAL)
 }

@@ -8,7 +8,7 @@ const FEWEST_WHOLE: usize = 8;
 /// Stretches wanted where tightenings are cut.
 const STRETCHES_WANTED: usize = 24;
 /// Shortest stretch \[samples\].
-const SHORTEST_STRETCH: usize = 100;
+const SHORTEST_STRETCH: usize = 40;
 
 /// How tightenings are cut into units.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -37,6 +37,14 @@ impl Units {
     /// Whether each unit is a whole tightening, so that its own parameters can follow.
     pub fn are_whole(self) -> bool {
         self.per_case == 1
+    }
+
+    /// What people call them.
+    pub fn named(self) -> &'static str {
+        match self.are_whole() {
+            true => "tightenings",
+            false => "stretches of the record",
+        }
     }
 
     /// The units of one tightening with `samples` residuals.

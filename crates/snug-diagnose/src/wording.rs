@@ -5,6 +5,7 @@ use crate::climb::{Addition, Attempt, Stop};
 use crate::examine::AT_FLOOR;
 use crate::fitted::Fitted;
 use crate::ranking::Candidate;
+use crate::units::Units;
 use crate::unlisted::{declaration, is_unlisted};
 use snug_campaign::{CorrectedEffect, EffectParameter, RankedEffect, Verdict};
 use snug_model::{CustomEffectSettings, Description, Effect, Law, TRENDS};
@@ -14,6 +15,8 @@ pub(crate) struct Situation<'a> {
     pub verb: &'static str,
     pub verdict: Verdict,
     pub tightenings: usize,
+    /// What is held out in turn: whole tightenings, or stretches of few long records.
+    pub units: Units,
     pub before: &'a Fitted,
     pub after: &'a Fitted,
     pub additions: &'a [Addition],
@@ -151,8 +154,11 @@ pub(crate) fn headline(situation: &Situation<'_>) -> String {
             format!("The model leaves {after}; `diagnose` says what could be missing.")
         }
         (Verdict::Undecided | Verdict::MissingEffect, _) => format!(
-            "These {} tightenings are too few to say: the model leaves {after}, and the best candidate could still be chance.",
-            situation.tightenings
+            "{} to say: the model leaves {after}, and the best candidate could still be chance.",
+            match situation.units.are_whole() {
+                true => format!("These {} tightenings are too few", situation.tightenings),
+                false => "This measurement is too short".to_owned(),
+            }
         ),
     }
 }
@@ -184,6 +190,7 @@ pub(crate) fn reasons(situation: &Situation<'_>) -> Vec<String> {
             &spoken(one.effect),
             one.heldout_gain,
             one.p_family,
+            situation,
         ));
     }
     if let (Some(chosen), Some(first)) = (situation.chosen, situation.ranking.first()) {
@@ -191,6 +198,7 @@ pub(crate) fn reasons(situation: &Situation<'_>) -> Vec<String> {
             &spoken(chosen.effect),
             first.heldout_gain,
             first.p_family,
+            situation,
         ));
         reasons.push(format!(
             "Its size: {}.",
@@ -243,25 +251,39 @@ pub(crate) fn reasons(situation: &Situation<'_>) -> Vec<String> {
         && situation.verb != "compare"
         && let Some(first) = situation.ranking.first()
     {
-        let wanted = (4.0 / first.score.max(0.5)).powi(2) * situation.tightenings as f64;
+        let times = (4.0 / first.score.max(0.5)).powi(2);
+        let decided_by = match situation.units.are_whole() {
+            true => format!(
+                "About {} tightenings like these would decide.",
+                (times * situation.tightenings as f64 / 4.0).ceil() * 4.0
+            ),
+            false => format!(
+                "A record about {:.0} times as long, or several of them, would decide.",
+                times.ceil().max(2.0)
+            ),
+        };
         reasons.push(format!(
-            "The best candidate is {} (chance alone does as well in {} of 100 campaigns). About {} tightenings like these would decide.",
+            "The best candidate is {} (chance alone does as well in {} of 100 campaigns). {decided_by}",
             first.effect.replace('_', " "),
             (first.p_family * 100.0).ceil(),
-            (wanted / 4.0).ceil() * 4.0
         ));
     }
     reasons
 }
 
-fn evidence(name: &str, gain: f64, p: f64) -> String {
+fn evidence(name: &str, gain: f64, p: f64, situation: &Situation<'_>) -> String {
     let chance = match p {
-        p if p <= 0.001 => "less than once in 1000 campaigns".to_owned(),
-        p => format!("in about {:.1} of 100 campaigns", 100.0 * p),
+        p if p <= 0.001 => "less than once in 1000 measurements like this".to_owned(),
+        p => format!("in about {:.1} of 100 measurements like this", 100.0 * p),
     };
     let gain = (gain * 100.0).clamp(0.0, 100.0);
+    let held_out = situation.units.named();
+    let of = match situation.after.is_weighted {
+        true => "what was beyond the noise",
+        false => "the squared error",
+    };
     format!(
-        "{name} removes {gain:.0} % of what was beyond the noise in tightenings that took no part in finding its size; chance alone would do that {chance}."
+        "{name} removes {gain:.0} % of {of} in {held_out} that took no part in finding its size; chance alone would do that {chance}."
     )
 }
 
@@ -328,9 +350,11 @@ pub(crate) fn unlisted(
     declared: &CustomEffectSettings,
     gain: f64,
     parameters: &[EffectParameter],
+    units: Units,
 ) -> String {
+    let held_out = units.named();
     format!(
-        "The simplest term that describes it is a force {} with {}; it removes {:.0} % of the misfit in tightenings that took no part in finding its size. It describes; what causes it is for the bench to find out.",
+        "The simplest term that describes it is a force {} with {}; it removes {:.0} % of the misfit in {held_out} that took no part in finding its size. It describes; what causes it is for the bench to find out.",
         declared.expression,
         sizes(effect.description(), parameters),
         (gain * 100.0).clamp(0.0, 100.0)

@@ -2,8 +2,8 @@
 
 use crate::residual_noise::noise_of;
 use crate::{
-    ConstraintKind, Constraints, Covariance, DenseResidual, Fit, IdentifyError, Settings, Status,
-    TighteningResidual, Whitening, convex_set, solve_from_starts,
+    ConstraintKind, Constraints, Covariance, DenseResidual, Fit, IdentifyError, Settings,
+    Simulation, Status, TighteningResidual, Whitening, convex_set, solve_from_starts,
 };
 use serde::{Deserialize, Serialize};
 use snug_campaign::{
@@ -22,6 +22,9 @@ pub struct IdentifySettings {
     pub constraints: Vec<ConstraintKind>,
     /// Samples at the window's start that count for nothing; default 0.
     pub unscored_samples: usize,
+    /// How the model is run beside the measurement: `Automatic`, `FreeRun` or `Restarted(every_s: …)`; default
+    /// `Automatic`.
+    pub simulation: Simulation,
     /// The solver's own settings.
     pub solver: Settings,
 }
@@ -32,6 +35,7 @@ impl Default for IdentifySettings {
             fitted_output: Quantity::Acceleration,
             constraints: vec![ConstraintKind::Positive, ConstraintKind::LightlyDamped],
             unscored_samples: 0,
+            simulation: Simulation::Automatic,
             solver: Settings::default(),
         }
     }

@@ -78,7 +78,7 @@ impl Assembly {
             sample,
         };
         let zero = bench.zero;
-        if self.moves_as_base() {
+        if self.moves_as_base() && !bench.is_restarted() {
             return zero.vectorize(Exact(on_bench));
         }
         match self.own_state_count {

@@ -23,6 +23,14 @@ pub struct Bench<'a, R: Real> {
     rest_before_s: R,
 }
 
+/// A measured motion that is taken up.
+pub struct Restart<R: Real> {
+    /// The lanes that take it up.
+    pub lanes: R::Mask,
+    /// Angle \[rad\] and velocity \[rad/s\].
+    pub motion: [R; 2],
+}
+
 impl<'a, R: Real> Bench<'a, R> {
     /// One assembly and input for each lane; of the inputs each must be [alike](Self::are_alike) the first.
     pub fn new(zero: R, of: impl Fn(usize) -> (&'a Assembly, &'a Input)) -> Self {
@@ -44,7 +52,32 @@ impl<'a, R: Real> Bench<'a, R> {
 
     /// Whether two inputs can go side by side: the integration takes the same steps, whatever their length.
     pub fn are_alike(one: &Input, other: &Input) -> bool {
-        one.substeps() == other.substeps() && one.held() == other.held()
+        one.substeps() == other.substeps()
+            && one.held() == other.held()
+            && one.is_restarted() == other.is_restarted()
+    }
+
+    /// Whether the simulation takes up the measured motion anywhere.
+    #[inline(always)]
+    pub fn is_restarted(&self) -> bool {
+        self.inputs[0].is_restarted()
+    }
+
+    /// What the simulation goes on from at a grid point, in the lanes that take up the measured motion there.
+    #[inline(always)]
+    pub fn restart_at(&self, point: usize) -> Option<Restart<R>> {
+        if !self.is_restarted() || !(self.inputs.iter()).any(|i| i.restart_at(point).is_some()) {
+            return None;
+        }
+        let of = |lane: usize| self.inputs[lane].restart_at(point);
+        let taken_up = (self.zero).lane_by_lane(|lane| f64::from(u8::from(of(lane).is_some())));
+        let motion = |row: usize| {
+            (self.zero).lane_by_lane(|lane| of(lane).map_or(0.0, |motion| motion[row]))
+        };
+        Some(Restart {
+            lanes: taken_up.is_positive(),
+            motion: [motion(0), motion(1)],
+        })
     }
 
     /// The input of every lane.

@@ -28,15 +28,24 @@ impl CustomEffect {
     /// [`ModelError::Expression`] and [`ModelError::ExpressionValue`] say what is wrong with the declaration and what is
     /// allowed.
     pub fn intern(settings: &CustomEffectSettings) -> Result<Effect, ModelError> {
+        settings.check()?;
+        Self::intern_as(settings, |written| *written)
+    }
+
+    /// The same for a declaration of the catalogue's own, which people read about as `description` says.
+    pub(crate) fn intern_as(
+        settings: &CustomEffectSettings,
+        description: impl FnOnce(&'static Description) -> Description,
+    ) -> Result<Effect, ModelError> {
         let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(effect) = known.iter().find(|effect| effect.settings == *settings) {
             return Ok(Effect::Custom(effect));
         }
-        settings.check()?;
         let program = compile(settings)?;
+        let written = describe(settings, &program);
         let effect: &'static Self = Box::leak(Box::new(Self {
             settings: settings.clone(),
-            description: describe(settings, &program),
+            description: Box::leak(Box::new(description(written))),
             program,
         }));
         known.push(effect);

@@ -85,6 +85,14 @@ pub struct Description {
     pub source: &'static str,
 }
 
+impl Description {
+    /// Whether its sizes are accelerations, or it comes of how an acceleration is measured.
+    pub fn of_accelerometer(&self) -> bool {
+        let is_acceleration = |spec: &ParameterSpec| spec.unit == "rad/s^2";
+        self.parameters.iter().any(is_acceleration) || self.equation.starts_with("a ")
+    }
+}
+
 /// The instant at which a law is evaluated.
 #[derive(Debug, Clone, Copy)]
 pub struct Instant<N: Number> {

@@ -8,6 +8,7 @@ mod band_limited;
 mod bench;
 mod custom;
 mod custom_settings;
+mod dry_friction;
 mod dual;
 mod effect;
 mod effects;
@@ -28,7 +29,9 @@ mod oscillation;
 mod plant;
 mod real;
 mod record;
+mod restart;
 mod runge_kutta;
+mod scale;
 mod sensors;
 mod settings;
 mod side_by_side;
@@ -55,5 +58,6 @@ pub use oscillation::{
     damped_frequency_hz, damping_ratio, natural_frequency_hz, thesis_damping_ratio,
 };
 pub use real::{Real, Task};
+pub use scale::{PlausibleRange, Scale};
 pub use settings::{ModelSettings, ParameterSettings};
 pub use side_by_side::{Run, simulate_side_by_side};

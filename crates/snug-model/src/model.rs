@@ -3,7 +3,7 @@ use crate::assembly::{Assembly, MAXIMUM_OWN_STATES, Part};
 use crate::bench::Bench;
 use crate::effect::{Law, ParameterSpec};
 use crate::side_by_side::{Run, simulate_side_by_side};
-use crate::{Effect, Input, ModelError};
+use crate::{Effect, Input, ModelError, PlausibleRange, Scale};
 use snug_campaign::{Motion, Parameter, ParameterSource, Quantity, Rig};
 
 /// Free parameters a simulation with sensitivities can carry.
@@ -22,16 +22,25 @@ pub const THESIS_START: [f64; 3] = [1.76, 38.26, 1837.27];
 pub struct Model {
     assembly: Assembly,
     parameters: Vec<Parameter>,
+    scale: Scale,
 }
 
 impl Model {
-    /// The base model of `rig` with `effects` added.
+    /// The base model of `rig` with `effects` added, their starts and bounds those of a hand on a tool.
+    ///
+    /// # Errors
+    /// As [`Model::scaled`].
+    pub fn new(rig: Rig, effects: &[Effect]) -> Result<Self, ModelError> {
+        Self::scaled(rig, effects, Scale::HandOnTool)
+    }
+
+    /// The base model of `rig` with `effects` added, their starts and bounds those of a rig of this `scale`.
     ///
     /// # Errors
     /// [`ModelError::DuplicateEffect`] when an effect is named twice, [`ModelError::Rig`] when the rig's constants are
     /// not finite, the lever arm is not positive or the known inertia is negative, [`ModelError::TooLarge`] when the
     /// effects need more states or parameters than a simulation carries.
-    pub fn new(rig: Rig, effects: &[Effect]) -> Result<Self, ModelError> {
+    pub fn scaled(rig: Rig, effects: &[Effect], scale: Scale) -> Result<Self, ModelError> {
         check_rig(&rig)?;
         let mut parameters = base_parameters();
         let mut parts: Vec<Part> = Vec::new();
@@ -44,11 +53,16 @@ impl Model {
             }
             let description = effect.description();
             let first = parameters.len();
-            for spec in description.parameters {
+            let ranges = ranges(effect, &rig, scale);
+            for (spec, range) in description.parameters.iter().zip(ranges) {
                 let taken = parameters
                     .iter()
                     .any(|parameter| parameter.name == spec.name);
-                parameters.push(effect_parameter(spec, taken.then_some(description.name)));
+                parameters.push(effect_parameter(
+                    spec,
+                    &range,
+                    taken.then_some(description.name),
+                ));
             }
             let next = states + description.states.len();
             parts.push(Part {
@@ -75,6 +89,7 @@ impl Model {
                 own_state_count: states,
             },
             parameters,
+            scale,
         })
     }
 
@@ -104,7 +119,7 @@ impl Model {
 
     /// `effects` on the same rig; parameters are matched by their effect, since their names depend on its company.
     fn with_effects(&self, effects: &[Effect]) -> Result<Self, ModelError> {
-        let mut model = Self::new(*self.rig(), effects)?;
+        let mut model = Self::scaled(*self.rig(), effects, self.scale)?;
         let keep = |to: &mut [Parameter], from: &[Parameter]| {
             for (to, from) in to.iter_mut().zip(from) {
                 let name = std::mem::take(&mut to.name);
@@ -142,6 +157,16 @@ impl Model {
         &mut self.parameters
     }
 
+    /// The scale that starts and bounds of effects follow.
+    pub fn scale(&self) -> Scale {
+        self.scale
+    }
+
+    /// Starts and bounds of each parameter of `effect`, whether the model has it or not.
+    pub fn ranges(&self, effect: Effect) -> Vec<PlausibleRange> {
+        ranges(effect, self.rig(), self.scale)
+    }
+
     /// The effects, in order.
     pub fn effects(&self) -> impl Iterator<Item = Effect> + '_ {
         self.assembly.parts.iter().map(|part| part.effect)
@@ -159,12 +184,12 @@ impl Model {
         let usual: Vec<f64> = self.parameters.iter().map(|p| p.value).collect();
         let mut further = Vec::new();
         for part in &self.assembly.parts {
-            let specs = part.effect.description().parameters;
-            for (index, spec) in part.parameters.clone().zip(specs) {
+            let ranges = self.ranges(part.effect);
+            for (index, range) in part.parameters.clone().zip(ranges) {
                 if self.parameters[index].fixed {
                     continue;
                 }
-                for &start in spec.starts.iter().skip(1) {
+                for &start in range.starts.iter().skip(1) {
                     let mut values = usual.clone();
                     values[index] = start;
                     further.push(values);
@@ -271,17 +296,31 @@ fn base_parameters() -> Vec<Parameter> {
         .collect()
 }
 
+/// Starts and bounds of an effect's parameters; a study's own law has those that the study says, on any rig.
+fn ranges(effect: Effect, rig: &Rig, scale: Scale) -> Vec<PlausibleRange> {
+    let scale = match effect {
+        Effect::Custom(_) => Scale::HandOnTool,
+        _ => scale,
+    };
+    let specs = effect.description().parameters.iter();
+    specs.map(|spec| scale.range(spec, rig)).collect()
+}
+
 /// A parameter whose name another effect already has is called after its own effect: `torque_lag_tau_s`.
-fn effect_parameter(spec: &ParameterSpec, qualified_by: Option<&str>) -> Parameter {
+fn effect_parameter(
+    spec: &ParameterSpec,
+    range: &PlausibleRange,
+    qualified_by: Option<&str>,
+) -> Parameter {
     Parameter {
         name: match qualified_by {
             Some(effect) => format!("{effect}_{}", spec.name),
             None => spec.name.to_owned(),
         },
         unit: spec.unit.to_owned(),
-        value: spec.starts[0],
-        minimum: spec.minimum,
-        maximum: spec.maximum,
+        value: range.starts[0],
+        minimum: range.minimum,
+        maximum: range.maximum,
         fixed: false,
         standard_error: None,
         source: ParameterSource::Default,

@@ -10,7 +10,8 @@ use crate::bench::Bench;
 use crate::effect::{Instant, Kinematics};
 use crate::plant::{Plant, initial_motion};
 
-/// Simulates from rest (or the effects' initial motion) and hands every sample's true motion to `sample`.
+/// Simulates from rest (or the effects' initial motion, or again and again from the input's restarts) and hands every
+/// sample's true motion to `sample`.
 ///
 /// `p` are all parameters of the assembly in its order, `X` is at least the number of its effects' own states.
 ///
@@ -53,6 +54,11 @@ pub fn respond<N: Number, const X: usize>(
     let mut torque = acting_torque.at(0);
     let mut index = 0;
     for point in 0..points {
+        if let Some(restart) = bench.restart_at(point) {
+            let [angle, velocity] = restart.motion;
+            x = N::select(restart.lanes, N::from(angle * lever), x);
+            v = N::select(restart.lanes, N::from(velocity * lever), v);
+        }
         plant.note(x, v);
         let next = acting_torque.at((point + 1).min(last));
         let rise = if bench.held { zero } else { next - torque };

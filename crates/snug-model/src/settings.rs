@@ -1,4 +1,4 @@
-use crate::{CustomEffect, CustomEffectSettings, Effect, Model, ModelError};
+use crate::{CustomEffect, CustomEffectSettings, Effect, Model, ModelError, Scale};
 use serde::{Deserialize, Serialize};
 use snug_campaign::{Intersample, ParameterSource, Rig};
 use std::collections::BTreeMap;
@@ -13,6 +13,9 @@ pub struct ModelSettings {
     pub custom: Vec<CustomEffectSettings>,
     /// What the input does between samples: `ZeroOrder`, `Linear` or `BandLimited`; default `Linear`.
     pub intersample: Intersample,
+    /// How large torques, angles and times are on this rig, which starts and bounds of effects follow: `Automatic`,
+    /// `HandOnTool` or `Rig(torque_nm: …, angle_rad: …, time_s: …)`; default `Automatic`.
+    pub scale: Scale,
     /// Changes to single parameters, by name, for example `{"mass_kg": (value: 1.0, fixed: true)}`.
     pub parameters: BTreeMap<String, ParameterSettings>,
 }
@@ -40,6 +43,7 @@ impl Default for ModelSettings {
             effects: Vec::new(),
             custom: Vec::new(),
             intersample: Intersample::Linear,
+            scale: Scale::Automatic,
             parameters: BTreeMap::new(),
         }
     }
@@ -56,9 +60,9 @@ impl ModelSettings {
         let effects = self
             .effects
             .iter()
-            .map(|name| named(name, &custom))
+            .map(|name| self.scale.effect(named(name, &custom)?, &rig))
             .collect::<Result<Vec<_>, _>>()?;
-        let mut model = Model::new(rig, &effects)?;
+        let mut model = Model::scaled(rig, &effects, self.scale)?;
         for (name, settings) in &self.parameters {
             settings.apply(name, &mut model)?;
         }

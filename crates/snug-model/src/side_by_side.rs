@@ -101,7 +101,7 @@ impl<R: Real> Group<'_, '_, R> {
         if self.free.is_empty() {
             return self.plain();
         }
-        if self.assembly.is_base() {
+        if self.assembly.is_base() && !self.bench.is_restarted() {
             return self.bench.zero.vectorize(self);
         }
         let of_effects = self

@@ -178,6 +178,26 @@ fn laws_of_a_study() {
 }
 
 #[test]
+fn simulations_that_take_up_the_measured_motion() {
+    for effects in [
+        &[][..],
+        &[Effect::MaxwellBranch],
+        &[Effect::AccelerationBias],
+    ] {
+        let members: Vec<Member> = (0..MEMBERS)
+            .map(|number| {
+                let mut member = member(effects, number, Intersample::Linear);
+                let motions = (0..40).map(|i| [0.01 * i as f64, 0.1 * (number + i) as f64]);
+                member.input = (member.input).with_restarts(20 + number, motions.collect());
+                member
+            })
+            .collect();
+        let all: Vec<usize> = (0..members[0].values.len()).collect();
+        compare(&members, &all, Quantity::Velocity);
+    }
+}
+
+#[test]
 fn runs_that_are_not_alike_wait_for_their_own_turn() {
     let cubic = &[Effect::CubicStiffness];
     let mut members: Vec<Member> = (0..4)

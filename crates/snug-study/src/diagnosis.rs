@@ -4,11 +4,12 @@ use crate::cases::cases;
 use crate::evaluation::Evaluated;
 use crate::file_evaluation::evaluate_alone;
 use crate::run::{Outcome, RunSettings, pool, run_with};
+use crate::settling::{Settled, settle};
 use crate::{ProgressEvent, Study, StudyError};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use snug_campaign::{Diagnosis, Rejection, Rung, Showcase, TighteningId, Traces};
-use snug_diagnose::{Answer, DiagnoseError, Goal, Question, RungModel, Watch, examine};
+use snug_diagnose::{Answer, Case, DiagnoseError, Goal, Question, RungModel, Watch, examine};
 use snug_model::{Effect, ParameterSettings};
 use snug_statistics::descriptive::median;
 use std::path::PathBuf;
@@ -131,34 +132,51 @@ pub fn diagnose(
     if interrupted.load(Ordering::Relaxed) {
         return Err(StudyError::Interrupted);
     }
+    let settled = pool.install(|| settle(study, &cases));
+    let (study, cases, remarks) = match &settled {
+        Some(Settled { study, remarks }) => {
+            let most = study.diagnosis.most_tightenings;
+            let cases = pool.install(|| self::cases(study, &listing.files, most))?;
+            (study, cases, remarks.as_slice())
+        }
+        None => (study, cases, [].as_slice()),
+    };
     let mut search = study.diagnosis.search.clone();
     search.seed = search.seed.wrapping_add(study.seed);
     let question = Question {
         cases: &cases,
-        effects: effects(study, &study.model.effects)?,
+        effects: effects(study, &study.model.effects, &cases)?,
         custom: study.model.custom_effects()?,
         goal: match verb {
             Verb::Compare => Goal::Compare,
             Verb::Diagnose => Goal::Diagnose,
-            Verb::Add(names) => Goal::Add(effects(study, names)?),
+            Verb::Add(names) => Goal::Add(effects(study, names, &cases)?),
             Verb::Improve => Goal::Improve,
         },
     };
     let tell = |what: &str| progress(ProgressEvent::Stage { what });
     let watch = Watch::new(&tell).until(interrupted);
-    let answer = match pool.install(|| examine(&question, &search, &watch)) {
+    let mut answer = match pool.install(|| examine(&question, &search, &watch)) {
         Err(DiagnoseError::Interrupted) => return Err(StudyError::Interrupted),
         answer => answer?,
     };
+    answer.diagnosis.reasons.extend_from_slice(remarks);
     drop(cases);
     let (last, diagnosis) =
         pool.install(|| climb(study, answer, &listing.files, progress, interrupted))?;
     run_with(&last, Some(diagnosis), settings, progress, interrupted)
 }
 
-/// The named effects, the study's own among them.
-fn effects(study: &Study, names: &[String]) -> Result<Vec<Effect>, StudyError> {
-    let named = names.iter().map(|name| study.model.effect(name));
+/// The named effects, the study's own among them, as they act on its rig.
+fn effects(study: &Study, names: &[String], cases: &[Case]) -> Result<Vec<Effect>, StudyError> {
+    let Some(first) = cases.first() else {
+        return Ok(Vec::new());
+    };
+    let scale = study.model.scale;
+    let named = names.iter().map(|name| {
+        let effect = study.model.effect(name)?;
+        scale.effect(effect, &first.tightening.rig)
+    });
     Ok(named.collect::<Result<_, _>>()?)
 }
 
@@ -217,6 +235,10 @@ fn with_model(study: &Study, model: &RungModel, changes: bool) -> Study {
         {
             study.model.custom.push(declaration.clone());
         }
+    }
+    for (name, value) in &model.base {
+        let told = study.model.parameters.entry(name.clone()).or_default();
+        told.value = Some(*value);
     }
     for parameter in &model.parameters {
         if parameter.per_tightening {

@@ -50,7 +50,7 @@ pub fn fitted(study: &Study, prepared: &Prepared) -> Result<Evaluated, StudyErro
     ))
 }
 
-/// Simulates a tightening that is kept for validation with parameters found elsewhere.
+/// Simulates a tightening that is kept for validation with parameters found elsewhere, from its first sample to its last.
 pub fn validated(
     study: &Study,
     prepared: &Prepared,
@@ -58,7 +58,7 @@ pub fn validated(
 ) -> Result<Evaluated, StudyError> {
     let tightening = &prepared.tightening;
     let model = study.model.model(tightening.rig)?;
-    let input = input(study, prepared);
+    let input = free_input(study, prepared);
     let mut estimate = estimate.clone();
     for parameter in &mut estimate.parameters {
         parameter.standard_error = None;
@@ -107,8 +107,14 @@ pub fn without_estimate(study: &Study, recording: &Recording, segment: &Segment)
     }
 }
 
-/// The input as the study says it behaves, when its pulse begins and since when the sensor's signal has been integrated.
+/// The input of the simulation that is compared with the measurement.
 pub fn input(study: &Study, prepared: &Prepared) -> Input {
+    let free = free_input(study, prepared);
+    study.identify.simulation.of(free, &prepared.tightening)
+}
+
+/// The input as the study says it behaves, when its pulse begins and since when the sensor's signal has been integrated.
+fn free_input(study: &Study, prepared: &Prepared) -> Input {
     let tightening = &prepared.tightening;
     let interval_s = tightening.time_base.interval_s;
     let onset_s = tightening.onset.unwrap_or(0) as f64 * interval_s;

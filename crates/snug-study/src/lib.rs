@@ -11,6 +11,7 @@ mod progress;
 mod rewriting;
 mod run;
 mod selection;
+mod settling;
 mod statistics;
 mod study;
 

@@ -1,0 +1,52 @@
+//! Which effects of the catalogue can act on the rig at all.
+
+use crate::fitted::Fitted;
+use crate::unlisted::terms;
+use crate::{Case, DiagnoseError};
+use snug_campaign::Quantity;
+use snug_model::{Effect, Kind, Law, Scale};
+
+/// The effects that may be missing beside `current`.
+pub(crate) fn candidates(
+    cases: &[Case],
+    current: &Fitted,
+    custom: &[Effect],
+) -> Result<Vec<Effect>, DiagnoseError> {
+    let acceleration = cases
+        .iter()
+        .all(|case| case.quantity == Quantity::Acceleration);
+    let case = &cases[0];
+    let all = Effect::ALL.iter().filter(|&&effect| can_act(effect, case));
+    let mut all = all
+        .map(|&effect| case.model.scale().effect(effect, case.model.rig()))
+        .collect::<Result<Vec<Effect>, _>>()?;
+    // In the acceleration an offset of the output is the bias: ranked once.
+    all.retain(|effect| !(acceleration && effect.name() == "output_offset"));
+    all.extend(custom);
+    all.extend(terms()?);
+    all.retain(|effect| !current.effects.contains(effect));
+    // What a simulation cannot carry beside the effects that are there is no candidate.
+    all.retain(|&effect| {
+        let with = [current.effects.as_slice(), &[effect]].concat();
+        cases[0].model_with(&with).is_ok()
+    });
+    Ok(all)
+}
+
+/// Whether `effect` could be what a measurement like `case` shows.
+///
+/// A machine has no muscles and nerves; what an accelerometer does wrong is not in a displacement that was measured by
+/// itself; and a simulation that takes up the measured motion begins with it.
+fn can_act(effect: Effect, case: &Case) -> bool {
+    let description = effect.description();
+    let is_machine = matches!(case.model.scale(), Scale::Rig { .. });
+    let has_accelerometer = case.quantity == Quantity::Acceleration
+        || case.tightening.motion.acceleration_rad_per_s2.is_some();
+    let is_set = description.name == "initial_motion" && case.input.is_restarted();
+    let is_of_another = match description.kind {
+        Kind::Muscular => is_machine,
+        Kind::Measurement => !has_accelerometer && description.of_accelerometer(),
+        _ => false,
+    };
+    !is_of_another && !is_set
+}

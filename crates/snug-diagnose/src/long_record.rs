@@ -1,0 +1,124 @@
+//! A candidate's refit to a few long records, where mass, damping and stiffness are no matter of each tightening.
+
+use crate::hypothesis::{Hypothesis, PooledEnd, Start};
+use crate::{Case, DiagnoseError, DiagnoseSettings};
+use snug_identify::{
+    DenseResidual, PooledSettings, Settings, TighteningResidual, convex_set, solve,
+};
+
+/// Samples up to which a record is soon simulated.
+const SOON: usize = 30_000;
+
+/// Starts of an effect that are tried: twice the usual number where that is soon done, for the cost has more minima.
+pub(crate) fn most_starts(cases: &[Case], settings: &DiagnoseSettings) -> usize {
+    let samples: usize = cases.iter().map(|case| case.measured().len()).sum();
+    settings.starts * if samples <= SOON { 2 } else { 1 }
+}
+
+/// When the trial of one start stops.
+const ROUGH: PooledSettings = PooledSettings {
+    max_iterations: 15,
+    cost_tolerance: 1e-3,
+};
+
+/// Fits from each of `starts`, and with the best of their sizes from where the study's own mass, damping and stiffness
+/// begin; the lowest cost goes on to the end.
+///
+/// A model without the effect may have been led far off by what it lacks, to where no step leads back.
+pub(crate) fn best_of(
+    hypothesis: &mut Hypothesis<'_>,
+    starts: &[Start],
+    settings: &PooledSettings,
+) -> Result<PooledEnd, DiagnoseError> {
+    let mut best: Option<PooledEnd> = None;
+    let mut refused = None;
+    let mut attempt =
+        |hypothesis: &mut Hypothesis<'_>, start: &Start| match hypothesis.fit(start, &ROUGH) {
+            Ok(end) if best.as_ref().is_none_or(|b| end.fit.cost() < b.fit.cost()) => {
+                best = Some(end);
+                true
+            }
+            Ok(_) => false,
+            Err(error) => {
+                refused = Some(error);
+                false
+            }
+        };
+    let mut leading = 0;
+    for (index, start) in starts.iter().enumerate() {
+        if attempt(hypothesis, start) {
+            leading = index;
+        }
+    }
+    if let Some(leader) = starts.get(leading) {
+        let own = hypothesis.usual_start().own;
+        let shared = leader.shared.clone();
+        attempt(hypothesis, &Start { own, shared });
+    }
+    let Some(best) = best else {
+        let none = || snug_identify::IdentifyError::NoStart.into();
+        return Err(refused.unwrap_or_else(none));
+    };
+    let start = Start {
+        own: best.fit.own.clone(),
+        shared: best.fit.shared.clone(),
+    };
+    hypothesis.fit(&start, settings)
+}
+
+/// Fits from one start until nothing more is to be had: with little noise the way along a valley is long. One record
+/// alone is a problem of few parameters, which the solver for single tightenings follows further.
+pub(crate) fn to_the_end(
+    hypothesis: &mut Hypothesis<'_>,
+    start: &Start,
+) -> Result<PooledEnd, DiagnoseError> {
+    let end = hypothesis.fit(start, &PooledSettings::default())?;
+    let from = Start {
+        own: end.fit.own.clone(),
+        shared: end.fit.shared.clone(),
+    };
+    let Some(further) = further(hypothesis, &from) else {
+        return Ok(end);
+    };
+    match hypothesis.fit(&further, &PooledSettings::default()) {
+        Ok(other) if other.fit.cost() < end.fit.cost() => Ok(other),
+        _ => Ok(end),
+    }
+}
+
+/// Where the solver for single tightenings ends; nothing where there are several records.
+fn further(hypothesis: &Hypothesis<'_>, from: &Start) -> Option<Start> {
+    let ([case], [model]) = (hypothesis.cases, hypothesis.models.as_slice()) else {
+        return None;
+    };
+    let values = hypothesis.values(0, &from.own[0], &from.shared);
+    let free = model.free();
+    let whitening = case.whitening();
+    let mut problem = DenseResidual::new(TighteningResidual::new(
+        model,
+        &case.input,
+        case.measured(),
+        case.quantity,
+        whitening.as_ref(),
+        case.unscored,
+    ));
+    let start: Vec<f64> = free.iter().map(|&index| values[index]).collect();
+    let set = convex_set(model, &case.constraints);
+    let settings = Settings {
+        max_iterations: 300,
+        gradient_tolerance: 1e-6,
+        ..Settings::default()
+    };
+    let found = solve(&mut problem, &start, &set, &settings).ok()?;
+    let pick = |indices: &[usize]| -> Option<Vec<f64>> {
+        let places = indices.iter();
+        places
+            .map(|index| free.iter().position(|at| at == index))
+            .map(|column| Some(found.values[column?]))
+            .collect()
+    };
+    Some(Start {
+        own: vec![pick(&hypothesis.own)?],
+        shared: pick(&hypothesis.shared)?,
+    })
+}

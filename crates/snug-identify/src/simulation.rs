@@ -1,0 +1,196 @@
+//! How the model is run beside a measurement: freely, or again and again from the measured motion.
+
+use serde::{Deserialize, Serialize};
+use snug_campaign::{Quantity, Tightening};
+use snug_model::Input;
+
+/// How the model is run beside a measurement.
+///
+/// A free run over a long record accumulates every error: without a spring the position drifts away, past the top of a
+/// pendulum the simulation falls to the other side, and the cost has minima that have nothing to do with the parameters.
+/// Restarted from the measured motion every so often (multiple shooting with known states), a model is judged by what it
+/// predicts over that time.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum Simulation {
+    /// Restarted where the window is `Whole` and a free run of the study's own model misses the measurement by far;
+    /// decided by `compare`, `diagnose`, `add` and `improve`. Otherwise free.
+    #[default]
+    Automatic,
+    /// From the first sample to the last.
+    FreeRun,
+    /// From the measured displacement and velocity, again and again.
+    Restarted {
+        /// From one restart to the next \[s\].
+        every_s: f64,
+    },
+}
+
+impl Simulation {
+    /// `input` with the restarts that this asks for, each from the measured motion there.
+    pub fn of(self, input: Input, tightening: &Tightening) -> Input {
+        let interval_s = tightening.time_base.interval_s;
+        let measured = tightening.motion.get(Quantity::Displacement);
+        let (Self::Restarted { every_s }, Some(measured)) = (self, measured) else {
+            return input;
+        };
+        let apart = ((every_s / interval_s).round() as usize).max(FEWEST_APART);
+        input.with_restarts(
+            apart,
+            motions(measured, interval_s, apart, calmest_reach(measured, apart)),
+        )
+    }
+}
+
+/// Displacement \[rad\] and velocity \[rad/s\] at every `apart`th sample of a measured displacement: those of the cubic
+/// that fits `reach` samples on either side best.
+pub fn motions(
+    displacement_rad: &[f64],
+    interval_s: f64,
+    apart: usize,
+    reach: usize,
+) -> Vec<[f64; 2]> {
+    let places = (0..displacement_rad.len()).step_by(apart.max(1));
+    let local = places.map(|place| Local::fit(displacement_rad, place, reach.max(LEAST_REACH)));
+    local
+        .map(|local| [local.value, local.slope / interval_s])
+        .collect()
+}
+
+/// Samples on either side of a restart from which its velocity is most certain: where twice as few say most nearly the
+/// same. With fewer, noise and vibration speak; with more, the motion bends too much for a cubic.
+fn calmest_reach(displacement_rad: &[f64], apart: usize) -> usize {
+    let slopes = |reach: usize| motions(displacement_rad, 1.0, apart, reach);
+    let mut narrow = slopes(LEAST_REACH);
+    let mut best = (f64::INFINITY, LEAST_REACH);
+    let mut reach = 2 * LEAST_REACH;
+    while reach <= apart / 2 {
+        let wide = slopes(reach);
+        let pairs = narrow.iter().zip(&wide);
+        let change: f64 = pairs.map(|(a, b)| (a[1] - b[1]).powi(2)).sum();
+        if change < best.0 {
+            best = (change, reach);
+        }
+        (narrow, reach) = (wide, 2 * reach);
+    }
+    best.1
+}
+
+/// Samples on either side over which cubics describe a measurement as well as over few: the wider, the less noise in the
+/// velocity.
+pub fn widest_reach(displacement_rad: &[f64]) -> usize {
+    let step = (displacement_rad.len() / PLACES).max(1);
+    let places: Vec<usize> = (0..displacement_rad.len()).step_by(step).collect();
+    let spread = |reach: usize| -> f64 {
+        let local = places
+            .iter()
+            .map(|&at| Local::fit(displacement_rad, at, reach));
+        local.map(|local| local.variance).sum::<f64>().sqrt()
+    };
+    let few = spread(LEAST_REACH);
+    let wider = std::iter::successors(Some(2 * LEAST_REACH), |reach| Some(2 * reach));
+    wider
+        .take_while(|&reach| 8 * reach <= displacement_rad.len())
+        .take_while(|&reach| spread(reach) <= AS_WELL * few)
+        .last()
+        .unwrap_or(LEAST_REACH)
+}
+
+/// Fewest samples from one restart to the next.
+const FEWEST_APART: usize = 8;
+/// Fewest samples on either side that a cubic is fitted to.
+const LEAST_REACH: usize = 2;
+/// Places at which a measurement is looked at.
+const PLACES: usize = 400;
+/// Growth of the residual's spread up to which a wider cubic still describes the measurement as well.
+const AS_WELL: f64 = 1.1;
+
+/// The cubic through the samples around one, by least squares.
+struct Local {
+    value: f64,
+    /// Per sample.
+    slope: f64,
+    /// Of the residual.
+    variance: f64,
+}
+
+impl Local {
+    /// Over `reach` samples on either side of `place`, as far as there are.
+    fn fit(measured: &[f64], place: usize, reach: usize) -> Self {
+        let first = place.saturating_sub(reach);
+        let some = &measured[first..(place + reach + 1).min(measured.len())];
+        let unit = reach as f64;
+        let at = |index: usize| (first + index) as f64 / unit - place as f64 / unit;
+        // Gram–Schmidt over the samples; each polynomial keeps its value and slope at the place.
+        let mut basis: Vec<(Vec<f64>, f64, f64)> = Vec::new();
+        for power in 0..=3_i32.min(some.len() as i32 - 1) {
+            let mut values: Vec<f64> = (0..some.len()).map(|i| at(i).powi(power)).collect();
+            let (mut value, mut slope) = (f64::from(power == 0), f64::from(power == 1));
+            for (known, known_value, known_slope) in &basis {
+                let along: f64 = known.iter().zip(&values).map(|(a, b)| a * b).sum();
+                values
+                    .iter_mut()
+                    .zip(known)
+                    .for_each(|(v, k)| *v -= along * k);
+                value -= along * known_value;
+                slope -= along * known_slope;
+            }
+            let length = values.iter().map(|v| v * v).sum::<f64>().sqrt();
+            values.iter_mut().for_each(|v| *v /= length);
+            basis.push((values, value / length, slope / length));
+        }
+        let mut rest = some.to_vec();
+        let (mut value, mut slope) = (0.0, 0.0);
+        for (known, known_value, known_slope) in &basis {
+            let along: f64 = known.iter().zip(&rest).map(|(a, b)| a * b).sum();
+            rest.iter_mut()
+                .zip(known)
+                .for_each(|(v, k)| *v -= along * k);
+            value += along * known_value;
+            slope += along * known_slope;
+        }
+        let freedom = some.len().saturating_sub(basis.len()).max(1) as f64;
+        Self {
+            value,
+            slope: slope / unit,
+            variance: rest.iter().map(|r| r * r).sum::<f64>() / freedom,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_cubic_is_found_exactly_in_the_middle_and_at_the_ends() {
+        let x = |t: f64| 0.3 - 0.2 * t + 0.01 * t * t - 2e-4 * t * t * t;
+        let slope = |t: f64| -0.2 + 0.02 * t - 6e-4 * t * t;
+        let samples: Vec<f64> = (0..40).map(|t| x(f64::from(t))).collect();
+        for place in [0_usize, 1, 20, 39] {
+            let local = Local::fit(&samples, place, 8);
+            let t = place as f64;
+            assert!((local.value - x(t)).abs() < 1e-10 && (local.slope - slope(t)).abs() < 1e-10);
+            assert!(local.variance < 1e-18);
+        }
+    }
+
+    /// Savitzky–Golay: a cubic's slope has the noise of Σ over ±h; wider is calmer, as far as the motion allows.
+    #[test]
+    fn the_reach_grows_until_the_motion_bends_too_much() {
+        let wave = |period: f64| -> Vec<f64> {
+            (0..4000)
+                .map(|i| (f64::from(i) * std::f64::consts::TAU / period).sin())
+                .zip((0_u32..).map(|i| {
+                    f64::from(i.wrapping_mul(2_654_435_761) >> 8) / f64::from(1 << 24) - 0.5
+                }))
+                .map(|(x, noise)| x + 1e-3 * noise)
+                .collect()
+        };
+        let (fast, slow) = (widest_reach(&wave(100.0)), widest_reach(&wave(4000.0)));
+        assert!(
+            (64..=512).contains(&slow) && (4..=16).contains(&fast),
+            "{slow} {fast}"
+        );
+    }
+}

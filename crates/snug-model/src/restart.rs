@@ -1,0 +1,30 @@
+//! Where a simulation takes up the measured motion again: prediction over stretches instead of one free run.
+
+/// Motions from which a simulation goes on, at equal distances from the first sample on.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Restarts {
+    /// Grid points from one to the next; 0 where there are none.
+    apart: usize,
+    /// Angle \[rad\] and velocity \[rad/s\].
+    motions: Vec<[f64; 2]>,
+}
+
+impl Restarts {
+    pub(crate) fn new(apart: usize, motions: Vec<[f64; 2]>) -> Self {
+        Self { apart, motions }
+    }
+
+    pub(crate) fn is_empty(&self) -> bool {
+        self.apart == 0
+    }
+
+    /// What is taken up at a grid point.
+    #[inline(always)]
+    pub(crate) fn at(&self, point: usize) -> Option<[f64; 2]> {
+        match self.apart {
+            0 => None,
+            apart if point.is_multiple_of(apart) => self.motions.get(point / apart).copied(),
+            _ => None,
+        }
+    }
+}

@@ -1,0 +1,193 @@
+//! What a study leaves to the tool on a rig that is no hand on a nutrunner: the scale of its effects, and whether the
+//! model runs freely over a long record.
+
+use crate::Study;
+use snug_campaign::Quantity;
+use snug_diagnose::Case;
+use snug_identify::{IdentifySettings, Simulation, identify, motions, widest_reach};
+use snug_model::Scale;
+use snug_preprocess::Window;
+
+/// The study with its automatic choices made, and what is to be said about them.
+pub(crate) struct Settled {
+    pub study: Study,
+    pub remarks: Vec<String>,
+}
+
+/// Makes the choices that the study leaves open, where its window is a whole record; `None` where there are none.
+pub(crate) fn settle(study: &Study, cases: &[Case]) -> Option<Settled> {
+    if study.preprocess.window != Window::Whole {
+        return None;
+    }
+    let sizes = Sizes::of(cases)?;
+    let mut settled = Settled {
+        study: study.clone(),
+        remarks: Vec::new(),
+    };
+    if study.model.scale == Scale::Automatic {
+        settled.study.model.scale = Scale::Rig {
+            torque_nm: sizes.torque_nm,
+            angle_rad: sizes.angle_rad,
+            time_s: sizes.time_s,
+        };
+    }
+    if study.identify.simulation == Simulation::Automatic {
+        let missed = missed(cases);
+        let every_s = sizes.period_s() / STRETCHES_PER_PERIOD;
+        settled.study.identify.simulation = match missed {
+            Some(share) if share > POOR && every_s >= FEWEST_SAMPLES * interval_s(&cases[0]) => {
+                settled.remarks.push(format!(
+                    "Run freely from its first sample on, the study's own model misses {:.0} % of the measured motion, so that a free run says little about single effects. Every model is therefore judged by what it predicts over {every_s:.2e} s from the measured motion, again and again (`identify.simulation: Restarted(every_s: {every_s:.2e})`; `FreeRun` in the study file asks for the whole record at once).",
+                    100.0 * share.min(9.99)
+                ));
+                let search = &mut settled.study.diagnosis.search;
+                search.smallest_gain = search.smallest_gain.max(RESTARTED_GAIN);
+                Simulation::Restarted { every_s }
+            }
+            _ => Simulation::FreeRun,
+        };
+    }
+    Some(settled)
+}
+
+/// Root mean square of a free run's error over that of the measured motion beyond which it is restarted.
+const POOR: f64 = 0.25;
+/// Restarts per period of the motion: short enough that small errors stay small, long enough that forces show.
+const STRETCHES_PER_PERIOD: f64 = 8.0;
+/// Fewest samples between restarts: fewer say nothing of a motion, and rigs so fast are sampled for a free run.
+const FEWEST_SAMPLES: f64 = 8.0;
+/// Smallest gain that matters where a model is restarted: less is within reach of errors of the motion taken up.
+const RESTARTED_GAIN: f64 = 0.05;
+/// Places in each record at which its motion is looked at.
+const PLACES: usize = 400;
+
+/// Fewest samples over which a change of speed is looked at.
+const FEWEST_APART: usize = 4;
+
+/// How large things are on this rig, root mean square over all records.
+struct Sizes {
+    torque_nm: f64,
+    angle_rad: f64,
+    time_s: f64,
+}
+
+impl Sizes {
+    fn of(cases: &[Case]) -> Option<Self> {
+        let motion = |case: &Case| case.tightening.motion.displacement_rad.is_some();
+        if !cases.iter().all(motion) {
+            return None;
+        }
+        let (mut angle, mut velocity, mut torque, mut count) = (0.0, 0.0, 0.0, 0.0);
+        for case in cases {
+            let measured = displacement(case);
+            let apart = (measured.len() / PLACES).max(1);
+            let places = motions(measured, interval_s(case), apart, widest_reach(measured));
+            let n = places.len() as f64;
+            let mean = places.iter().map(|[angle, _]| angle).sum::<f64>() / n;
+            angle += places
+                .iter()
+                .map(|[at, _]| (at - mean).powi(2))
+                .sum::<f64>();
+            velocity += places.iter().map(|[_, speed]| speed * speed).sum::<f64>();
+            torque += n * mean_square(&case.tightening.torque_nm);
+            count += n;
+        }
+        let mut sizes = Self {
+            torque_nm: f64::sqrt(torque / count),
+            angle_rad: f64::sqrt(angle / count),
+            time_s: f64::sqrt(angle / velocity),
+        };
+        // Long rests and turns that add up make the angle large for its speed: how fast the speed changes says more. It
+        // is looked at over a part of the time found before, so that vibration does not count.
+        for _ in 0..2 {
+            let time_s = sizes.time_of_speed(cases);
+            sizes.time_s = time_s.map_or(sizes.time_s, |time_s| sizes.time_s.min(time_s));
+        }
+        let all = [sizes.torque_nm, sizes.angle_rad, sizes.time_s];
+        let sane = |size: &f64| size.is_finite() && *size > 0.0;
+        all.iter().all(sane).then_some(sizes)
+    }
+
+    /// Speed over its change, root mean square, seen over a fourth of the present time; `None` where that is too short.
+    fn time_of_speed(&self, cases: &[Case]) -> Option<f64> {
+        let (mut speeds, mut changes) = (0.0, 0.0);
+        for case in cases {
+            let interval_s = interval_s(case);
+            let apart = (self.time_s / 4.0 / interval_s) as usize;
+            if apart < FEWEST_APART {
+                return None;
+            }
+            let places = motions(displacement(case), interval_s, apart, apart / 2);
+            let step_s = apart as f64 * interval_s;
+            for pair in places.windows(2) {
+                speeds += pair[0][1].powi(2);
+                changes += ((pair[1][1] - pair[0][1]) / step_s).powi(2);
+            }
+        }
+        Some(f64::sqrt(speeds / changes)).filter(|time_s| time_s.is_finite())
+    }
+
+    /// Of an oscillation that is as large and as fast.
+    fn period_s(&self) -> f64 {
+        std::f64::consts::TAU * self.time_s
+    }
+}
+
+fn displacement(case: &Case) -> &[f64] {
+    case.tightening
+        .motion
+        .get(Quantity::Displacement)
+        .unwrap_or_default()
+}
+
+fn interval_s(case: &Case) -> f64 {
+    case.tightening.time_base.interval_s
+}
+
+fn mean_square(values: &[f64]) -> f64 {
+    values.iter().map(|value| value * value).sum::<f64>() / values.len().max(1) as f64
+}
+
+/// Root mean square of what a free run of the study's own model leaves, as a share of the measured motion about its
+/// mean; `None` where restarts make no sense: an acceleration does not drift, and what is integrated from one has no
+/// measured motion to start from.
+fn missed(cases: &[Case]) -> Option<f64> {
+    let (mut left, mut whole) = (0.0, 0.0);
+    for case in cases {
+        let motion = &case.tightening.motion;
+        if case.quantity == Quantity::Acceleration || motion.acceleration_rad_per_s2.is_some() {
+            return None;
+        }
+        let settings = IdentifySettings {
+            fitted_output: case.quantity,
+            constraints: case.constraints.clone(),
+            unscored_samples: case.unscored,
+            simulation: Simulation::FreeRun,
+            ..IdentifySettings::default()
+        };
+        let measured = motion.get(case.quantity)?;
+        let mean = measured.iter().sum::<f64>() / measured.len() as f64;
+        let error = identify(&case.model, &case.input, &case.tightening, &settings).map(|found| {
+            let values: Vec<f64> = found.parameters.iter().map(|p| p.value).collect();
+            let mut error = vec![0.0; measured.len()];
+            case.model
+                .output(&values, &case.input, case.quantity, &mut error);
+            error
+                .iter_mut()
+                .zip(measured)
+                .for_each(|(simulated, y)| *simulated -= y);
+            error
+        });
+        let scored = measured.len() - case.unscored;
+        let about: f64 = measured[case.unscored..]
+            .iter()
+            .map(|y| (y - mean).powi(2))
+            .sum();
+        // What cannot even be simulated misses everything.
+        left += error.map_or(about, |error| {
+            scored as f64 * mean_square(&error[case.unscored..])
+        });
+        whole += about;
+    }
+    (whole > 0.0).then(|| (left / whole).sqrt())
+}
