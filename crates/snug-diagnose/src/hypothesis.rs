@@ -2,6 +2,7 @@
 
 use crate::DiagnoseError;
 use crate::case::Case;
+use crate::cases::Cases;
 use crate::fitted::Fitted;
 use crate::simulated::{Asked, Simulated};
 use crate::units::Units;
@@ -13,7 +14,7 @@ use snug_model::{BASE_PARAMETERS, Effect, Law, Model, Scope};
 
 /// A set of effects, ready to be fitted to all tightenings together.
 pub(crate) struct Hypothesis<'a> {
-    pub cases: &'a [Case],
+    pub cases: Cases<'a>,
     pub effects: Vec<Effect>,
     pub models: Vec<Model>,
     whitenings: Vec<Option<Whitening>>,
@@ -45,7 +46,7 @@ pub(crate) struct Start {
 
 impl<'a> Hypothesis<'a> {
     /// The study's base model with exactly these effects.
-    pub fn new(cases: &'a [Case], effects: &[Effect]) -> Result<Self, DiagnoseError> {
+    pub fn new(cases: Cases<'a>, effects: &[Effect]) -> Result<Self, DiagnoseError> {
         let models = cases
             .iter()
             .map(|case| case.model_with(effects))
@@ -77,7 +78,7 @@ impl<'a> Hypothesis<'a> {
         }
         let own_sets = models
             .iter()
-            .zip(cases)
+            .zip(cases.iter())
             .map(|(model, case)| {
                 let mut alone = model.clone();
                 for &index in &shared {
@@ -177,6 +178,7 @@ impl<'a> Hypothesis<'a> {
             &shared_set,
             settings,
         )?;
+        self.cases.tally().pooled_fit(&fit.work);
         Ok(PooledEnd { fit })
     }
 

@@ -2,6 +2,7 @@
 
 mod applicability;
 mod case;
+mod cases;
 mod climb;
 mod dense;
 mod detectability;
@@ -25,6 +26,7 @@ mod sight;
 mod simulated;
 mod sizes;
 mod tidying;
+mod together;
 mod torque_noise;
 mod trend;
 mod units;
@@ -37,4 +39,5 @@ pub use error::DiagnoseError;
 pub use examine::{Answer, Goal, Question, RungModel, examine};
 pub use locate::{Seen, compare, drifts, locate};
 pub use settings::DiagnoseSettings;
+pub use together::{Together, fit_together};
 pub use watch::Watch;
