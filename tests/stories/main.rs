@@ -14,3 +14,4 @@ mod practice;
 mod recording;
 mod thesis_preset;
 mod threads;
+mod work;

@@ -109,10 +109,13 @@ pub enum Verb {
         /// Only tests whose name contains this.
         filter: Option<String>,
     },
-    /// The benchmarks, side by side in one table.
+    /// How fast Snug is beside bare loops and other programs, in one table.
     Bench {
-        /// Only rows whose name contains this.
-        filter: Option<String>,
+        /// Sections: base, effects, ranking, improve, throughput, peers; default all.
+        sections: Vec<String>,
+        /// Also what takes minutes: 2687 tightenings.
+        #[arg(long)]
+        long: bool,
     },
 }
 

@@ -67,6 +67,6 @@ fn main() -> ExitCode {
             blind,
             filter,
         } => verbs::test(many, blind, filter.as_deref()),
-        Verb::Bench { filter } => verbs::bench(filter.as_deref()),
+        Verb::Bench { sections, long } => verbs::bench(&sections, long),
     }
 }

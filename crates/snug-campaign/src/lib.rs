@@ -24,6 +24,7 @@ pub use conditions::Conditions;
 pub use diagnosis::{
     AddedEffect, CorrectedEffect, Detectability, Diagnosis, EffectParameter, Experiment,
     NegativeControl, NoiseStatement, RankedEffect, Removal, Rung, Showcase, UnlistedTerm, Verdict,
+    WorkDone,
 };
 pub use estimate::{Estimate, FitStatus, Identifiability, Interval, ParameterEstimate};
 pub use finding::{Finding, Severity};

@@ -1,8 +1,6 @@
 //! Small symmetric matrices.
 
-pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
+pub(crate) use snug_identify::inner_product as dot;
 
 /// A small square matrix.
 #[derive(Debug, Clone, PartialEq)]

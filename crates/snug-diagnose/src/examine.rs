@@ -1,5 +1,6 @@
 //! One verb of the diagnosis from tightenings to answer: compare, diagnose, add, improve.
 
+use crate::cases::{Cases, Tally};
 use crate::climb::{Addition, Attempt, Climb, misfit, misfits};
 use crate::experiment::separating_experiment;
 use crate::fitted::Fitted;
@@ -85,8 +86,10 @@ pub fn examine(
             reason: "every tightening was left out; the findings say why",
         });
     }
+    let tally = Tally::default();
+    let counted = Cases::new(cases, &tally);
     let search = Search {
-        cases,
+        cases: counted,
         own: &question.effects,
         custom: &question.custom,
         units: Units::of(cases),
@@ -102,6 +105,7 @@ pub fn examine(
     watch.begin("looking where the model fails")?;
     Examination {
         question,
+        cases: counted,
         settings,
         climb,
         watch,
@@ -111,6 +115,7 @@ pub fn examine(
 
 struct Examination<'a> {
     question: &'a Question<'a>,
+    cases: Cases<'a>,
     settings: &'a DiagnoseSettings,
     climb: Climb,
     watch: &'a Watch<'a>,
@@ -163,7 +168,7 @@ impl Examination<'_> {
             Some((first, second)) => {
                 self.watch
                     .begin("looking for the experiment that tells the twins apart")?;
-                separating_experiment(cases, first, second)
+                separating_experiment(self.cases, first, second)
             }
             None => None,
         };
@@ -200,6 +205,7 @@ impl Examination<'_> {
             unlisted: self.unlisted(),
             experiment,
             showcase: None,
+            work: self.cases.tally().done(),
         };
         Ok(Answer {
             diagnosis,

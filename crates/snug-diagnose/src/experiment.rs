@@ -1,6 +1,7 @@
 //! The experiment that tells twins apart: tightenings are simulated with the one and fitted with the other.
 
 use crate::Case;
+use crate::cases::Cases;
 use crate::fitted::Fitted;
 use crate::hypothesis::Hypothesis;
 use crate::ranking::fit_effects;
@@ -57,7 +58,7 @@ const TELLING: f64 = 52.0;
 
 /// The change of conditions under which `second`, refitted, stays furthest from `first`.
 pub(crate) fn separating_experiment(
-    cases: &[Case],
+    cases: Cases<'_>,
     first: &Fitted,
     second: Effect,
 ) -> Option<Experiment> {
@@ -94,7 +95,7 @@ pub(crate) fn separating_experiment(
 
 /// Mean squared distance over noise per tightening between data simulated with `first` and `second` refitted to them.
 fn distance(
-    cases: &[Case],
+    cases: Cases<'_>,
     first: &Fitted,
     second: Effect,
     few: &[usize],
@@ -106,9 +107,9 @@ fn distance(
     }
     let mut effects = first.effects.clone();
     effects.pop();
-    let base = fit_effects(&made, &effects, None, Units { per_case: 1 }).ok()?;
+    let base = fit_effects(cases.others(&made), &effects, None, Units { per_case: 1 }).ok()?;
     effects.push(second);
-    let mut hypothesis = Hypothesis::new(&made, &effects).ok()?;
+    let mut hypothesis = Hypothesis::new(cases.others(&made), &effects).ok()?;
     let start = hypothesis.start_from(&base);
     let end = hypothesis.fit(&start, &PooledSettings::default()).ok()?;
     Some(2.0 * end.fit.cost() / made.len() as f64)

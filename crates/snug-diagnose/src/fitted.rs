@@ -94,10 +94,12 @@ impl Fitted {
             false => [hypothesis.own.as_slice(), &hypothesis.shared].concat(),
         };
         let mut room = Room::default();
+        let values: Vec<Vec<f64>> = (self.own.iter().enumerate())
+            .map(|(member, own)| hypothesis.values(member, own, &self.shared))
+            .collect();
+        self.torque_noise = passed_on(hypothesis, &values, &self.units);
         for (member, profile) in profiles.iter().enumerate() {
-            let values = hypothesis.values(member, &self.own[member], &self.shared);
-            self.torque_noise
-                .extend(passed_on(hypothesis, member, &values, &self.units));
+            let values = &values[member];
             if self.units.are_whole() {
                 let (curvature, gradient) = self.profiles[member].clone();
                 self.blocks.push(Block {
@@ -109,7 +111,7 @@ impl Fitted {
                 self.members.push(member);
                 continue;
             }
-            let (residual, jacobian) = hypothesis.weighted(member, &values, &order, &mut room);
+            let (residual, jacobian) = hypothesis.weighted(member, values, &order, &mut room);
             let count = residual.len();
             let mut whole = Square::zero(order.len());
             for range in self.units.ranges(count) {

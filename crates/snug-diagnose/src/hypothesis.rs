@@ -2,17 +2,19 @@
 
 use crate::DiagnoseError;
 use crate::case::Case;
+use crate::cases::Cases;
 use crate::fitted::Fitted;
+use crate::simulated::{Asked, Simulated};
 use crate::units::Units;
 use snug_identify::{
-    Constraints, EvaluationError, Linearization, PooledResidual, PooledSettings, Whitening,
-    convex_set, solve_pooled,
+    Constraints, EvaluationError, PooledResidual, PooledSettings, Trial, Whitening, convex_set,
+    solve_pooled,
 };
-use snug_model::{BASE_PARAMETERS, Effect, Input, Law, Model, Scope};
+use snug_model::{BASE_PARAMETERS, Effect, Law, Model, Scope};
 
 /// A set of effects, ready to be fitted to all tightenings together.
 pub(crate) struct Hypothesis<'a> {
-    pub cases: &'a [Case],
+    pub cases: Cases<'a>,
     pub effects: Vec<Effect>,
     pub models: Vec<Model>,
     whitenings: Vec<Option<Whitening>>,
@@ -30,8 +32,7 @@ pub(crate) struct Hypothesis<'a> {
 /// Buffers of one evaluation.
 #[derive(Default)]
 pub(crate) struct Room {
-    output: Vec<f64>,
-    sensitivity: Vec<f64>,
+    simulated: Vec<Simulated>,
     residual: Vec<f64>,
     jacobian: Vec<f64>,
 }
@@ -45,7 +46,7 @@ pub(crate) struct Start {
 
 impl<'a> Hypothesis<'a> {
     /// The study's base model with exactly these effects.
-    pub fn new(cases: &'a [Case], effects: &[Effect]) -> Result<Self, DiagnoseError> {
+    pub fn new(cases: Cases<'a>, effects: &[Effect]) -> Result<Self, DiagnoseError> {
         let models = cases
             .iter()
             .map(|case| case.model_with(effects))
@@ -77,7 +78,7 @@ impl<'a> Hypothesis<'a> {
         }
         let own_sets = models
             .iter()
-            .zip(cases)
+            .zip(cases.iter())
             .map(|(model, case)| {
                 let mut alone = model.clone();
                 for &index in &shared {
@@ -177,6 +178,7 @@ impl<'a> Hypothesis<'a> {
             &shared_set,
             settings,
         )?;
+        self.cases.tally().pooled_fit(&fit.work);
         Ok(PooledEnd { fit })
     }
 
@@ -208,74 +210,50 @@ impl<'a> Hypothesis<'a> {
         order: &[usize],
         room: &'r mut Room,
     ) -> (&'r mut [f64], &'r mut [f64]) {
-        let case = &self.cases[member];
-        let measured = case.measured();
-        let (samples, columns) = (measured.len(), order.len());
-        room.output.resize(samples, 0.0);
-        room.sensitivity.resize(samples * columns, 0.0);
-        self.models[member].sensitivities(
+        let input = &self.cases[member].input;
+        let asked = [Asked {
+            member,
+            input,
             values,
-            order,
-            &case.input,
-            case.quantity,
-            &mut room.output,
-            &mut room.sensitivity[..samples * columns],
-        );
-        for (simulated, measured) in room.output.iter_mut().zip(measured) {
-            *simulated = measured - *simulated;
-        }
+        }];
+        self.simulate(&asked, order, &mut room.simulated);
+        self.weigh_simulated(member, order.len(), 0, room)
+    }
+
+    /// Weighted residual and Jacobian of `member`, whose simulation is number `index` of those in `room`.
+    fn weigh_simulated<'r>(
+        &self,
+        member: usize,
+        columns: usize,
+        index: usize,
+        room: &'r mut Room,
+    ) -> (&'r mut [f64], &'r mut [f64]) {
+        let case = &self.cases[member];
         let whitening = self.whitenings[member].as_ref();
         let scored = scored(case, whitening);
-        room.residual.resize(scored, 0.0);
-        room.jacobian.resize(scored * columns, 0.0);
-        weigh(
-            whitening,
-            &room.output[case.unscored..],
-            &mut room.residual[..scored],
-        );
-        for (column, weighted) in room.sensitivity[..samples * columns]
+        let Room {
+            simulated,
+            residual,
+            jacobian,
+        } = room;
+        let simulated = &mut simulated[index];
+        for (simulated, measured) in simulated.output.iter_mut().zip(case.measured()) {
+            *simulated = measured - *simulated;
+        }
+        residual.resize(scored, 0.0);
+        jacobian.resize(scored * columns, 0.0);
+        weigh(whitening, &simulated.output[case.unscored..], residual);
+        let samples = simulated.output.len();
+        for (column, weighted) in (simulated.sensitivity)
             .chunks_exact(samples)
-            .zip(room.jacobian.chunks_exact_mut(scored))
+            .zip(jacobian.chunks_exact_mut(scored))
         {
             weigh(whitening, &column[case.unscored..], weighted);
             for value in weighted {
                 *value = -*value;
             }
         }
-        (
-            &mut room.residual[..scored],
-            &mut room.jacobian[..scored * columns],
-        )
-    }
-
-    /// The compared output of one member under `input`.
-    pub fn output(&self, member: usize, input: &Input, values: &[f64]) -> Vec<f64> {
-        let case = &self.cases[member];
-        let mut output = vec![0.0; case.measured().len()];
-        self.models[member].output(values, input, case.quantity, &mut output);
-        output
-    }
-
-    /// Its derivative to one parameter.
-    pub fn derivative(
-        &self,
-        member: usize,
-        input: &Input,
-        values: &[f64],
-        parameter: usize,
-    ) -> Vec<f64> {
-        let case = &self.cases[member];
-        let samples = case.measured().len();
-        let (mut output, mut derivative) = (vec![0.0; samples], vec![0.0; samples]);
-        self.models[member].sensitivities(
-            values,
-            &[parameter],
-            input,
-            case.quantity,
-            &mut output,
-            &mut derivative,
-        );
-        derivative
+        (residual, jacobian)
     }
 
     /// Number of weighted residuals of one member.
@@ -303,16 +281,23 @@ const BLUR: usize = 20;
 
 /// Averages over `reach` samples to either side, fewer at the ends.
 fn blur(signal: &mut [f64], reach: usize) {
-    let sums: Vec<f64> = std::iter::once(0.0)
-        .chain(signal.iter().scan(0.0, |sum, value| {
-            *sum += value;
-            Some(*sum)
-        }))
-        .collect();
     let last = signal.len();
-    for (index, value) in signal.iter_mut().enumerate() {
-        let (from, to) = (index.saturating_sub(reach), (index + reach + 1).min(last));
-        *value = (sums[to] - sums[from]) / (to - from) as f64;
+    let mut sums = vec![0.0; last + 1];
+    let mut sum = 0.0;
+    for (value, upto) in signal.iter().zip(&mut sums[1..]) {
+        sum += value;
+        *upto = sum;
+    }
+    let mean = |from: usize, to: usize| (sums[to] - sums[from]) / (to - from) as f64;
+    let inner = reach.min(last)..last.saturating_sub(reach).max(reach.min(last));
+    for index in (0..inner.start).chain(inner.end..last) {
+        signal[index] = mean(index.saturating_sub(reach), (index + reach + 1).min(last));
+    }
+    // Where nothing ends, all means are over the same number of samples.
+    let width = 2 * reach + 1;
+    let pairs = sums.iter().zip(sums.iter().skip(width));
+    for (value, (from, to)) in signal[inner].iter_mut().zip(pairs) {
+        *value = (to - from) / width as f64;
     }
 }
 
@@ -342,24 +327,35 @@ impl PooledResidual for Hypothesis<'_> {
         self.shared.len()
     }
 
-    fn linearize(
-        &mut self,
-        member: usize,
-        parameters: &[f64],
-        linearization: &mut Linearization,
-    ) -> Result<(), EvaluationError> {
-        let (own, shared) = parameters.split_at(self.own.len());
-        let values = self.values(member, own, shared);
+    fn linearize(&mut self, trials: &mut [Trial<'_>]) -> Result<(), EvaluationError> {
         let order = [self.own.as_slice(), &self.shared].concat();
         let mut room = std::mem::take(&mut self.room);
-        let (residual, jacobian) = self.weighted(member, &values, &order, &mut room);
-        if self.blur > 0 {
-            blur(residual, self.blur);
-            for column in jacobian.chunks_exact_mut(residual.len()) {
-                blur(column, self.blur);
+        let values: Vec<Vec<f64>> = (trials.iter())
+            .map(|trial| {
+                let (own, shared) = trial.parameters.split_at(self.own.len());
+                self.values(trial.member, own, shared)
+            })
+            .collect();
+        let asked: Vec<Asked<'_>> = (trials.iter().zip(&values))
+            .map(|(trial, values)| Asked {
+                member: trial.member,
+                input: &self.cases[trial.member].input,
+                values,
+            })
+            .collect();
+        self.simulate(&asked, &order, &mut room.simulated);
+        let mut outcome = Ok(());
+        for (index, trial) in trials.iter_mut().enumerate() {
+            let (residual, jacobian) =
+                self.weigh_simulated(trial.member, order.len(), index, &mut room);
+            if self.blur > 0 {
+                blur(residual, self.blur);
+                for column in jacobian.chunks_exact_mut(residual.len()) {
+                    blur(column, self.blur);
+                }
             }
+            outcome = outcome.and(trial.linearization.set_jacobian(residual, jacobian));
         }
-        let outcome = linearization.set_jacobian(residual, jacobian);
         self.room = room;
         outcome
     }

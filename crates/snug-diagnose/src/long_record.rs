@@ -99,7 +99,7 @@ pub(crate) fn to_the_end(
 
 /// Where the solver for single tightenings ends; nothing where there are several records.
 fn further(hypothesis: &Hypothesis<'_>, from: &Start) -> Option<Start> {
-    let ([case], [model]) = (hypothesis.cases, hypothesis.models.as_slice()) else {
+    let ([case], [model]) = (&*hypothesis.cases, hypothesis.models.as_slice()) else {
         return None;
     };
     let values = hypothesis.values(0, &from.own[0], &from.shared);

@@ -1,6 +1,7 @@
 //! Every candidate scored, refitted and held out; best first.
 
 use crate::DiagnoseError;
+use crate::cases::Cases;
 use crate::evidence::{clearness, spread_of_sum};
 use crate::family::Family;
 use crate::fitted::Fitted;
@@ -82,7 +83,7 @@ const CONTROL_FLIPS: usize = 199;
 
 /// Fits exactly these effects, from where `from` ended where it is given.
 pub(crate) fn fit_effects(
-    cases: &[Case],
+    cases: Cases<'_>,
     effects: &[Effect],
     from: Option<&Fitted>,
     units: Units,
@@ -101,7 +102,7 @@ pub(crate) fn fit_effects(
 
 /// Scores and refits every effect of `candidates` beside those of `current`.
 pub(crate) fn rank(
-    cases: &[Case],
+    cases: Cases<'_>,
     current: &Fitted,
     candidates: &[Effect],
     units: Units,
@@ -109,6 +110,7 @@ pub(crate) fn rank(
     control_campaigns: usize,
     watch: &Watch<'_>,
 ) -> Result<Ranking, DiagnoseError> {
+    cases.tally().ranking();
     let hypothesis = Hypothesis::new(cases, &current.effects)?;
     let control = Control {
         campaigns: control_campaigns,
@@ -116,6 +118,7 @@ pub(crate) fn rank(
     };
     let Scored { columns, control } =
         Scorer::new(&hypothesis, current, units, control).score(candidates)?;
+    cases.tally().signatures(cases.len() * columns.len());
     let family = Family::new(&columns, settings.sign_flips, settings.seed);
     let false_alarms = control
         .par_iter()
@@ -185,7 +188,7 @@ pub(crate) fn gains(heldout: &[f64], fitted: &Fitted) -> Vec<f64> {
 
 /// Refits one effect from its most promising starts, first roughly on a few tightenings; the lowest cost wins.
 fn refit(
-    cases: &[Case],
+    cases: Cases<'_>,
     current: &Fitted,
     effect: Effect,
     columns: &[Column],
@@ -201,7 +204,7 @@ fn refit(
     own.sort_by(|a, b| b.predicted_gain().total_cmp(&a.predicted_gain()));
     let most = match units.are_whole() {
         true => settings.starts,
-        false => long_record::most_starts(cases, settings),
+        false => long_record::most_starts(&cases, settings),
     };
     let mut starts: Vec<&[f64]> = Vec::new();
     for column in own {
@@ -254,7 +257,7 @@ const FEW: usize = 8;
 
 /// Which of several starts is best on a few tightenings, and the shared parameters to which it leads there.
 fn rough(
-    cases: &[Case],
+    cases: Cases<'_>,
     current: &Fitted,
     effect: Effect,
     effects: &[Effect],
@@ -262,7 +265,7 @@ fn rough(
 ) -> Result<(usize, Vec<f64>), DiagnoseError> {
     let few = current.spread(FEW);
     let some: Vec<Case> = few.iter().map(|&index| cases[index].clone()).collect();
-    let mut hypothesis = Hypothesis::new(&some, effects)?;
+    let mut hypothesis = Hypothesis::new(cases.others(&some), effects)?;
     let settings = PooledSettings {
         max_iterations: 20,
         cost_tolerance: 1e-4,

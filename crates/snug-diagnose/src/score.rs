@@ -7,6 +7,8 @@ use crate::DiagnoseError;
 use crate::dense::dot;
 use crate::fitted::Fitted;
 use crate::hypothesis::{Hypothesis, Room};
+use crate::nuisance::{Nuisance, coordinates};
+use crate::simulated::Asked;
 use crate::units::Units;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
@@ -51,6 +53,9 @@ pub(crate) struct Scorer<'a, 'h> {
 
 /// Samples on either side over which the torque is averaged for the signatures.
 const NOISE_REACH: usize = 5;
+
+/// Tightenings that are simulated side by side, which bounds the memory.
+const TOGETHER: usize = 8;
 
 /// How many campaigns of nothing but noise are drawn, and from which seed.
 #[derive(Debug, Clone, Copy, Default)]
@@ -116,24 +121,29 @@ impl Column {
         column
     }
 
-    /// How the effect pushes the output of one tightening, the model's own parameters as they are.
-    fn signature(
+    /// How the effect pushes the outputs of some tightenings, the model's own parameters as they are; `plain` are the
+    /// outputs without it.
+    fn signatures(
         &self,
         with: &Hypothesis<'_>,
-        member: usize,
-        input: &Input,
-        values: &[f64],
-        plain: &[f64],
-    ) -> Vec<f64> {
-        let all = [values, &self.start].concat();
-        match self.along {
-            Some(parameter) => with.derivative(member, input, &all, values.len() + parameter),
-            None => {
-                let mut output = with.output(member, input, &all);
-                output.iter_mut().zip(plain).for_each(|(y, p)| *y -= p);
-                output
-            }
+        without: &[Asked<'_>],
+        plain: &[Vec<f64>],
+    ) -> Vec<Vec<f64>> {
+        let values: Vec<Vec<f64>> = (without.iter())
+            .map(|asked| [asked.values, &self.start].concat())
+            .collect();
+        let asked: Vec<Asked<'_>> = (without.iter().zip(&values))
+            .map(|(asked, values)| Asked { values, ..*asked })
+            .collect();
+        if let Some(parameter) = self.along {
+            let before = without.first().map_or(0, |asked| asked.values.len());
+            return with.derivatives(&asked, before + parameter);
         }
+        let mut outputs = with.outputs(&asked);
+        for (output, plain) in outputs.iter_mut().zip(plain) {
+            output.iter_mut().zip(plain).for_each(|(y, p)| *y -= p);
+        }
+        outputs
     }
 
     /// Which of the effect's parameters the column is about, and the size that information counts in.
@@ -231,9 +241,9 @@ impl<'a, 'h> Scorer<'a, 'h> {
             with.push(effect);
             others.push((effect, Hypothesis::new(self.hypothesis.cases, &with)?));
         }
-        let contributions: Vec<Contribution> = (0..self.hypothesis.cases.len())
-            .into_par_iter()
-            .map(|member| self.contribution(member, &columns, &others))
+        let members: Vec<usize> = (0..self.hypothesis.cases.len()).collect();
+        let contributions: Vec<Contribution> = (members.par_chunks(TOGETHER))
+            .flat_map_iter(|some| self.contributions(some, &columns, &others))
             .collect();
         let blank = columns.clone();
         for contribution in &contributions {
@@ -274,12 +284,56 @@ impl<'a, 'h> Scorer<'a, 'h> {
         Ok(Scored { columns, control })
     }
 
-    fn contribution(
+    /// What some tightenings, simulated side by side, add.
+    fn contributions(
         &self,
-        member: usize,
+        members: &[usize],
         columns: &[Column],
         others: &[(Effect, Hypothesis<'_>)],
-    ) -> Contribution {
+    ) -> Vec<Contribution> {
+        let hypothesis = self.hypothesis;
+        // What an effect does is worked out from a torque without the noise that the residual has from it: a delay or a
+        // lag would otherwise be seen to remove that noise.
+        let smoothed: Vec<(Input, Vec<f64>)> = (members.iter())
+            .map(|&member| {
+                let input = hypothesis.cases[member].input.smoothed(NOISE_REACH);
+                (input, self.values(member))
+            })
+            .collect();
+        let asked: Vec<Asked<'_>> = (members.iter().zip(&smoothed))
+            .map(|(&member, (input, values))| Asked {
+                member,
+                input,
+                values,
+            })
+            .collect();
+        let plain = hypothesis.outputs(&asked);
+        let of_columns: Vec<Vec<Vec<f64>>> = (columns.par_iter())
+            .map(|column| {
+                let other = others.iter().find(|(effect, _)| *effect == column.effect);
+                other.map_or_else(
+                    || plain.iter().map(|plain| vec![0.0; plain.len()]).collect(),
+                    |(_, other)| column.signatures(other, &asked, &plain),
+                )
+            })
+            .collect();
+        (members.par_iter().enumerate())
+            .map(|(index, &member)| {
+                let own: Vec<&[f64]> = of_columns.iter().map(|of| of[index].as_slice()).collect();
+                self.contribution(member, &own)
+            })
+            .collect()
+    }
+
+    /// All parameters of one tightening's model as fitted.
+    fn values(&self, member: usize) -> Vec<f64> {
+        let fitted = self.fitted;
+        self.hypothesis
+            .values(member, &fitted.own[member], &fitted.shared)
+    }
+
+    /// What one tightening adds, given every column's signature in it.
+    fn contribution(&self, member: usize, of_columns: &[&[f64]]) -> Contribution {
         let hypothesis = self.hypothesis;
         // Stretches of one tightening share everything with each other.
         let own_count = match self.units.are_whole() {
@@ -287,7 +341,7 @@ impl<'a, 'h> Scorer<'a, 'h> {
             false => hypothesis.own.len() + hypothesis.shared.len(),
         };
         let order = [hypothesis.own.as_slice(), &hypothesis.shared].concat();
-        let values = hypothesis.values(member, &self.fitted.own[member], &self.fitted.shared);
+        let values = self.values(member);
         let mut room = Room::default();
         let (residual, jacobian) = hypothesis.weighted(member, &values, &order, &mut room);
         let count = residual.len();
@@ -298,10 +352,6 @@ impl<'a, 'h> Scorer<'a, 'h> {
             nuisance.project(column);
         }
         let bias = self.bias_signature(member, &nuisance);
-        // What an effect does is worked out from a torque without the noise that the residual has from it: a delay or a
-        // lag would otherwise be seen to remove that noise.
-        let input = hypothesis.cases[member].input.smoothed(NOISE_REACH);
-        let plain = hypothesis.output(member, &input, &values);
         let mut contribution = Contribution {
             scores: Vec::new(),
             variances: Vec::new(),
@@ -311,13 +361,8 @@ impl<'a, 'h> Scorer<'a, 'h> {
         };
         let mut signatures: Vec<Vec<f64>> = Vec::new();
         let mut along_bias = Vec::new();
-        for column in columns {
-            let other = others.iter().find(|(effect, _)| *effect == column.effect);
-            let signature = other.map_or_else(
-                || vec![0.0; plain.len()],
-                |(_, other)| column.signature(other, member, &input, &values, &plain),
-            );
-            let mut z = hypothesis.weigh_signal(member, &signature);
+        for signature in of_columns {
+            let mut z = hypothesis.weigh_signal(member, signature);
             nuisance.project(&mut z);
             let (mut scores, mut variances) = (Vec::new(), Vec::new());
             let mut information = 0.0;
@@ -403,63 +448,6 @@ impl<'a, 'h> Scorer<'a, 'h> {
             }
         }
         columns.iter_mut().for_each(Column::bound);
-    }
-}
-
-/// Coordinates of each signal in an orthonormal basis of all of them.
-fn coordinates(signals: &[Vec<f64>]) -> Vec<Vec<f64>> {
-    let mut span = Nuisance { basis: Vec::new() };
-    let along = |span: &Nuisance, signal: &[f64]| -> Vec<f64> {
-        span.basis
-            .iter()
-            .map(|direction| dot(direction, signal))
-            .collect()
-    };
-    for signal in signals {
-        span.extend(signal, SAME_DIRECTION);
-    }
-    signals.iter().map(|signal| along(&span, signal)).collect()
-}
-
-/// Squared share of a signal below which what is new in it is rounding.
-const SAME_DIRECTION: f64 = 1e-12;
-
-/// Orthonormal basis of what the own parameters can imitate.
-struct Nuisance {
-    basis: Vec<Vec<f64>>,
-}
-
-impl Nuisance {
-    /// Gram–Schmidt, twice, of the first `columns` columns.
-    fn new(jacobian: &[f64], count: usize, columns: usize) -> Self {
-        let mut nuisance = Self { basis: Vec::new() };
-        for column in jacobian.chunks_exact(count.max(1)).take(columns) {
-            nuisance.extend(column, 1e-20);
-        }
-        nuisance
-    }
-
-    /// Adds what is new in a signal, if that is more than `least` of its squared length.
-    fn extend(&mut self, signal: &[f64], least: f64) {
-        let mut rest = signal.to_vec();
-        let before = dot(&rest, &rest);
-        self.project(&mut rest);
-        self.project(&mut rest);
-        let length = dot(&rest, &rest);
-        if length > least * before && length > 0.0 && length.is_finite() {
-            let scale = 1.0 / length.sqrt();
-            rest.iter_mut().for_each(|value| *value *= scale);
-            self.basis.push(rest);
-        }
-    }
-
-    fn project(&self, signal: &mut [f64]) {
-        for direction in &self.basis {
-            let along = dot(direction, signal);
-            for (value, d) in signal.iter_mut().zip(direction) {
-                *value -= along * d;
-            }
-        }
     }
 }
 

@@ -1,17 +1,18 @@
 //! The way up: rank, add the best, tidy up, again, until nothing more is justified.
 
 use crate::applicability::candidates;
+use crate::cases::Cases;
 use crate::climb::{Addition, Climb, EQUAL, Stop, justified, misfit, twins};
 use crate::fitted::Fitted;
 use crate::ranking::{Candidate, Ranking, fit_effects, gains, rank};
 use crate::units::Units;
 use crate::unlisted::is_unlisted;
-use crate::{Case, DiagnoseError, DiagnoseSettings, Watch, tidying};
+use crate::{DiagnoseError, DiagnoseSettings, Watch, tidying};
 use snug_model::Effect;
 
 /// What stays the same while effects are looked for.
 pub(crate) struct Search<'a> {
-    pub cases: &'a [Case],
+    pub cases: Cases<'a>,
     /// Effects of the study's own model.
     pub own: &'a [Effect],
     /// Effects that the study declares but does not use: candidates, too.
@@ -104,7 +105,7 @@ impl Search<'_> {
             "ranking what is missing beside {}",
             list(&current.effects)
         ))?;
-        let all = candidates(self.cases, current, self.custom)?;
+        let all = candidates(&self.cases, current, self.custom)?;
         rank(
             self.cases,
             current,
@@ -123,7 +124,7 @@ impl Search<'_> {
 
     /// The ranking, with `effect` among the candidates whatever it is.
     fn rank_these(&self, current: &Fitted, effect: Effect) -> Result<Ranking, DiagnoseError> {
-        let mut all = candidates(self.cases, current, self.custom)?;
+        let mut all = candidates(&self.cases, current, self.custom)?;
         if !all.contains(&effect) {
             all.push(effect);
         }
@@ -216,7 +217,7 @@ impl Search<'_> {
             let first = &candidate.fitted;
             self.watch
                 .begin(&format!("looking ahead from {}", list(&first.effects)))?;
-            let mut seconds = candidates(self.cases, first, self.custom)?;
+            let mut seconds = candidates(&self.cases, first, self.custom)?;
             seconds.retain(|&effect| !is_unlisted(effect));
             let next = rank(
                 self.cases,

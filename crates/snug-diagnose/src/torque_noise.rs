@@ -6,10 +6,12 @@
 
 use crate::dense::dot;
 use crate::hypothesis::Hypothesis;
+use crate::simulated::Asked;
 use crate::units::Units;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
+use snug_model::Input;
 
 /// Standard deviation of a normal variable over the median of its size.
 const NORMAL_OVER_MEDIAN: f64 = 1.482_602_218_505_602;
@@ -28,18 +30,51 @@ fn noise_level(signal: &[f64]) -> f64 {
     NORMAL_OVER_MEDIAN * bends[bends.len() / 2] / 6.0_f64.sqrt()
 }
 
-/// Expected Σ r² of each unit of one member from torque noise alone, the model at `values`; from one drawn noise, the same
-/// for every model.
+/// Expected Σ r² of each unit of every member from torque noise alone, the models at `values`; from one drawn noise, the
+/// same for every model.
 pub(crate) fn passed_on(
     hypothesis: &Hypothesis<'_>,
-    member: usize,
-    values: &[f64],
+    values: &[Vec<f64>],
     units: &Units,
 ) -> Vec<f64> {
+    let members = 0..values.len();
     if !hypothesis.is_weighted() {
         // Without a known noise nothing is compared with it; and a signal of another rig need not be straight.
-        return vec![0.0; units.per_case];
+        return vec![0.0; units.per_case * values.len()];
     }
+    let mut passed_on = Vec::new();
+    for some in members.collect::<Vec<_>>().chunks(TOGETHER) {
+        let noisy: Vec<Input> = some.iter().map(|&m| noisy(hypothesis, m)).collect();
+        let with = some.iter().zip(&noisy).map(|(&member, input)| Asked {
+            member,
+            input,
+            values: &values[member],
+        });
+        let without = some.iter().map(|&member| Asked {
+            member,
+            input: &hypothesis.cases[member].input,
+            values: &values[member],
+        });
+        let mut change = hypothesis.outputs(&with.collect::<Vec<_>>());
+        let plain = hypothesis.outputs(&without.collect::<Vec<_>>());
+        for ((&member, change), plain) in some.iter().zip(&mut change).zip(plain) {
+            change
+                .iter_mut()
+                .zip(plain)
+                .for_each(|(with, without)| *with -= without);
+            let weighted = hypothesis.weigh_signal(member, change);
+            let ranges = units.ranges(weighted.len());
+            passed_on.extend(ranges.map(|range| dot(&weighted[range.clone()], &weighted[range])));
+        }
+    }
+    passed_on
+}
+
+/// How many members are simulated together, which bounds the memory.
+const TOGETHER: usize = 8;
+
+/// A member's torque with as much noise again as it has.
+fn noisy(hypothesis: &Hypothesis<'_>, member: usize) -> Input {
     let case = &hypothesis.cases[member];
     let level = noise_level(&case.tightening.torque_nm);
     let mut random = ChaCha8Rng::seed_from_u64(0);
@@ -50,17 +85,7 @@ pub(crate) fn passed_on(
             level * draw
         })
         .collect();
-    let mut change = hypothesis.output(member, &case.input.with_added(&noise), values);
-    let plain = hypothesis.output(member, &case.input, values);
-    change
-        .iter_mut()
-        .zip(plain)
-        .for_each(|(with, without)| *with -= without);
-    let weighted = hypothesis.weigh_signal(member, &change);
-    let ranges = units.ranges(weighted.len());
-    ranges
-        .map(|range| dot(&weighted[range.clone()], &weighted[range]))
-        .collect()
+    case.input.with_added(&noise)
 }
 
 #[cfg(test)]

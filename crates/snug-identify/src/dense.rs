@@ -1,5 +1,7 @@
 //! Dense kernels on column-major arrays, without allocation.
 
+use snug_model::on_this_processor;
+
 /// Σ aᵢ bᵢ with four partial sums, always in the same order.
 pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
     let mut sums = [0.0; 4];
@@ -15,12 +17,37 @@ pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
     (sums[0] + sums[1]) + (sums[2] + sums[3]) + tail
 }
 
+/// Σ aᵢ bᵢ of long signals, in the same order on every processor.
+pub fn inner_product(a: &[f64], b: &[f64]) -> f64 {
+    on_this_processor(
+        #[inline(always)]
+        || long_dot(a, b),
+    )
+}
+
+/// Σ aᵢ bᵢ of long columns: with as many partial sums as keep wide registers busy, always in the same order.
+#[inline(always)]
+fn long_dot(a: &[f64], b: &[f64]) -> f64 {
+    const SUMS: usize = 16;
+    let mut sums = [0.0; SUMS];
+    let (a_chunks, b_chunks) = (a.chunks_exact(SUMS), b.chunks_exact(SUMS));
+    let tail = (a_chunks.remainder().iter().zip(b_chunks.remainder()))
+        .fold(0.0, |sum, (x, y)| sum + x * y);
+    for (x, y) in a_chunks.zip(b_chunks) {
+        for lane in 0..SUMS {
+            sums[lane] += x[lane] * y[lane];
+        }
+    }
+    sums.iter().fold(tail, |whole, sum| whole + sum)
+}
+
 /// ‖a‖₂.
 pub(crate) fn norm(a: &[f64]) -> f64 {
     dot(a, a).sqrt()
 }
 
 /// y += s x.
+#[inline(always)]
 pub(crate) fn add_scaled(y: &mut [f64], s: f64, x: &[f64]) {
     for (y, x) in y.iter_mut().zip(x) {
         *y += s * x;
@@ -31,10 +58,30 @@ pub(crate) fn add_scaled(y: &mut [f64], s: f64, x: &[f64]) {
 /// Matrix Computations, 5.2.1), applying them to `right` as well. R stands in the upper triangle afterwards, Qᵀ·right in
 /// `right`; what was below the diagonal is meaningless.
 pub(crate) fn triangularize(matrix: &mut [f64], right: &mut [f64], rows: usize, columns: usize) {
+    if rows < LONG {
+        return reflect(matrix, right, rows, columns, dot);
+    }
+    on_this_processor(
+        #[inline(always)]
+        || reflect(matrix, right, rows, columns, long_dot),
+    );
+}
+
+/// Rows from which wide registers pay.
+const LONG: usize = 256;
+
+#[inline(always)]
+fn reflect(
+    matrix: &mut [f64],
+    right: &mut [f64],
+    rows: usize,
+    columns: usize,
+    dot: impl Fn(&[f64], &[f64]) -> f64,
+) {
     for k in 0..columns.min(rows) {
         let (head, tail) = matrix.split_at_mut((k + 1) * rows);
         let pivot = &mut head[k * rows + k..];
-        let length = norm(pivot);
+        let length = dot(pivot, pivot).sqrt();
         if length == 0.0 {
             continue;
         }

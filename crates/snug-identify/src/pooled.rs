@@ -19,17 +19,25 @@ pub trait PooledResidual {
     /// Number p of the shared parameters α.
     fn shared_count(&self) -> usize;
 
-    /// Cost, gradient and curvature of one member at `parameters` = (β_i, α), n + p entries.
+    /// Cost, gradient and curvature of some members, each at its own trial.
     ///
     /// # Errors
-    /// [`EvaluationError`] where the residual has no finite value.
-    fn linearize(
-        &mut self,
-        member: usize,
-        parameters: &[f64],
-        linearization: &mut Linearization,
-    ) -> Result<(), EvaluationError>;
+    /// [`EvaluationError`] where a residual has no finite value.
+    fn linearize(&mut self, trials: &mut [Trial<'_>]) -> Result<(), EvaluationError>;
 }
+
+/// One member at parameters that are tried.
+pub struct Trial<'a> {
+    /// Which member.
+    pub member: usize,
+    /// (β_i, α), n + p entries.
+    pub parameters: Vec<f64>,
+    /// Gets cost, gradient and curvature there.
+    pub linearization: &'a mut Linearization,
+}
+
+/// How many members are handed over together: so many can stand side by side in the widest vector registers.
+const TOGETHER: usize = 8;
 
 /// When a pooled fit stops.
 #[derive(Debug, Clone, PartialEq)]
@@ -209,15 +217,18 @@ impl<'a> PooledSolver<'a> {
             growth: 2.0,
             work,
         };
-        for index in 0..solver.members.len() {
-            let member = &mut solver.members[index];
-            let parameters = [member.own.as_slice(), &solver.shared].concat();
-            solver
-                .residual
-                .linearize(index, &parameters, &mut member.here)
-                .map_err(|_| IdentifyError::NoStart)?;
-            solver.cost += member.here.cost;
+        let shared = &solver.shared;
+        let mut trials: Vec<Trial<'_>> = (solver.members.iter_mut().enumerate())
+            .map(|(index, member)| Trial {
+                member: index,
+                parameters: [member.own.as_slice(), shared].concat(),
+                linearization: &mut member.here,
+            })
+            .collect();
+        for together in trials.chunks_mut(TOGETHER) {
+            (solver.residual.linearize(together)).map_err(|_| IdentifyError::NoStart)?;
         }
+        solver.cost = solver.members.iter().map(|member| member.here.cost).sum();
         solver.work.linearizations += solver.members.len();
         Ok(solver)
     }
@@ -253,17 +264,21 @@ impl<'a> PooledSolver<'a> {
     fn try_step(&mut self, promised: f64) -> bool {
         let target = &self.shared_stepper.step.target;
         let mut cost = 0.0;
-        for (index, member) in self.members.iter_mut().enumerate() {
-            let parameters = [member.stepper.step.target.as_slice(), target].concat();
-            self.work.linearizations += 1;
-            if self
-                .residual
-                .linearize(index, &parameters, &mut member.there)
-                .is_err()
-            {
+        let mut trials: Vec<Trial<'_>> = (self.members.iter_mut().enumerate())
+            .map(|(index, member)| Trial {
+                member: index,
+                parameters: [member.stepper.step.target.as_slice(), target].concat(),
+                linearization: &mut member.there,
+            })
+            .collect();
+        for together in trials.chunks_mut(TOGETHER) {
+            self.work.linearizations += together.len();
+            if self.residual.linearize(together).is_err() {
                 return false;
             }
-            cost += member.there.cost;
+            for trial in together {
+                cost += trial.linearization.cost;
+            }
             // Members' costs only add up: no need to see the rest of a step that is already worse.
             if cost > self.cost {
                 return false;

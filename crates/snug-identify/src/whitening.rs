@@ -1,4 +1,5 @@
 use snug_campaign::NoiseFloor;
+use snug_model::on_this_processor;
 
 /// Makes stationary noise white with unit variance: w_t = (r_t + a_1 r_{t−1} + … + a_p r_{t−p}) / σ_e.
 ///
@@ -33,6 +34,14 @@ impl Whitening {
 
     /// Whitens `signal` into `white`, which is shorter by [`Whitening::order`].
     pub fn apply(&self, signal: &[f64], white: &mut [f64]) {
+        on_this_processor(
+            #[inline(always)]
+            || self.filter(signal, white),
+        );
+    }
+
+    #[inline(always)]
+    fn filter(&self, signal: &[f64], white: &mut [f64]) {
         let order = self.order();
         let scale = 1.0 / self.innovation_sd;
         let count = white.len().min(signal.len().saturating_sub(order));

@@ -2,8 +2,8 @@
 #![allow(clippy::unwrap_used)]
 
 use snug_identify::{
-    Constraints, DenseResidual, EvaluationError, Linearization, PooledResidual, PooledSettings,
-    Residual, Settings, solve, solve_pooled,
+    Constraints, DenseResidual, EvaluationError, PooledResidual, PooledSettings, Residual,
+    Settings, Trial, solve, solve_pooled,
 };
 
 const MEMBERS: usize = 5;
@@ -66,14 +66,12 @@ impl PooledResidual for Decays {
         2
     }
 
-    fn linearize(
-        &mut self,
-        member: usize,
-        parameters: &[f64],
-        linearization: &mut Linearization,
-    ) -> Result<(), EvaluationError> {
-        let (mut residual, mut jacobian) = self.member(member, parameters);
-        linearization.set_jacobian(&mut residual, &mut jacobian)
+    fn linearize(&mut self, trials: &mut [Trial<'_>]) -> Result<(), EvaluationError> {
+        for trial in trials {
+            let (mut residual, mut jacobian) = self.member(trial.member, &trial.parameters);
+            (trial.linearization).set_jacobian(&mut residual, &mut jacobian)?;
+        }
+        Ok(())
     }
 }
 

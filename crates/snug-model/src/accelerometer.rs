@@ -1,5 +1,5 @@
-use crate::Number;
 use crate::effect::Kinematics;
+use crate::{Number, Real};
 
 /// What an accelerometer with leaks and a lag makes of the motion, and what its integrated signals then show.
 ///
@@ -12,8 +12,8 @@ use crate::effect::Kinematics;
 /// Leak and s are taken as straight between samples, s as starting from zero one interval before the first; the lag's
 /// recursion is then exact, also as τ → 0.
 #[derive(Debug)]
-pub struct Accelerometer<N> {
-    interval_s: f64,
+pub struct Accelerometer<N: Number> {
+    interval_s: N::Real,
     lag: Option<Lag<N>>,
     leak: N,
     leaked_velocity: N,
@@ -36,13 +36,14 @@ struct Lag<N> {
 const NEGLIGIBLE_RATIO: f64 = 1e-3;
 
 impl<N: Number> Lag<N> {
-    fn new(tau_s: N, interval_s: f64) -> Self {
-        let ratio = tau_s * (1.0 / interval_s);
-        let keep = if ratio.value() > NEGLIGIBLE_RATIO {
-            (N::from(-1.0) / ratio).exp()
-        } else {
-            N::from(0.0)
-        };
+    #[inline(always)]
+    fn new(tau_s: N, interval_s: N::Real) -> Self {
+        let ratio = tau_s.times(interval_s.constant(1.0) / interval_s);
+        let slow = ratio
+            .value()
+            .is_above(interval_s.constant(NEGLIGIBLE_RATIO));
+        let kept = (tau_s.constant(-1.0) / ratio).exp();
+        let keep = N::select(slow, kept, tau_s.constant(0.0));
         let mean = ratio * (-keep + 1.0);
         Self {
             tau_s,
@@ -55,8 +56,9 @@ impl<N: Number> Lag<N> {
 
 impl<N: Number> Accelerometer<N> {
     /// At rest; samples are `interval_s` apart, `tau_s` is the lag's time constant if there is one.
-    pub fn new(interval_s: f64, tau_s: Option<N>) -> Self {
-        let zero = N::from(0.0);
+    #[inline(always)]
+    pub fn new(interval_s: N::Real, tau_s: Option<N>) -> Self {
+        let zero = N::from(interval_s.constant(0.0));
         Self {
             interval_s,
             lag: tau_s.map(|tau_s| Lag::new(tau_s, interval_s)),
@@ -70,6 +72,7 @@ impl<N: Number> Accelerometer<N> {
     }
 
     /// The next sample: true motion and what leaks in \[rad/s²\], to the motion as the sensor has it.
+    #[inline(always)]
     pub fn sample(&mut self, motion: Kinematics<N>, leak: Option<N>) -> Kinematics<N> {
         let mut seen = motion;
         if let Some(leak) = leak {
@@ -90,12 +93,13 @@ impl<N: Number> Accelerometer<N> {
         seen
     }
 
+    #[inline(always)]
     fn integrate(&mut self, leak: N) {
         let h = self.interval_s;
         if self.started {
             self.leaked_displacement +=
-                self.leaked_velocity * h + (self.leak * 2.0 + leak) * (h * h / 6.0);
-            self.leaked_velocity += (self.leak + leak) * (0.5 * h);
+                self.leaked_velocity.times(h) + (self.leak * 2.0 + leak).times(h * h * (1.0 / 6.0));
+            self.leaked_velocity += (self.leak + leak).times(h * 0.5);
         }
         self.leak = leak;
     }

@@ -1,15 +1,16 @@
 //! Which effects act where, sorted once per simulation.
 
-use crate::assembly::{MAXIMUM_STATES, Part};
+use crate::assembly::{MAXIMUM_OWN_STATES, Part};
 use crate::effect::{Deflection, Instant, Law};
-use crate::{Effect, Number};
+use crate::real::Task;
+use crate::{Effect, Number, Real};
 use std::ops::Range;
 
 /// One effect with what is its own.
 #[derive(Debug)]
 pub struct Actor<'a, N> {
-    pub law: Effect,
-    pub p: &'a [N],
+    law: Effect,
+    p: &'a [N],
     states: Range<usize>,
 }
 
@@ -36,6 +37,41 @@ const HOOKS: [Hook; 7] = [
     Hook::Moving,
 ];
 
+/// The hooks that one effect answers.
+#[derive(Debug, Clone, Copy)]
+pub struct Answers([bool; HOOKS.len()]);
+
+impl Answers {
+    /// Asks once at rest: whether a law answers a hook depends on the law alone.
+    pub fn of(law: Effect) -> Self {
+        let description = law.description();
+        let p: Vec<f64> = (description.parameters.iter())
+            .map(|spec| spec.starts[0])
+            .collect();
+        let own = &[0.0; MAXIMUM_OWN_STATES][..description.states.len()];
+        let at = Instant {
+            torque_nm: 0.0,
+            x_m: 0.0,
+            v_m_per_s: 0.0,
+            since_onset_s: 0.0,
+            lever_arm_m: 1.0,
+        };
+        let still = Deflection {
+            x_m: 0.0,
+            v_m_per_s: 0.0,
+        };
+        Self(HOOKS.map(|hook| match hook {
+            Hook::Torque => law.torque(&p, &at).is_some(),
+            Hook::Support => law.support(&p, own).is_some(),
+            Hook::Deflection => law.deflection(&p, still).is_some(),
+            Hook::Stiffening => law.stiffening(&p, &at).is_some(),
+            Hook::Force => law.force(&p, &at, own).is_some(),
+            Hook::Limit => law.limit(&p, 0.0).is_some(),
+            Hook::Moving => !own.is_empty(),
+        }))
+    }
+}
+
 /// The effects of one simulation, each hook with those that answer it.
 ///
 /// Most effects answer one hook of seven; to ask the others, and to hear nothing, would cost as much as the physics.
@@ -45,12 +81,15 @@ impl<'a, N: Number> Acting<'a, N> {
     /// The effects `parts`, with what is theirs of all parameters `p`.
     pub fn new(parts: &[Part], p: &'a [N]) -> Self {
         Self(HOOKS.map(|hook| {
-            let all = parts.iter().map(|part| Actor {
-                law: part.effect,
-                p: &p[part.parameters.clone()],
-                states: part.states.clone(),
-            });
-            all.filter(|actor| actor.answers(hook)).collect()
+            let answering = parts
+                .iter()
+                .filter(|part| part.answers.0[hook as usize])
+                .map(|part| Actor {
+                    law: part.effect,
+                    p: &p[part.parameters.clone()],
+                    states: part.states.clone(),
+                });
+            answering.collect()
         }))
     }
 
@@ -61,49 +100,115 @@ impl<'a, N: Number> Acting<'a, N> {
     }
 }
 
+/// Each asks the law for one thing.
 impl<N: Number> Actor<'_, N> {
-    /// Its own states of all.
-    ///
-    /// A motion without states of effects is never looked up by number, so that it can stay in registers.
     #[inline(always)]
-    pub fn own<'s, const S: usize>(&self, states: &'s [N; S]) -> &'s [N] {
-        if S > 2 {
-            &states[self.states.clone()]
+    pub fn add_torque(&self, at: &Instant<N>, torque_nm: &mut N) {
+        self.ask(
+            #[inline(always)]
+            |law, p| {
+                if let Some(more) = law.torque(p, at) {
+                    *torque_nm += more;
+                }
+            },
+        );
+    }
+
+    #[inline(always)]
+    pub fn subtract_support(&self, own: &[N], seen: &mut Deflection<N>) {
+        self.ask(
+            #[inline(always)]
+            |law, p| {
+                if let Some(support) = law.support(p, &own[self.states.clone()]) {
+                    seen.x_m = seen.x_m - support.x_m;
+                    seen.v_m_per_s = seen.v_m_per_s - support.v_m_per_s;
+                }
+            },
+        );
+    }
+
+    #[inline(always)]
+    pub fn deflect(&self, seen: &mut Deflection<N>) {
+        self.ask(
+            #[inline(always)]
+            |law, p| {
+                if let Some(left) = law.deflection(p, *seen) {
+                    *seen = left;
+                }
+            },
+        );
+    }
+
+    #[inline(always)]
+    pub fn add_stiffening(&self, at: &Instant<N>, x_m: N, stretched_m: &mut N) {
+        self.ask(
+            #[inline(always)]
+            |law, p| {
+                if let Some(growth) = law.stiffening(p, at) {
+                    *stretched_m += growth * x_m;
+                }
+            },
+        );
+    }
+
+    #[inline(always)]
+    pub fn add_force(&self, at: &Instant<N>, own: &[N], force_n: &mut N) {
+        self.ask(
+            #[inline(always)]
+            |law, p| {
+                if let Some(more) = law.force(p, at, &own[self.states.clone()]) {
+                    *force_n += more;
+                }
+            },
+        );
+    }
+
+    #[inline(always)]
+    pub fn limit(&self, force_n: &mut N) {
+        self.ask(
+            #[inline(always)]
+            |law, p| {
+                if let Some(passed_on) = law.limit(p, *force_n) {
+                    *force_n = passed_on;
+                }
+            },
+        );
+    }
+
+    #[inline(always)]
+    pub fn set_rates(&self, at: &Instant<N>, own: &[N], hand_n: N, rates: &mut [N]) {
+        self.ask(
+            #[inline(always)]
+            |law, p| {
+                let states = self.states.clone();
+                law.rates(p, at, &own[states.clone()], hand_n, &mut rates[states]);
+            },
+        );
+    }
+
+    /// Numbers side by side ask out of line: in line, what every law of the catalogue needs is worked out before it is
+    /// known which law is asked, and they, which do not fit into the registers anyway, would pay most for it.
+    #[inline(always)]
+    fn ask(&self, hook: impl FnOnce(Effect, &[N])) {
+        if N::Real::LANES == 1 {
+            hook(self.law, self.p);
         } else {
-            &[]
+            out_of_line(Ask(self, hook));
         }
     }
+}
 
-    /// Its own states' rates of all.
+struct Ask<'a, 'p, N, F>(&'a Actor<'p, N>, F);
+
+impl<N: Number, F: FnOnce(Effect, &[N])> Task for Ask<'_, '_, N, F> {
+    type Output = ();
     #[inline(always)]
-    pub fn own_mut<'s>(&self, rates: &'s mut [N]) -> &'s mut [N] {
-        &mut rates[self.states.clone()]
+    fn run(self) {
+        (self.1)(self.0.law, self.0.p);
     }
+}
 
-    /// Asks once at rest: whether a law answers a hook never depends on the state.
-    fn answers(&self, hook: Hook) -> bool {
-        let zero = N::from(0.0);
-        let states = [zero; MAXIMUM_STATES];
-        let (law, p, own) = (self.law, self.p, self.own(&states));
-        let at = Instant {
-            torque_nm: zero,
-            x_m: zero,
-            v_m_per_s: zero,
-            since_onset_s: 0.0,
-            lever_arm_m: 1.0,
-        };
-        let still = Deflection {
-            x_m: zero,
-            v_m_per_s: zero,
-        };
-        match hook {
-            Hook::Torque => law.torque(p, &at).is_some(),
-            Hook::Support => law.support(p, own).is_some(),
-            Hook::Deflection => law.deflection(p, still).is_some(),
-            Hook::Stiffening => law.stiffening(p, &at).is_some(),
-            Hook::Force => law.force(p, &at, own).is_some(),
-            Hook::Limit => law.limit(p, zero).is_some(),
-            Hook::Moving => !own.is_empty(),
-        }
-    }
+#[inline(never)]
+fn out_of_line<N: Number>(ask: Ask<'_, '_, N, impl FnOnce(Effect, &[N])>) {
+    ask.0.p[0].value().vectorize(ask);
 }

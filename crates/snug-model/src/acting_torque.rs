@@ -1,53 +1,100 @@
 use crate::assembly::Part;
+use crate::bench::Bench;
 use crate::effect::{Instant, Law, LoggedTorque};
-use crate::{Input, Number};
+use crate::{Number, Real};
 
 /// The torque that acts on the joint, from the one that is logged.
-#[derive(Debug)]
-pub struct ActingTorque<'a, N> {
-    input: &'a Input,
+pub struct ActingTorque<'a, N: Number> {
+    bench: &'a Bench<'a, N::Real>,
     /// Absent when the one that is logged acts.
-    logged: Option<LoggedTorque<N>>,
+    logged: Option<Logged<N>>,
+}
+
+/// How it is logged, and what was logged before every grid point.
+struct Logged<N: Number> {
+    how: LoggedTorque<N>,
+    shifted: Vec<Shifted<N::Real>>,
+}
+
+/// The logged torque a delay ago.
+#[derive(Clone, Copy)]
+struct Shifted<R> {
+    torque_nm: R,
+    slope_nm_per_s: R,
+    /// The slope that no single sample's noise disturbs, and how fast it changes.
+    rate_nm_per_s: R,
+    change_nm_per_s2: R,
 }
 
 impl<'a, N: Number> ActingTorque<'a, N> {
     /// What the effects `parts` say about how it is logged, summed; `p` are all parameters.
-    pub fn new(parts: &[Part], p: &[N], input: &'a Input) -> Self {
+    pub fn new(parts: &[Part], p: &[N], bench: &'a Bench<'a, N::Real>) -> Self {
+        let logged = parts
+            .iter()
+            .filter_map(|part| part.effect.logged_torque(&p[part.parameters.clone()]))
+            .reduce(|sum, more| LoggedTorque {
+                delay_s: sum.delay_s + more.delay_s,
+                lag_s: sum.lag_s + more.lag_s,
+                offset_nm: sum.offset_nm + more.offset_nm,
+            });
         Self {
-            input,
-            logged: parts
-                .iter()
-                .filter_map(|part| part.effect.logged_torque(&p[part.parameters.clone()]))
-                .reduce(|sum, more| LoggedTorque {
-                    delay_s: sum.delay_s + more.delay_s,
-                    lag_s: sum.lag_s + more.lag_s,
-                    offset_nm: sum.offset_nm + more.offset_nm,
-                }),
+            bench,
+            logged: logged.map(|how| Logged {
+                shifted: shifted(bench, how.delay_s.value()),
+                how,
+            }),
         }
+    }
+
+    /// Whether it depends on no parameter.
+    pub fn is_known(&self) -> bool {
+        self.logged.is_none()
     }
 
     /// Torque at grid point number `point` of the input \[Nm\].
     #[inline(always)]
     pub fn at(&self, point: usize) -> N {
-        let Some(logged) = &self.logged else {
-            return N::from(self.input.grid()[point]);
+        let Some(Logged { how, shifted }) = &self.logged else {
+            return N::from(self.bench.torque_nm()[point]);
         };
-        let then_s = point as f64 * self.input.grid_interval_s() - logged.delay_s.value();
-        let (torque, slope) = self.input.at(then_s);
-        let (rate, change) = self.input.slope_at(then_s);
-        logged.delay_s.chain(torque, -slope) + logged.lag_s * logged.delay_s.chain(rate, -change)
-            - logged.offset_nm
+        let then = shifted[point];
+        let delay = how.delay_s;
+        delay.chain(then.torque_nm, -then.slope_nm_per_s)
+            + how.lag_s * delay.chain(then.rate_nm_per_s, -then.change_nm_per_s2)
+            - how.offset_nm
     }
 }
 
+/// The logged torque `delay_s` before every grid point; each lane looks it up in its own input.
+fn shifted<R: Real>(bench: &Bench<'_, R>, delay_s: R) -> Vec<Shifted<R>> {
+    let (points, zero) = (bench.torque_nm().len(), bench.zero);
+    let mut found = vec![[0.0; 4]; R::LANES];
+    (0..points)
+        .map(|point| {
+            for (lane, input) in bench.inputs().iter().enumerate() {
+                let then_s = point as f64 * input.grid_interval_s() - delay_s.lanes()[lane];
+                let (torque, slope) = input.at(then_s);
+                let (rate, change) = input.slope_at(then_s);
+                found[lane] = [torque, slope, rate, change];
+            }
+            Shifted {
+                torque_nm: zero.lane_by_lane(|lane| found[lane][0]),
+                slope_nm_per_s: zero.lane_by_lane(|lane| found[lane][1]),
+                rate_nm_per_s: zero.lane_by_lane(|lane| found[lane][2]),
+                change_nm_per_s2: zero.lane_by_lane(|lane| found[lane][3]),
+            }
+        })
+        .collect()
+}
+
 /// The instant with what the effects `parts` add to the torque at it, each on top of the same torque.
+#[inline(always)]
 pub fn with_added_torque<N: Number>(parts: &[Part], p: &[N], at: Instant<N>) -> Instant<N> {
-    let added = parts
-        .iter()
-        .filter_map(|part| part.effect.torque(&p[part.parameters.clone()], &at))
-        .reduce(|sum, more| sum + more);
-    Instant {
-        torque_nm: added.map_or(at.torque_nm, |added| at.torque_nm + added),
-        ..at
+    let mut torque_nm = at.torque_nm;
+    for part in parts {
+        if let Some(added) = part.effect.torque(&p[part.parameters.clone()], &at) {
+            torque_nm += added;
+        }
     }
+    Instant { torque_nm, ..at }
 }

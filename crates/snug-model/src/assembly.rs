@@ -1,19 +1,23 @@
-use crate::dual::Dual;
+use crate::acting::Answers;
+use crate::acting_torque::ActingTorque;
+use crate::bench::Bench;
 use crate::effect::{Kinematics, Law};
 use crate::linear::{self, Oscillator, Response};
+use crate::real::Task;
 use crate::sensors::Sensors;
 use crate::zeroed::Zeroed;
-use crate::{Effect, Input, Number, runge_kutta};
-use snug_campaign::{Quantity, Rig};
+use crate::{Effect, Number, Real, runge_kutta};
+use snug_campaign::Rig;
 use std::ops::Range;
 
-/// θ, ω and up to four states of effects.
-pub(crate) const MAXIMUM_STATES: usize = 6;
+/// Most states that the effects of one assembly may have together.
+pub(crate) const MAXIMUM_OWN_STATES: usize = 4;
 
 /// One effect's place in an assembly.
 #[derive(Debug, Clone)]
 pub(crate) struct Part {
     pub effect: Effect,
+    pub answers: Answers,
     pub parameters: Range<usize>,
     pub states: Range<usize>,
 }
@@ -24,7 +28,7 @@ pub struct Assembly {
     pub(crate) rig: Rig,
     pub(crate) parts: Vec<Part>,
     pub(crate) parameter_count: usize,
-    pub(crate) state_count: usize,
+    pub(crate) own_state_count: usize,
 }
 
 impl Assembly {
@@ -46,153 +50,122 @@ impl Assembly {
         self.parts.iter().all(|part| part.effect.measurement_only())
     }
 
-    fn oscillator(&self, values: &[f64]) -> Oscillator {
-        let square = self.rig.lever_arm_m * self.rig.lever_arm_m;
+    /// The base model's constants of motion, for parameters that begin with m, c, k.
+    #[inline(always)]
+    pub(crate) fn oscillator<R: Real>(values: &[R], bench: &Bench<'_, R>) -> Oscillator<R> {
+        let square = bench.lever_arm_m * bench.lever_arm_m;
         Oscillator {
-            inertia_kg_m2: self.rig.known_inertia_kg_m2 + values[0] * square,
+            inertia_kg_m2: values[0] * square + bench.known_inertia_kg_m2,
             damping_nm_s_per_rad: values[1] * square,
             stiffness_nm_per_rad: values[2] * square,
         }
     }
 
     /// Simulates and hands every sample's measured motion to `sample`.
-    pub(crate) fn respond<N: Number + FromResponse>(
+    pub(crate) fn respond<N: Number>(
         &self,
         p: &[N],
-        input: &Input,
-        mut sample: impl FnMut(usize, &Kinematics<N>),
+        bench: &Bench<'_, N::Real>,
+        sample: impl FnMut(usize, &Kinematics<N>),
     ) {
-        let mut sensors = Sensors::new(self, p, input);
-        match input.zero_at() {
-            Some(zero_at) if sensors.are_heard() => {
-                let mut zeroed = Zeroed::new(zero_at);
-                self.move_tool(p, input, |index, motion| {
-                    let seen = sensors.sample(index, motion);
-                    zeroed.sample(index, seen, &mut sample);
-                });
-            }
-            _ => self.move_tool(p, input, |index, motion| {
-                sample(index, &sensors.sample(index, motion));
-            }),
-        }
-    }
-
-    /// The true motion: by the exact recursion where it is the base model's, else by Runge–Kutta.
-    fn move_tool<N: Number + FromResponse>(
-        &self,
-        p: &[N],
-        input: &Input,
-        mut sample: impl FnMut(usize, Kinematics<N>),
-    ) {
-        if !self.moves_as_base() || input.is_restarted() {
-            return match self.state_count {
-                2 => runge_kutta::respond::<N, 2>(self, p, input, sample),
-                3 => runge_kutta::respond::<N, 3>(self, p, input, sample),
-                4 => runge_kutta::respond::<N, 4>(self, p, input, sample),
-                _ => runge_kutta::respond::<N, MAXIMUM_STATES>(self, p, input, sample),
-            };
-        }
-        let values: Vec<f64> = p.iter().map(|number| number.value()).collect();
-        let square = self.rig.lever_arm_m * self.rig.lever_arm_m;
-        // m, c, k enter through I, C, K, each times l².
-        let base = [p[0] * square, p[1] * square, p[2] * square];
-        linear::respond(&self.oscillator(&values), input, |index, response| {
-            sample(index, N::from_response(response, &base));
-        });
-    }
-
-    /// The exact recursion's own sensitivities, without dual numbers.
-    pub(crate) fn base_sensitivities(
-        &self,
-        values: &[f64],
-        free: &[usize],
-        input: &Input,
-        quantity: Quantity,
-        output: &mut [f64],
-        sensitivity: &mut [f64],
-    ) {
-        let (row, samples) = (quantity as usize, input.samples());
-        let square = self.rig.lever_arm_m * self.rig.lever_arm_m;
-        linear::respond(&self.oscillator(values), input, |index, response| {
-            output[index] = response.motion[row];
-            for (column, &parameter) in free.iter().enumerate() {
-                sensitivity[column * samples + index] =
-                    square * response.sensitivity[row][parameter];
-            }
-        });
-    }
-
-    /// Forward differentiation with `P` partial derivatives carried along.
-    pub(crate) fn carry<const P: usize>(
-        &self,
-        values: &[f64],
-        free: &[usize],
-        input: &Input,
-        quantity: Quantity,
-        output: &mut [f64],
-        sensitivity: &mut [f64],
-    ) {
-        let mut p: Vec<Dual<P>> = values.iter().map(|&value| Dual::from(value)).collect();
-        for (column, &parameter) in free.iter().enumerate() {
-            p[parameter] = Dual::parameter(values[parameter], column);
-        }
-        let samples = input.samples();
         debug_assert_eq!(p.len(), self.parameter_count);
-        self.respond(&p, input, |index, motion| {
-            let number = select(motion, quantity);
-            output[index] = number.value;
-            for column in 0..free.len() {
-                sensitivity[column * samples + index] = number.partials[column];
-            }
-        });
-    }
-}
-
-/// A number that can be made from the exact recursion's response and its dependence on I, C, K.
-pub(crate) trait FromResponse: Sized {
-    fn from_response(response: &Response, base: &[Self; 3]) -> Kinematics<Self>;
-}
-
-impl FromResponse for f64 {
-    #[inline(always)]
-    fn from_response(response: &Response, _base: &[Self; 3]) -> Kinematics<Self> {
-        let [
-            displacement_rad,
-            velocity_rad_per_s,
-            acceleration_rad_per_s2,
-        ] = response.motion;
-        Kinematics {
-            displacement_rad,
-            velocity_rad_per_s,
-            acceleration_rad_per_s2,
-        }
-    }
-}
-
-impl<const P: usize> FromResponse for Dual<P> {
-    #[inline(always)]
-    fn from_response(response: &Response, base: &[Self; 3]) -> Kinematics<Self> {
-        let quantity = |row: usize| {
-            let slopes = &response.sensitivity[row];
-            Self {
-                value: response.motion[row],
-                partials: std::array::from_fn(|j| {
-                    (0..3).map(|i| slopes[i] * base[i].partials[j]).sum()
-                }),
-            }
+        let acting_torque = &ActingTorque::new(&self.parts, p, bench);
+        let on_bench = OnBench {
+            assembly: self,
+            p,
+            bench,
+            acting_torque,
+            sample,
         };
-        Kinematics {
-            displacement_rad: quantity(0),
-            velocity_rad_per_s: quantity(1),
-            acceleration_rad_per_s2: quantity(2),
+        let zero = bench.zero;
+        if self.moves_as_base() && !bench.is_restarted() {
+            return zero.vectorize(Exact(on_bench));
+        }
+        match self.own_state_count {
+            0 => zero.vectorize(Stepped::<N, _, 0>(on_bench)),
+            1 => zero.vectorize(Stepped::<N, _, 1>(on_bench)),
+            2 => zero.vectorize(Stepped::<N, _, 2>(on_bench)),
+            _ => zero.vectorize(Stepped::<N, _, MAXIMUM_OWN_STATES>(on_bench)),
         }
     }
 }
 
-pub(crate) fn select<N: Number>(motion: &Kinematics<N>, quantity: Quantity) -> N {
-    match quantity {
-        Quantity::Displacement => motion.displacement_rad,
-        Quantity::Velocity => motion.velocity_rad_per_s,
-        Quantity::Acceleration => motion.acceleration_rad_per_s2,
+/// One simulation, ready to run.
+struct OnBench<'a, N: Number, F> {
+    assembly: &'a Assembly,
+    p: &'a [N],
+    bench: &'a Bench<'a, N::Real>,
+    acting_torque: &'a ActingTorque<'a, N>,
+    sample: F,
+}
+
+impl<'a, N: Number, F: FnMut(usize, &Kinematics<N>)> OnBench<'a, N, F> {
+    /// What is done with the true motion of every sample: the sensors see it, and `sample` gets what they show.
+    #[inline(always)]
+    fn seen(self) -> impl FnMut(usize, Kinematics<N>) + use<'a, N, F> {
+        let Self {
+            assembly,
+            p,
+            bench,
+            acting_torque,
+            mut sample,
+        } = self;
+        let mut sensors = Sensors::new(assembly, p, bench, acting_torque);
+        let mut zeroed = sensors.are_heard().then(|| Zeroed::new(bench)).flatten();
+        #[inline(always)]
+        move |index, motion| {
+            let seen = sensors.sample(index, motion);
+            match &mut zeroed {
+                Some(zeroed) => zeroed.sample(index, seen, &mut sample),
+                None => sample(index, &seen),
+            }
+        }
+    }
+}
+
+/// The true motion by the exact recursion: it is the base model's.
+struct Exact<'a, N: Number, F>(OnBench<'a, N, F>);
+
+impl<N: Number, F: FnMut(usize, &Kinematics<N>)> Task for Exact<'_, N, F> {
+    type Output = ();
+    #[inline(always)]
+    fn run(self) {
+        let (p, bench) = (self.0.p, self.0.bench);
+        let values = [p[0].value(), p[1].value(), p[2].value()];
+        let square = bench.lever_arm_m * bench.lever_arm_m;
+        // m, c, k enter through I, C, K, each times l².
+        let base = [p[0].times(square), p[1].times(square), p[2].times(square)];
+        let mut seen = self.0.seen();
+        linear::respond(
+            &Assembly::oscillator(&values, bench),
+            bench,
+            #[inline(always)]
+            |index, response| seen(index, with_slopes(response, &base)),
+        );
+    }
+}
+
+/// The true motion by Runge–Kutta.
+struct Stepped<'a, N: Number, F, const X: usize>(OnBench<'a, N, F>);
+
+impl<N: Number, F: FnMut(usize, &Kinematics<N>), const X: usize> Task for Stepped<'_, N, F, X> {
+    type Output = ();
+    #[inline(always)]
+    fn run(self) {
+        let (assembly, p) = (self.0.assembly, self.0.p);
+        let (bench, acting_torque) = (self.0.bench, self.0.acting_torque);
+        let seen = self.0.seen();
+        runge_kutta::respond::<N, X>(assembly, p, bench, acting_torque, seen);
+    }
+}
+
+/// The exact recursion's response, which depends on I, C, K.
+#[inline(always)]
+fn with_slopes<N: Number>(response: &Response<N::Real>, base: &[N; 3]) -> Kinematics<N> {
+    let (motion, slopes) = (&response.motion, &response.sensitivity);
+    Kinematics {
+        displacement_rad: N::chain_of(base, motion[0], &slopes[0]),
+        velocity_rad_per_s: N::chain_of(base, motion[1], &slopes[1]),
+        acceleration_rad_per_s2: N::chain_of(base, motion[2], &slopes[2]),
     }
 }

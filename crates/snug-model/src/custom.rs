@@ -101,6 +101,7 @@ impl Law for CustomEffect {
         (self.settings.place == Place::Torque).then(|| self.value(p, at))
     }
 
+    #[inline(always)]
     fn leak<N: Number>(&self, p: &[N], at: &Instant<N>, motion: &Kinematics<N>) -> Option<N> {
         (self.settings.place == Place::Measurement).then(|| {
             self.program.evaluate(

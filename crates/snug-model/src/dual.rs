@@ -1,85 +1,97 @@
-use crate::Number;
+use crate::number::OfOne;
+use crate::{Number, Real};
 use std::array;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
 /// A value with its partial derivatives with respect to `P` parameters (forward differentiation, exact to rounding).
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Dual<const P: usize> {
+pub struct Dual<const P: usize, R = f64> {
     /// f.
-    pub value: f64,
+    pub value: R,
     /// ∂f/∂p_j.
-    pub partials: [f64; P],
+    pub partials: [R; P],
 }
 
-impl<const P: usize> Dual<P> {
+impl<const P: usize, R: Real> Dual<P, R> {
     /// The parameter number `index` itself, at `value`.
-    pub fn parameter(value: f64, index: usize) -> Self {
+    pub fn parameter(value: R, index: usize) -> Self {
         let mut dual = Self::from(value);
-        dual.partials[index] = 1.0;
+        dual.partials[index] = value.constant(1.0);
         dual
     }
-}
 
-impl<const P: usize> From<f64> for Dual<P> {
+    /// Each partial derivative by itself.
     #[inline(always)]
-    fn from(value: f64) -> Self {
+    fn with(value: R, partial: impl FnMut(usize) -> R) -> Self {
         Self {
             value,
-            partials: [0.0; P],
+            partials: array::from_fn(partial),
         }
     }
 }
 
-impl<const P: usize> Add for Dual<P> {
+impl<const P: usize, R: Real> From<R> for Dual<P, R> {
+    #[inline(always)]
+    fn from(value: R) -> Self {
+        Self {
+            value,
+            partials: [value.constant(0.0); P],
+        }
+    }
+}
+
+impl<const P: usize, R: Real> Add for Dual<P, R> {
     type Output = Self;
     #[inline(always)]
     fn add(self, other: Self) -> Self {
-        Self {
-            value: self.value + other.value,
-            partials: array::from_fn(|j| self.partials[j] + other.partials[j]),
-        }
+        Self::with(
+            self.value + other.value,
+            #[inline(always)]
+            |j| self.partials[j] + other.partials[j],
+        )
     }
 }
 
-impl<const P: usize> Sub for Dual<P> {
+impl<const P: usize, R: Real> Sub for Dual<P, R> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
-        Self {
-            value: self.value - other.value,
-            partials: array::from_fn(|j| self.partials[j] - other.partials[j]),
-        }
+        Self::with(
+            self.value - other.value,
+            #[inline(always)]
+            |j| self.partials[j] - other.partials[j],
+        )
     }
 }
 
-impl<const P: usize> Mul for Dual<P> {
+impl<const P: usize, R: Real> Mul for Dual<P, R> {
     type Output = Self;
     #[inline(always)]
     #[allow(clippy::suspicious_arithmetic_impl, reason = "the product rule adds")]
     fn mul(self, other: Self) -> Self {
-        Self {
-            value: self.value * other.value,
-            partials: array::from_fn(|j| {
-                self.partials[j] * other.value + self.value * other.partials[j]
-            }),
-        }
+        Self::with(
+            self.value * other.value,
+            #[inline(always)]
+            |j| self.partials[j] * other.value + self.value * other.partials[j],
+        )
     }
 }
 
-impl<const P: usize> Div for Dual<P> {
+impl<const P: usize, R: Real> Div for Dual<P, R> {
     type Output = Self;
     #[inline(always)]
     fn div(self, other: Self) -> Self {
-        let inverse = 1.0 / other.value;
+        let inverse = self.value.constant(1.0) / other.value;
         let value = self.value * inverse;
-        Self {
+        Self::with(
             value,
-            partials: array::from_fn(|j| (self.partials[j] - value * other.partials[j]) * inverse),
-        }
+            #[inline(always)]
+            |j| (self.partials[j] - value * other.partials[j]) * inverse,
+        )
     }
 }
 
-impl<const P: usize> Neg for Dual<P> {
+impl<const P: usize, R: Real> Neg for Dual<P, R> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
@@ -87,14 +99,14 @@ impl<const P: usize> Neg for Dual<P> {
     }
 }
 
-impl<const P: usize> AddAssign for Dual<P> {
+impl<const P: usize, R: Real> AddAssign for Dual<P, R> {
     #[inline(always)]
     fn add_assign(&mut self, other: Self) {
         *self = *self + other;
     }
 }
 
-impl<const P: usize> Add<f64> for Dual<P> {
+impl<const P: usize, R: Real> Add<f64> for Dual<P, R> {
     type Output = Self;
     #[inline(always)]
     fn add(self, other: f64) -> Self {
@@ -105,7 +117,7 @@ impl<const P: usize> Add<f64> for Dual<P> {
     }
 }
 
-impl<const P: usize> Sub<f64> for Dual<P> {
+impl<const P: usize, R: Real> Sub<f64> for Dual<P, R> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, other: f64) -> Self {
@@ -116,28 +128,83 @@ impl<const P: usize> Sub<f64> for Dual<P> {
     }
 }
 
-impl<const P: usize> Mul<f64> for Dual<P> {
+impl<const P: usize, R: Real> Mul<f64> for Dual<P, R> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, other: f64) -> Self {
-        Self {
-            value: self.value * other,
-            partials: self.partials.map(|partial| partial * other),
-        }
+        self.times(self.value.constant(other))
     }
 }
 
-impl<const P: usize> Number for Dual<P> {
+impl<const P: usize, R: Real> Number for Dual<P, R> {
+    type Real = R;
     #[inline(always)]
-    fn value(self) -> f64 {
+    fn constant(self, value: f64) -> Self {
+        Self::from(self.value.constant(value))
+    }
+    #[inline(always)]
+    fn value(self) -> R {
         self.value
     }
     #[inline(always)]
-    fn chain(self, value: f64, slope: f64) -> Self {
-        Self {
+    fn chain(self, value: R, slope: R) -> Self {
+        Self::with(
             value,
-            partials: self.partials.map(|partial| partial * slope),
+            #[inline(always)]
+            |j| self.partials[j] * slope,
+        )
+    }
+    #[inline(always)]
+    fn chain_of<const K: usize>(numbers: &[Self; K], value: R, slopes: &[R; K]) -> Self {
+        Self::with(
+            value,
+            #[inline(always)]
+            |j| {
+                let mut sum = value.constant(0.0);
+                for (number, &slope) in numbers.iter().zip(slopes) {
+                    sum += slope * number.partials[j];
+                }
+                sum
+            },
+        )
+    }
+    #[inline(always)]
+    fn select(condition: R::Mask, yes: Self, no: Self) -> Self {
+        Self::with(
+            R::choose(condition, yes.value, no.value),
+            #[inline(always)]
+            |j| R::choose(condition, yes.partials[j], no.partials[j]),
+        )
+    }
+    #[inline(always)]
+    fn plus(self, known: R) -> Self {
+        Self {
+            value: self.value + known,
+            ..self
         }
+    }
+    #[inline(always)]
+    fn times(self, known: R) -> Self {
+        self.chain(self.value * known, known)
+    }
+    #[inline(always)]
+    fn of_one<const COLUMN: usize>(self) -> OfOne<R> {
+        OfOne {
+            value: self.value,
+            slope: self.partials[COLUMN],
+        }
+    }
+    #[inline(always)]
+    fn times_one<const COLUMN: usize>(self, one: OfOne<R>) -> Self {
+        let mut product = self.times(one.value);
+        product.partials[COLUMN] += self.value * one.slope;
+        product
+    }
+    #[inline(always)]
+    fn plus_one<const COLUMN: usize>(self, one: OfOne<R>) -> Self {
+        let mut sum = self.plus(one.value);
+        sum.partials[COLUMN] += one.slope;
+        sum
     }
 }
 

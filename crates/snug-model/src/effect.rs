@@ -95,7 +95,7 @@ impl Description {
 
 /// The instant at which a law is evaluated.
 #[derive(Debug, Clone, Copy)]
-pub struct Instant<N> {
+pub struct Instant<N: Number> {
     /// Torque that acts on the joint \[Nm\].
     pub torque_nm: N,
     /// Grip displacement x = l θ \[m\].
@@ -103,9 +103,9 @@ pub struct Instant<N> {
     /// Grip velocity v = l ω \[m/s\].
     pub v_m_per_s: N,
     /// Time since the pulse began, as the input states it \[s\].
-    pub since_onset_s: f64,
+    pub since_onset_s: N::Real,
     /// Lever arm l \[m\].
-    pub lever_arm_m: f64,
+    pub lever_arm_m: N::Real,
 }
 
 /// How far the hand's spring is stretched and how fast its damper moves.
@@ -138,9 +138,9 @@ pub struct LoggedTorque<N> {
 }
 
 impl<N: Number> LoggedTorque<N> {
-    /// The torque that acts is the one that is logged.
-    pub fn faithful() -> Self {
-        let none = N::from(0.0);
+    /// The torque that acts is the one that is logged; in numbers of `kind`'s.
+    pub fn faithful(kind: N) -> Self {
+        let none = kind.constant(0.0);
         Self {
             delay_s: none,
             lag_s: none,
@@ -238,10 +238,10 @@ pub trait Law {
         None
     }
 
-    /// Initial angle \[rad\] and angular velocity \[rad/s\].
+    /// Initial angle \[rad\] and angular velocity \[rad/s\]; without it, at rest.
     #[inline(always)]
-    fn initial<N: Number>(&self, _p: &[N]) -> (N, N) {
-        (N::from(0.0), N::from(0.0))
+    fn initial<N: Number>(&self, _p: &[N]) -> Option<(N, N)> {
+        None
     }
 
     /// What else the accelerometer senses \[rad/s²\]; the velocity and displacement integrated from it follow.
@@ -263,7 +263,7 @@ pub trait Law {
     fn measure<N: Number>(
         &self,
         _p: &[N],
-        _since_rest_s: f64,
+        _since_rest_s: N::Real,
         _motion: Kinematics<N>,
     ) -> Option<Kinematics<N>> {
         None

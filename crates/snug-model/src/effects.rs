@@ -93,7 +93,7 @@ macro_rules! catalogue {
                 }
             }
             #[inline(always)]
-            fn initial<N: Number>(&self, p: &[N]) -> (N, N) {
+            fn initial<N: Number>(&self, p: &[N]) -> Option<(N, N)> {
                 match self {
                     $(Self::$Effect => $module::$Effect.initial(p),)+
                     Self::Custom(law) => law.initial(p),
@@ -114,7 +114,7 @@ macro_rules! catalogue {
                 }
             }
             #[inline(always)]
-            fn measure<N: Number>(&self, p: &[N], since_rest_s: f64, motion: Kinematics<N>) -> Option<Kinematics<N>> {
+            fn measure<N: Number>(&self, p: &[N], since_rest_s: N::Real, motion: Kinematics<N>) -> Option<Kinematics<N>> {
                 match self {
                     $(Self::$Effect => $module::$Effect.measure(p, since_rest_s, motion),)+
                     Self::Custom(law) => law.measure(p, since_rest_s, motion),

@@ -1,18 +1,18 @@
-use crate::Number;
+use crate::{Number, Real};
 
 /// The displacement as it was, noted at every grid point: what a delayed law looks back on.
 ///
-/// Cubic Hermite between grid points; before the first, at rest at the first displacement.
+/// Cubic Hermite between grid points; before the first and after the last, at rest where it was then.
 #[derive(Debug)]
-pub struct History<N> {
-    interval_s: f64,
+pub struct History<N: Number> {
+    interval_s: N::Real,
     /// x \[m\] and v \[m/s\] times the interval \[m\].
     noted: Vec<[N; 2]>,
 }
 
 impl<N: Number> History<N> {
     /// Nothing noted yet; notes will be `interval_s` apart.
-    pub fn new(interval_s: f64) -> Self {
+    pub fn new(interval_s: N::Real) -> Self {
         Self {
             interval_s,
             noted: Vec::new(),
@@ -20,29 +20,62 @@ impl<N: Number> History<N> {
     }
 
     /// Notes displacement and velocity at the next grid point.
+    #[inline(always)]
     pub fn note(&mut self, x_m: N, v_m_per_s: N) {
-        self.noted.push([x_m, v_m_per_s * self.interval_s]);
+        self.noted.push([x_m, v_m_per_s.times(self.interval_s)]);
     }
 
-    /// x \[m\] at `time_s` − `delay_s`; the last note where that is later.
-    pub fn x_m(&self, time_s: f64, delay_s: N) -> N {
-        let position = -delay_s * (1.0 / self.interval_s) + time_s / self.interval_s;
-        let whole = position.value().max(0.0) as usize;
-        let Some(&[here, here_slope]) = self.noted.get(whole) else {
-            return self.noted.last().map_or(N::from(0.0), |&[x, _]| x);
+    /// x \[m\] at `time_s` − `delay_s`.
+    #[inline(always)]
+    pub fn x_m(&self, time_s: N::Real, delay_s: N) -> N {
+        let zero = time_s.constant(0.0);
+        let Some(last) = self.noted.len().checked_sub(1) else {
+            return N::from(zero);
         };
-        let (Some(&[next, next_slope]), true) =
-            (self.noted.get(whole + 1), position.value() >= 0.0)
-        else {
-            return here;
-        };
-        let u = position - whole as f64;
+        let position = (-delay_s)
+            .times(zero.constant(1.0) / self.interval_s)
+            .plus(time_s / self.interval_s);
+        // Where the past is at rest, the position is known: its slope is cut off with it.
+        let early = zero.is_above(position.value());
+        let late = position.value().is_above(zero.constant(last as f64));
+        let held = N::from(position.value().within(0.0, last as f64));
+        let position = N::select(early, held, N::select(late, held, position));
+        let whole = zero.lane_by_lane(
+            #[inline(always)]
+            |lane| {
+                let position = position.value().lanes()[lane] as usize;
+                position.min(last.saturating_sub(1)) as f64
+            },
+        );
+        let [here, here_slope] = self.noted_at(whole, 0);
+        let [next, next_slope] = self.noted_at(whole, 1.min(last));
+        let u = position.plus(-whole);
         let rest = -u + 1.0;
         let (u2, rest2) = (u * u, rest * rest);
         here * (rest2 * (u * 2.0 + 1.0))
             + next * (u2 * (rest * 2.0 + 1.0))
             + here_slope * (u * rest2)
             + -(next_slope * (u2 * rest))
+    }
+
+    /// The note `further` after number `whole`, which may differ from lane to lane.
+    #[inline(always)]
+    fn noted_at(&self, whole: N::Real, further: usize) -> [N; 2] {
+        let lanes = whole.lanes();
+        let first = lanes[0];
+        let mut found = self.noted[first as usize + further];
+        // As a rule all have the same delay and the same interval.
+        if lanes.iter().any(|&other| other != first) {
+            for (lane, &own) in lanes.iter().enumerate().skip(1) {
+                let own = self.noted[own as usize + further];
+                let here = whole.only(lane);
+                found = [
+                    N::select(here, own[0], found[0]),
+                    N::select(here, own[1], found[1]),
+                ];
+            }
+        }
+        found
     }
 }
 

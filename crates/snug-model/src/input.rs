@@ -253,11 +253,6 @@ impl Input {
     pub(crate) fn held(&self) -> bool {
         self.held
     }
-
-    /// Time since the integration of the sensor's signal began, at sample `index` \[s\].
-    pub(crate) fn since_rest_s(&self, index: usize) -> f64 {
-        self.rest_before_s + index as f64 * self.grid_interval_s * self.substeps as f64
-    }
 }
 
 /// Value and slope at `time_s` of the cubics that meet at the `points`, `interval_s` apart, with the slopes from one

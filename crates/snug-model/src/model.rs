@@ -1,5 +1,8 @@
-use crate::assembly::{Assembly, MAXIMUM_STATES, Part, select};
+use crate::acting::Answers;
+use crate::assembly::{Assembly, MAXIMUM_OWN_STATES, Part};
+use crate::bench::Bench;
 use crate::effect::{Law, ParameterSpec};
+use crate::side_by_side::{Run, simulate_side_by_side};
 use crate::{Effect, Input, ModelError, PlausibleRange, Scale};
 use snug_campaign::{Motion, Parameter, ParameterSource, Quantity, Rig};
 
@@ -41,7 +44,7 @@ impl Model {
         check_rig(&rig)?;
         let mut parameters = base_parameters();
         let mut parts: Vec<Part> = Vec::new();
-        let mut states = 2;
+        let mut states = 0;
         for &effect in effects {
             if parts.iter().any(|part| part.effect.name() == effect.name()) {
                 return Err(ModelError::DuplicateEffect {
@@ -64,16 +67,17 @@ impl Model {
             let next = states + description.states.len();
             parts.push(Part {
                 effect,
+                answers: Answers::of(effect),
                 parameters: first..parameters.len(),
                 states: states..next,
             });
             states = next;
         }
-        if states > MAXIMUM_STATES || parameters.len() > MAXIMUM_FREE {
+        if states > MAXIMUM_OWN_STATES || parameters.len() > MAXIMUM_FREE {
             return Err(ModelError::TooLarge {
                 states,
                 parameters: parameters.len(),
-                maximum_states: MAXIMUM_STATES,
+                maximum_states: MAXIMUM_OWN_STATES,
                 maximum_parameters: MAXIMUM_FREE,
             });
         }
@@ -82,7 +86,7 @@ impl Model {
                 rig,
                 parts,
                 parameter_count: parameters.len(),
-                state_count: states,
+                own_state_count: states,
             },
             parameters,
             scale,
@@ -199,7 +203,8 @@ impl Model {
     pub fn simulate(&self, values: &[f64], input: &Input) -> Motion {
         let mut signals: [Vec<f64>; 3] =
             std::array::from_fn(|_| Vec::with_capacity(input.samples()));
-        self.assembly.respond(values, input, |_, motion| {
+        let bench = Bench::new(0.0, |_| (&self.assembly, input));
+        self.assembly.respond(values, &bench, |_, motion| {
             signals[0].push(motion.displacement_rad);
             signals[1].push(motion.velocity_rad_per_s);
             signals[2].push(motion.acceleration_rad_per_s2);
@@ -214,9 +219,7 @@ impl Model {
 
     /// One measured quantity into `output` (one value per sample).
     pub fn output(&self, values: &[f64], input: &Input, quantity: Quantity, output: &mut [f64]) {
-        self.assembly.respond(values, input, |index, motion| {
-            output[index] = select(motion, quantity);
-        });
+        self.sensitivities(values, &[], input, quantity, output, &mut []);
     }
 
     /// One measured quantity and its sensitivities.
@@ -234,27 +237,19 @@ impl Model {
         output: &mut [f64],
         sensitivity: &mut [f64],
     ) {
-        let assembly = &self.assembly;
-        if assembly.is_base() && !input.is_restarted() {
-            return assembly.base_sensitivities(values, free, input, quantity, output, sensitivity);
-        }
-        match free.len() {
-            0..=4 => {
-                assembly.carry::<4>(values, free, input, quantity, output, sensitivity);
-            }
-            5 => {
-                assembly.carry::<5>(values, free, input, quantity, output, sensitivity);
-            }
-            6 => {
-                assembly.carry::<6>(values, free, input, quantity, output, sensitivity);
-            }
-            7 | 8 => {
-                assembly.carry::<8>(values, free, input, quantity, output, sensitivity);
-            }
-            _ => {
-                assembly.carry::<MAXIMUM_FREE>(values, free, input, quantity, output, sensitivity);
-            }
-        }
+        let mut alone = [Run {
+            model: self,
+            values,
+            input,
+            quantity,
+            output,
+            sensitivity,
+        }];
+        simulate_side_by_side(&mut alone, free);
+    }
+
+    pub(crate) fn assembly(&self) -> &Assembly {
+        &self.assembly
     }
 }
 

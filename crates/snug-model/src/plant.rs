@@ -1,186 +1,166 @@
+use crate::Number;
 use crate::acting::{Acting, Hook};
-use crate::acting_torque::ActingTorque;
 use crate::assembly::{Assembly, Part};
+use crate::bench::Bench;
 use crate::effect::{Deflection, Delayed, Instant, Law};
 use crate::history::History;
-use crate::{Input, Number};
+use crate::number::OfOne;
 
 /// Tool, hand and arm of one simulation: the equations of motion with everything that stays the same worked out once.
-pub struct Plant<'a, N> {
-    input: &'a Input,
-    lever_arm_m: f64,
-    damping_kg_per_s: N,
-    stiffness_n_per_m: N,
-    /// 1 / (I_n + m l²).
-    mobility: N,
-    /// −l / (I_n + m l²).
-    lever_mobility: N,
-    acting_torque: ActingTorque<'a, N>,
+///
+/// The motion is that of the grip, x = l θ and v = l ω, which is what the laws are written in.
+pub struct Plant<'a, N: Number> {
+    bench: &'a Bench<'a, N::Real>,
+    damping_kg_per_s: OfOne<N::Real>,
+    stiffness_n_per_m: OfOne<N::Real>,
+    /// l / (I_n + m l²).
+    mobility: OfOne<N::Real>,
+    /// −l² / (I_n + m l²).
+    lever_mobility: OfOne<N::Real>,
     acting: Acting<'a, N>,
     delayed: Vec<Delayed<N>>,
     /// Kept only where a delayed law looks back.
     history: History<N>,
+    /// Whether the torque depends on no parameter.
+    is_torque_known: bool,
 }
 
-/// What drives the motion from outside at one instant, whatever the state then.
-pub struct Drive<N> {
-    torque_nm: N,
-    since_onset_s: f64,
-    /// Force of the springs that act on the past \[N\].
-    delayed_n: Option<N>,
-}
+/// Columns of the partial derivatives that [`Plant`] knows by number: m, c and k come first.
+const MASS: usize = 0;
+const DAMPING: usize = 1;
+const STIFFNESS: usize = 2;
 
 impl<'a, N: Number> Plant<'a, N> {
-    /// The assembly with parameters `p` under `input`.
-    pub fn new(assembly: &'a Assembly, p: &'a [N], input: &'a Input) -> Self {
-        let (rig, parts) = (assembly.rig(), assembly.parts());
-        let lever = rig.lever_arm_m;
-        let mobility = N::from(1.0) / (p[0] * (lever * lever) + rig.known_inertia_kg_m2);
-        let own = |part: &Part| &p[part.parameters.clone()];
-        Self {
-            input,
-            lever_arm_m: lever,
-            damping_kg_per_s: p[1],
-            stiffness_n_per_m: p[2],
-            mobility,
-            lever_mobility: mobility * -lever,
-            acting_torque: ActingTorque::new(parts, p, input),
-            acting: Acting::new(parts, p),
-            delayed: parts
-                .iter()
-                .filter_map(|part| part.effect.delayed(own(part)))
-                .collect(),
-            history: History::new(input.grid_interval_s()),
-        }
-    }
-
-    /// Torque that acts at a grid point \[Nm\].
+    /// The assembly with parameters `p` on a bench.
     #[inline(always)]
-    pub fn acting_torque(&self, point: usize) -> N {
-        self.acting_torque.at(point)
+    pub fn new(
+        assembly: &'a Assembly,
+        p: &'a [N],
+        bench: &'a Bench<'a, N::Real>,
+        is_torque_known: bool,
+    ) -> Self {
+        let parts = assembly.parts();
+        let lever = bench.lever_arm_m;
+        let inertia = p[0].times(lever * lever).plus(bench.known_inertia_kg_m2);
+        let mobility = N::from(lever) / inertia;
+        let acting = Acting::new(parts, p);
+        let mut delayed = Vec::new();
+        for part in parts {
+            delayed.extend(part.effect.delayed(&p[part.parameters.clone()]));
+        }
+        Self {
+            bench,
+            damping_kg_per_s: p[1].of_one::<DAMPING>(),
+            stiffness_n_per_m: p[2].of_one::<STIFFNESS>(),
+            mobility: mobility.of_one::<MASS>(),
+            lever_mobility: mobility.times(-lever).of_one::<MASS>(),
+            is_torque_known: is_torque_known && acting.on(Hook::Torque).is_empty(),
+            acting,
+            delayed,
+            history: History::new(bench.interval_s),
+        }
     }
 
     /// Notes the motion at the next grid point, for laws that look back.
     #[inline(always)]
-    pub fn note<const S: usize>(&mut self, state: &[N; S]) {
+    pub fn note(&mut self, x_m: N, v_m_per_s: N) {
         if !self.delayed.is_empty() {
-            self.history
-                .note(state[0] * self.lever_arm_m, state[1] * self.lever_arm_m);
+            self.history.note(x_m, v_m_per_s);
         }
     }
 
-    /// What drives the motion `position` grid intervals after the first sample, under torque `torque_nm`.
+    /// Sets of the instant what does not follow from the motion: the time, `position` grid intervals after the first
+    /// sample, and the torque, with what effects add to it.
     #[inline(always)]
-    pub fn drive(&self, position: f64, torque_nm: N) -> Drive<N> {
-        let time_s = position * self.input.grid_interval_s();
-        let delayed_n = self
-            .delayed
-            .iter()
-            .map(|spring| spring.stiffness_n_per_m * self.history.x_m(time_s, spring.delay_s))
-            .reduce(|sum, more| sum + more);
-        Drive {
-            torque_nm,
-            since_onset_s: time_s - self.input.onset_s(),
-            delayed_n,
-        }
-    }
-
-    /// Rates of all states.
-    #[inline(always)]
-    pub fn rates<const S: usize>(&self, drive: &Drive<N>, state: &[N; S]) -> [N; S] {
-        let at = self.instant(drive, state[0], state[1]);
-        // Effects look up their own states by number: in a copy, so that the motion itself can stay in registers.
-        let kept = *state;
-        let hand_n = self.hand_force(&at, &kept);
-        let acceleration = self.acceleration(drive, &at, hand_n, &kept);
-        let mut rates = [N::from(0.0); S];
-        if S > 2 {
-            for actor in self.acting.on(Hook::Moving) {
-                let (own, own_rates) = (actor.own(&kept), actor.own_mut(&mut rates));
-                actor.law.rates(actor.p, &at, own, hand_n, own_rates);
-            }
-        }
-        rates[0] = state[1];
-        rates[1] = acceleration;
-        rates
-    }
-
-    #[inline(always)]
-    fn instant(&self, drive: &Drive<N>, angle_rad: N, velocity_rad_per_s: N) -> Instant<N> {
-        let mut at = Instant {
-            torque_nm: drive.torque_nm,
-            x_m: angle_rad * self.lever_arm_m,
-            v_m_per_s: velocity_rad_per_s * self.lever_arm_m,
-            since_onset_s: drive.since_onset_s,
-            lever_arm_m: self.lever_arm_m,
-        };
-        let mut torque_nm = at.torque_nm;
-        for actor in self.acting.on(Hook::Torque) {
-            if let Some(added) = actor.law.torque(actor.p, &at) {
-                torque_nm += added;
-            }
-        }
+    pub fn drive(&self, at: &mut Instant<N>, position: f64, torque_nm: N) {
+        at.since_onset_s = (self.bench).since_onset_s(self.bench.interval_s * position);
         at.torque_nm = torque_nm;
-        at
+        if !self.acting.on(Hook::Torque).is_empty() {
+            let mut whole = torque_nm;
+            for actor in self.acting.on(Hook::Torque) {
+                actor.add_torque(at, &mut whole);
+            }
+            at.torque_nm = whole;
+        }
+    }
+
+    /// dv/dt \[m/s²\], and the rates of the effects' `own` states.
+    #[inline(always)]
+    pub fn rates<const X: usize>(
+        &self,
+        position: f64,
+        at: &Instant<N>,
+        own: &[N; X],
+        own_rates: &mut [N; X],
+    ) -> N {
+        let hand_n = self.hand_force(at, own);
+        for actor in self.acting.on(Hook::Moving) {
+            actor.set_rates(at, own, hand_n, own_rates);
+        }
+        let mut force = hand_n;
+        for actor in self.acting.on(Hook::Force) {
+            actor.add_force(at, own, &mut force);
+        }
+        let time_s = self.bench.interval_s * position;
+        for spring in &self.delayed {
+            force += spring.stiffness_n_per_m * self.history.x_m(time_s, spring.delay_s);
+        }
+        for actor in self.acting.on(Hook::Limit) {
+            actor.limit(&mut force);
+        }
+        // dv/dt = l (T − l F) / (I_n + m l²).
+        let by_force = force.times_one::<MASS>(self.lever_mobility);
+        if self.is_torque_known {
+            by_force.plus_one::<MASS>(self.mobility.times(at.torque_nm.value()))
+        } else {
+            by_force + at.torque_nm.times_one::<MASS>(self.mobility)
+        }
     }
 
     /// What the hand's spring and damper exert \[N\]: k (1 + Σ stiffening) d + c dd/dt.
     #[inline(always)]
-    fn hand_force<const S: usize>(&self, at: &Instant<N>, state: &[N; S]) -> N {
+    fn hand_force<const X: usize>(&self, at: &Instant<N>, own: &[N; X]) -> N {
+        let (supports, deflecting) = (
+            self.acting.on(Hook::Support),
+            self.acting.on(Hook::Deflection),
+        );
+        let stiffening = self.acting.on(Hook::Stiffening);
+        if supports.is_empty() && deflecting.is_empty() && stiffening.is_empty() {
+            return self.spring_and_damper(at.x_m, at.v_m_per_s);
+        }
         let mut seen = Deflection {
             x_m: at.x_m,
             v_m_per_s: at.v_m_per_s,
         };
-        for actor in self.acting.on(Hook::Support) {
-            if let Some(support) = actor.law.support(actor.p, actor.own(state)) {
-                seen.x_m = seen.x_m - support.x_m;
-                seen.v_m_per_s = seen.v_m_per_s - support.v_m_per_s;
-            }
+        for actor in supports {
+            actor.subtract_support(own, &mut seen);
         }
-        for actor in self.acting.on(Hook::Deflection) {
-            seen = actor.law.deflection(actor.p, seen).unwrap_or(seen);
+        for actor in deflecting {
+            actor.deflect(&mut seen);
         }
-        let mut stiffness = self.stiffness_n_per_m;
-        for actor in self.acting.on(Hook::Stiffening) {
-            if let Some(growth) = actor.law.stiffening(actor.p, at) {
-                stiffness += self.stiffness_n_per_m * growth;
-            }
+        let mut stretched = seen.x_m;
+        for actor in stiffening {
+            actor.add_stiffening(at, seen.x_m, &mut stretched);
         }
-        stiffness * seen.x_m + self.damping_kg_per_s * seen.v_m_per_s
+        self.spring_and_damper(stretched, seen.v_m_per_s)
     }
 
-    /// dω/dt = (T − l F) / (I_n + m l²).
     #[inline(always)]
-    fn acceleration<const S: usize>(
-        &self,
-        drive: &Drive<N>,
-        at: &Instant<N>,
-        hand_n: N,
-        state: &[N; S],
-    ) -> N {
-        let mut force = hand_n;
-        for actor in self.acting.on(Hook::Force) {
-            if let Some(more) = actor.law.force(actor.p, at, actor.own(state)) {
-                force += more;
-            }
-        }
-        if let Some(delayed) = drive.delayed_n {
-            force += delayed;
-        }
-        for actor in self.acting.on(Hook::Limit) {
-            force = actor.law.limit(actor.p, force).unwrap_or(force);
-        }
-        at.torque_nm * self.mobility + force * self.lever_mobility
+    fn spring_and_damper(&self, x_m: N, v_m_per_s: N) -> N {
+        x_m.times_one::<STIFFNESS>(self.stiffness_n_per_m)
+            + v_m_per_s.times_one::<DAMPING>(self.damping_kg_per_s)
     }
 }
 
-/// The effects' initial motion; all else at rest.
-pub fn initial_state<N: Number, const S: usize>(parts: &[Part], p: &[N]) -> [N; S] {
-    let mut state = [N::from(0.0); S];
+/// The effects' initial angle \[rad\] and angular velocity \[rad/s\]; at rest without them.
+#[inline(always)]
+pub fn initial_motion<N: Number>(parts: &[Part], p: &[N]) -> [N; 2] {
+    let mut motion = [p[0].constant(0.0); 2];
     for part in parts {
-        let (angle, velocity) = part.effect.initial(&p[part.parameters.clone()]);
-        state[0] += angle;
-        state[1] += velocity;
+        if let Some((angle, velocity)) = part.effect.initial(&p[part.parameters.clone()]) {
+            motion[0] += angle;
+            motion[1] += velocity;
+        }
     }
-    state
+    motion
 }

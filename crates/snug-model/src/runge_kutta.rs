@@ -3,52 +3,82 @@
 //! At 10 kHz the error of a step is (h ω)⁵/120 ≈ 1e−15 of the amplitude for an arm at 30 rad/s; a band-limited input
 //! brings its own finer grid.
 
+use crate::Number;
+use crate::acting_torque::ActingTorque;
 use crate::assembly::Assembly;
-use crate::effect::Kinematics;
-use crate::plant::{Plant, initial_state};
-use crate::{Input, Number};
+use crate::bench::Bench;
+use crate::effect::{Instant, Kinematics};
+use crate::plant::{Plant, initial_motion};
 
-/// Simulates from rest (or the effects' initial motion, or again and again from the input's restarts) and hands every sample's true motion to `sample`.
+/// Simulates from rest (or the effects' initial motion, or again and again from the input's restarts) and hands every
+/// sample's true motion to `sample`.
 ///
-/// `p` are all parameters of the assembly in its order, `S` is at least the number of its states.
+/// `p` are all parameters of the assembly in its order, `X` is at least the number of its effects' own states.
 ///
 /// The four stages are a loop, so that the equations stand once in the compiled program and stay in its cache. The first
-/// stage's rates are those at the grid point itself: they give the sample's acceleration as well.
-pub fn respond<N: Number, const S: usize>(
+/// stage's rates are those at the grid point itself: they give the sample's acceleration as well. Trial points are
+/// changed where they lie: to copy numbers with their derivatives would take longer than to compute them.
+#[inline(always)]
+pub fn respond<N: Number, const X: usize>(
     assembly: &Assembly,
     p: &[N],
-    input: &Input,
+    bench: &Bench<'_, N::Real>,
+    acting_torque: &ActingTorque<'_, N>,
     mut sample: impl FnMut(usize, Kinematics<N>),
 ) {
-    let h = input.grid_interval_s();
-    // How far from the start each stage is, in intervals, and its weight in the sum.
-    let stages = [(0.0, 1.0), (0.5, 2.0), (0.5, 2.0), (1.0, 1.0)];
-    let mut plant = Plant::new(assembly, p, input);
-    let mut state: [N; S] = initial_state(assembly.parts(), p);
-    let last = input.grid().len().saturating_sub(1);
-    let mut torque = plant.acting_torque(0);
+    const ENDS: f64 = 1.0 / 6.0;
+    const MIDDLE: f64 = 1.0 / 3.0;
+    // How far on the next stage is, in intervals, and a stage's weight in the mean.
+    let stages = [
+        (0.0, 0.5, ENDS),
+        (0.5, 0.5, MIDDLE),
+        (0.5, 1.0, MIDDLE),
+        (1.0, 0.0, ENDS),
+    ];
+    let (h, lever, zero) = (bench.interval_s, bench.lever_arm_m, N::from(bench.zero));
+    let per_lever = bench.zero.constant(1.0) / lever;
+    let known = acting_torque.is_known();
+    let mut plant = Plant::new(assembly, p, bench, known);
+    let [angle, velocity] = initial_motion(assembly.parts(), p);
+    let (mut x, mut v, mut own) = (angle.times(lever), velocity.times(lever), [zero; X]);
+    let mut at = Instant {
+        torque_nm: zero,
+        x_m: x,
+        v_m_per_s: v,
+        since_onset_s: bench.zero,
+        lever_arm_m: lever,
+    };
+    let mut own_rates = own;
+    let points = bench.torque_nm().len();
+    let last = points.saturating_sub(1);
+    let mut torque = acting_torque.at(0);
     let mut index = 0;
-    for point in 0..input.grid().len() {
-        if let Some([angle, velocity]) = input.restart_at(point) {
-            (state[0], state[1]) = (N::from(angle), N::from(velocity));
+    for point in 0..points {
+        if let Some(restart) = bench.restart_at(point) {
+            let [angle, velocity] = restart.motion;
+            x = N::select(restart.lanes, N::from(angle * lever), x);
+            v = N::select(restart.lanes, N::from(velocity * lever), v);
         }
-        plant.note(&state);
-        let next = plant.acting_torque((point + 1).min(last));
-        let rise = if input.held() {
-            N::from(0.0)
-        } else {
-            next - torque
-        };
-        let (from, mut slope, mut sum) = (state, [N::from(0.0); S], [N::from(0.0); S]);
-        for (stage, (ahead, weight)) in stages.into_iter().enumerate() {
-            let drive = plant.drive(point as f64 + ahead, torque + rise * ahead);
-            let at = std::array::from_fn(|i| from[i] + slope[i] * (ahead * h));
-            slope = plant.rates(&drive, &at);
-            if stage == 0 && point == index * input.substeps() {
+        plant.note(x, v);
+        let next = acting_torque.at((point + 1).min(last));
+        let rise = if bench.held { zero } else { next - torque };
+        (at.x_m, at.v_m_per_s) = (x, v);
+        let mut own_at = own;
+        let (mut x_after, mut v_after, mut own_after) = (x, v, own);
+        for (stage, (ahead, further, weight)) in stages.into_iter().enumerate() {
+            let position = point as f64 + ahead;
+            let torque_nm = if known {
+                N::from(torque.value() + rise.value() * ahead)
+            } else {
+                torque + rise * ahead
+            };
+            plant.drive(&mut at, position, torque_nm);
+            let acceleration = plant.rates(position, &at, &own_at, &mut own_rates);
+            if stage == 0 && point == index * bench.substeps {
                 let motion = Kinematics {
-                    displacement_rad: state[0],
-                    velocity_rad_per_s: state[1],
-                    acceleration_rad_per_s2: slope[1],
+                    displacement_rad: x.times(per_lever),
+                    velocity_rad_per_s: v.times(per_lever),
+                    acceleration_rad_per_s2: acceleration.times(per_lever),
                 };
                 sample(index, motion);
                 index += 1;
@@ -56,13 +86,17 @@ pub fn respond<N: Number, const S: usize>(
             if point == last {
                 return;
             }
-            for (sum, slope) in sum.iter_mut().zip(&slope) {
-                *sum += *slope * weight;
+            let (weight, further) = (h * weight, h * further);
+            x_after += at.v_m_per_s.times(weight);
+            v_after += acceleration.times(weight);
+            at.x_m = x + at.v_m_per_s.times(further);
+            at.v_m_per_s = v + acceleration.times(further);
+            for state in 0..X {
+                own_after[state] += own_rates[state].times(weight);
+                own_at[state] = own[state] + own_rates[state].times(further);
             }
         }
-        for (value, sum) in state.iter_mut().zip(&sum) {
-            *value += *sum * (h / 6.0);
-        }
+        (x, v, own) = (x_after, v_after, own_after);
         torque = next;
     }
 }

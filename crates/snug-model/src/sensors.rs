@@ -1,39 +1,48 @@
+use crate::Number;
 use crate::accelerometer::Accelerometer;
 use crate::acting_torque::{ActingTorque, with_added_torque};
 use crate::assembly::{Assembly, Part};
+use crate::bench::Bench;
 use crate::effect::{Instant, Kinematics, Law};
-use crate::{Input, Number};
 
 /// From the true motion to the measured one: leaks and lag of the accelerometer, then what is added to its signals.
-pub struct Sensors<'a, N> {
+pub struct Sensors<'a, N: Number> {
     parts: &'a [Part],
     p: &'a [N],
-    input: &'a Input,
-    lever_arm_m: f64,
-    acting_torque: ActingTorque<'a, N>,
+    bench: &'a Bench<'a, N::Real>,
+    acting_torque: &'a ActingTorque<'a, N>,
     /// Absent when no effect of the assembly needs it.
     accelerometer: Option<Accelerometer<N>>,
 }
 
 impl<'a, N: Number> Sensors<'a, N> {
     /// At rest before the first sample.
-    pub fn new(assembly: &'a Assembly, p: &'a [N], input: &'a Input) -> Self {
+    #[inline(always)]
+    pub fn new(
+        assembly: &'a Assembly,
+        p: &'a [N],
+        bench: &'a Bench<'a, N::Real>,
+        acting_torque: &'a ActingTorque<'a, N>,
+    ) -> Self {
+        let zero = N::from(bench.zero);
         let still = Kinematics {
-            displacement_rad: N::from(0.0),
-            velocity_rad_per_s: N::from(0.0),
-            acceleration_rad_per_s2: N::from(0.0),
+            displacement_rad: zero,
+            velocity_rad_per_s: zero,
+            acceleration_rad_per_s2: zero,
         };
         let mut sensors = Self {
             parts: assembly.parts(),
             p,
-            input,
-            lever_arm_m: assembly.rig().lever_arm_m,
-            acting_torque: ActingTorque::new(assembly.parts(), p, input),
+            bench,
+            acting_torque,
             accelerometer: None,
         };
-        let lag = sensors.total(|effect, p| effect.acceleration_lag_s(p));
+        let lag = sensors.total(
+            #[inline(always)]
+            |effect, p| effect.acceleration_lag_s(p),
+        );
         if lag.is_some() || sensors.leak(0, &still).is_some() {
-            let interval_s = input.since_rest_s(1) - input.since_rest_s(0);
+            let interval_s = bench.since_rest_s(1) - bench.since_rest_s(0);
             sensors.accelerometer = Some(Accelerometer::new(interval_s, lag));
         }
         sensors
@@ -49,12 +58,12 @@ impl<'a, N: Number> Sensors<'a, N> {
                 seen = accelerometer.sample(motion, leak);
             }
         }
-        let since_rest_s = self.input.since_rest_s(index);
-        self.parts.iter().fold(seen, |motion, part| {
+        let since_rest_s = self.bench.since_rest_s(index);
+        for part in self.parts {
             let own = &self.p[part.parameters.clone()];
-            let measured = part.effect.measure(own, since_rest_s, motion);
-            measured.unwrap_or(motion)
-        })
+            seen = part.effect.measure(own, since_rest_s, seen).unwrap_or(seen);
+        }
+        seen
     }
 
     /// Whether an effect of the assembly changes what is measured of the motion.
@@ -62,29 +71,42 @@ impl<'a, N: Number> Sensors<'a, N> {
         self.parts.iter().any(|part| part.effect.measurement_only())
     }
 
+    #[inline(always)]
     fn leak(&self, index: usize, motion: &Kinematics<N>) -> Option<N> {
         let at = self.instant(index, motion);
-        self.total(|effect, p| effect.leak(p, &at, motion))
+        self.total(
+            #[inline(always)]
+            |effect, p| effect.leak(p, &at, motion),
+        )
     }
 
     /// The instant of sample `index`, at which the true motion is `motion`.
+    #[inline(always)]
     fn instant(&self, index: usize, motion: &Kinematics<N>) -> Instant<N> {
-        let point = index * self.input.substeps();
+        let point = index * self.bench.substeps;
+        let lever = self.bench.lever_arm_m;
         let at = Instant {
             torque_nm: self.acting_torque.at(point),
-            x_m: motion.displacement_rad * self.lever_arm_m,
-            v_m_per_s: motion.velocity_rad_per_s * self.lever_arm_m,
-            since_onset_s: point as f64 * self.input.grid_interval_s() - self.input.onset_s(),
-            lever_arm_m: self.lever_arm_m,
+            x_m: motion.displacement_rad.times(lever),
+            v_m_per_s: motion.velocity_rad_per_s.times(lever),
+            since_onset_s: (self.bench).since_onset_s(self.bench.interval_s * point as f64),
+            lever_arm_m: lever,
         };
         with_added_torque(self.parts, self.p, at)
     }
 
     /// The sum of what the effects add to the same place, if any adds to it.
+    #[inline(always)]
     fn total(&self, of: impl Fn(crate::Effect, &[N]) -> Option<N>) -> Option<N> {
-        self.parts
-            .iter()
-            .filter_map(|part| of(part.effect, &self.p[part.parameters.clone()]))
-            .reduce(|sum, more| sum + more)
+        let mut total: Option<N> = None;
+        for part in self.parts {
+            if let Some(more) = of(part.effect, &self.p[part.parameters.clone()]) {
+                total = Some(match total {
+                    Some(sum) => sum + more,
+                    None => more,
+                });
+            }
+        }
+        total
     }
 }

@@ -1,5 +1,6 @@
-use crate::Number;
+use crate::bench::Bench;
 use crate::effect::Kinematics;
+use crate::{Number, Real};
 
 /// Repeats on the simulated displacement what preprocessing did to the measured one: its value at one sample is taken off
 /// the whole signal.
@@ -10,46 +11,65 @@ use crate::effect::Kinematics;
 ///
 /// Only a model with sensor effects is asked for this: the original program, whose model has none, compares its own
 /// displacement as it is. A bias can put t0, the first minimum, well into the pulse. Samples before t0 wait until it is
-/// known.
+/// known, in every lane.
 #[derive(Debug)]
-pub struct Zeroed<N> {
-    zero_at: usize,
-    /// The displacement at t0 \[rad\], once known.
-    zero: Option<N>,
+pub struct Zeroed<N: Number> {
+    /// t0 of every lane, as a number of samples; −1 where nothing is taken off.
+    zero_at: N::Real,
+    /// The last of them.
+    known_from: usize,
+    /// The displacement at t0 \[rad\], as far as it is known.
+    zero: N,
     waiting: Vec<Kinematics<N>>,
 }
 
 impl<N: Number> Zeroed<N> {
-    /// Zeroed at sample `zero_at`.
-    pub fn new(zero_at: usize) -> Self {
-        Self {
-            zero_at,
-            zero: None,
-            waiting: Vec::with_capacity(zero_at + 1),
-        }
+    /// Zeroed where the inputs say; nothing where none of them says.
+    pub fn new(bench: &Bench<'_, N::Real>) -> Option<Self> {
+        let zero_at = |lane: usize| bench.inputs()[lane].zero_at();
+        let known_from = (0..bench.inputs().len()).filter_map(zero_at).max()?;
+        Some(Self {
+            zero_at: bench
+                .zero
+                .lane_by_lane(|lane| zero_at(lane).map_or(-1.0, |sample| sample as f64)),
+            known_from,
+            zero: N::from(bench.zero),
+            waiting: Vec::with_capacity(known_from + 1),
+        })
     }
 
     /// The next sample, which is number `index`; hands on what can be.
+    #[inline(always)]
     pub fn sample(
         &mut self,
         index: usize,
         sensed: Kinematics<N>,
-        mut hand_on: impl FnMut(usize, &Kinematics<N>),
+        hand_on: &mut impl FnMut(usize, &Kinematics<N>),
     ) {
-        let without = |seen: Kinematics<N>, zero: N| Kinematics {
-            displacement_rad: seen.displacement_rad - zero,
-            ..seen
-        };
-        if let Some(zero) = self.zero {
-            return hand_on(index, &without(sensed, zero));
+        if index <= self.known_from {
+            let zero_at = self.zero_at;
+            let away = (zero_at - index as f64).magnitude();
+            let is_there = zero_at.constant(0.5).is_above(away);
+            self.zero = N::select(is_there, sensed.displacement_rad, self.zero);
+            self.waiting.push(sensed);
         }
-        self.waiting.push(sensed);
-        if index == self.zero_at {
-            let zero = sensed.displacement_rad;
+        if index > self.known_from {
+            hand_on(index, &sensed.less(self.zero));
+        } else if index == self.known_from {
             for (earlier, seen) in self.waiting.drain(..).enumerate() {
-                hand_on(earlier, &without(seen, zero));
+                hand_on(earlier, &seen.less(self.zero));
             }
-            self.zero = Some(zero);
+        }
+    }
+}
+
+impl<N: Number> Kinematics<N> {
+    /// The same with the displacement counted from `zero` \[rad\].
+    #[inline(always)]
+    fn less(self, zero: N) -> Self {
+        Self {
+            displacement_rad: self.displacement_rad - zero,
+            ..self
         }
     }
 }

@@ -4,7 +4,7 @@ use crate::schema::{Field, Kind, Message, field};
 use serde::Serialize;
 use snug_campaign::{
     AddedEffect, CorrectedEffect, Detectability, Diagnosis, Drift, Experiment, Misfit,
-    NegativeControl, NoiseStatement, Removal, UnlistedTerm,
+    NegativeControl, NoiseStatement, Removal, UnlistedTerm, WorkDone,
 };
 
 /// The message of `/verdict`: the diagnosis without ladder and ranking, which have topics of their own, and without maps
@@ -31,6 +31,7 @@ pub(crate) struct VerdictMessage<'a> {
     where_it_fails: &'a [String],
     where_the_final_model_fails: &'a [String],
     repeatable_share: Option<f64>,
+    work: WorkDone,
 }
 
 pub(crate) fn verdict(diagnosis: &Diagnosis) -> VerdictMessage<'_> {
@@ -58,6 +59,7 @@ pub(crate) fn verdict(diagnosis: &Diagnosis) -> VerdictMessage<'_> {
             .as_ref()
             .map_or(&[], |location| &location.remarks),
         repeatable_share: diagnosis.location.repeatable_share,
+        work: diagnosis.work,
     }
 }
 

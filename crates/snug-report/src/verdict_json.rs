@@ -3,7 +3,7 @@
 use serde::Serialize;
 use snug_campaign::{
     AddedEffect, Comparison, CorrectedEffect, Detectability, Diagnosis, Drift, Experiment,
-    Location, NegativeControl, NoiseStatement, RankedEffect, Removal, Rung, UnlistedTerm,
+    Location, NegativeControl, NoiseStatement, RankedEffect, Removal, Rung, UnlistedTerm, WorkDone,
 };
 
 /// The file's keys, those that other programs rely on first.
@@ -31,6 +31,7 @@ struct VerdictFile<'a> {
     comparison: &'a Comparison,
     location: &'a Location,
     final_location: Option<&'a Location>,
+    work: WorkDone,
 }
 
 /// Everything a diagnosis found but the signals of its example tightening, which the report draws.
@@ -60,6 +61,7 @@ pub fn verdict_json(diagnosis: &Diagnosis) -> String {
         comparison: &diagnosis.comparison,
         location: &diagnosis.location,
         final_location: diagnosis.final_location.as_ref(),
+        work: diagnosis.work,
     };
     let mut text =
         serde_json::to_string_pretty(&file).expect("plain structs with text keys serialise");

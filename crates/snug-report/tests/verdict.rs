@@ -141,6 +141,7 @@ fn the_numbers_are_those_found_to_the_last_digit() {
     assert_eq!(file["corrected"][0]["size"], 0.31);
     assert_eq!(file["noise"]["acceleration_rad_per_s2"], 0.9);
     assert_eq!(file["control"]["false_alarms"], 2);
+    assert_eq!(file["work"]["linearizations"], 29_616);
     assert!(file["experiment"].is_null());
     let experiment = &verdict(&diagnosed::diagnose())["experiment"];
     assert_eq!(experiment["tightenings"], 9);

@@ -1,70 +1,81 @@
-use std::fmt;
-use std::time::Instant;
+//! The table: ratio first, then the times it comes from.
 
-/// Runs of each row; the table shows their median.
-const RUNS: usize = 9;
+use crate::measure::Times;
 
-/// Rows of name and time per fit, and their ratio to the yardstick.
-pub struct Table {
-    filter: Option<String>,
-    rows: Vec<(String, f64)>,
-    yardstick_s: f64,
+/// What a ratio is taken against.
+pub struct Reference<'a> {
+    /// Its name, as in "1.9 × the bare loop".
+    pub name: &'a str,
+    /// Its times.
+    pub times: &'a Times,
 }
 
-impl Table {
-    /// Only rows whose name contains `filter` are measured; the first row always is.
-    pub fn new(filter: Option<String>) -> Self {
-        Self {
-            filter,
-            rows: Vec::new(),
-            yardstick_s: f64::NAN,
-        }
-    }
-
-    /// Times `work`, which does `count` fits; gives the median seconds of one.
-    pub fn measure(&mut self, name: &str, count: usize, mut work: impl FnMut()) -> f64 {
-        let wanted = self
-            .filter
-            .as_ref()
-            .is_none_or(|part| name.contains(part.as_str()));
-        if !wanted && !self.rows.is_empty() {
-            return f64::NAN;
-        }
-        work();
-        let mut times: Vec<f64> = (0..RUNS)
-            .map(|_| {
-                let start = Instant::now();
-                work();
-                start.elapsed().as_secs_f64() / count as f64
-            })
-            .collect();
-        times.sort_by(f64::total_cmp);
-        let median = times[RUNS / 2];
-        self.rows.push((name.to_owned(), median));
-        median
-    }
-
-    /// What ratios refer to.
-    pub fn yardstick(&mut self, seconds: f64) {
-        self.yardstick_s = seconds;
-    }
+/// Heading of one section and of its columns.
+pub fn section(title: &str) {
+    println!("\n{title}");
+    println!(
+        "{:>34}  {:>32}  {:>32}  what",
+        "ratio", "Snug: median (least – most)", "the reference"
+    );
 }
 
-impl fmt::Display for Table {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(
-            formatter,
-            "{:>8}  {:>12}  one fit, 3000 samples, one core",
-            "ratio", "ms"
-        )?;
-        for (name, seconds) in &self.rows {
-            writeln!(
-                formatter,
-                "{:>8.2}  {:>12.4}  {name}",
-                seconds / self.yardstick_s,
-                1e3 * seconds
-            )?;
-        }
-        Ok(())
+/// How many times longer than the reference we take.
+pub fn times_the(reference: &Reference<'_>, ours: &Times, what: &str) {
+    let ratio = ours.median_s() / reference.times.median_s();
+    let ratio = format!("{} × {}", short(ratio), reference.name);
+    row(&ratio, &shown(ours), &shown(reference.times), what);
+}
+
+/// How many times faster (or slower) than the reference we are.
+pub fn faster_than(reference: &Reference<'_>, ours: &Times, what: &str) {
+    let ratio = reference.times.median_s() / ours.median_s();
+    let (ratio, word) = match ratio {
+        slow if slow < 1.0 => (1.0 / slow, "slower"),
+        fast => (fast, "faster"),
+    };
+    let ratio = format!("{} × {word} than {}", short(ratio), reference.name);
+    row(&ratio, &shown(ours), &shown(reference.times), what);
+}
+
+/// A row without a reference.
+pub fn alone(ours: &str, what: &str) {
+    row("", ours, "", what);
+}
+
+/// What was left out, and why.
+pub fn left_out(why: &str) {
+    println!("{:>34}  {why}", "left out");
+}
+
+fn row(ratio: &str, ours: &str, reference: &str, what: &str) {
+    println!("{ratio:>34}  {ours:>32}  {reference:>32}  {what}");
+}
+
+/// Median with least and most, in a unit that reads well.
+pub fn shown(times: &Times) -> String {
+    let median = times.median_s();
+    let (factor, unit) = match median {
+        s if s < 1e-3 => (1e6, "µs"),
+        s if s < 1.0 => (1e3, "ms"),
+        _ => (1.0, "s"),
+    };
+    let value = short(median * factor);
+    if times.rounds() == 1 {
+        return format!("{value} {unit} (one run)");
     }
+    let (least, most) = (
+        short(times.least_s() * factor),
+        short(times.most_s() * factor),
+    );
+    format!("{value} {unit} ({least} – {most})")
+}
+
+/// Three significant digits.
+pub fn short(value: f64) -> String {
+    let digits = match value.abs() {
+        v if v >= 99.95 => 0,
+        v if v >= 9.995 => 1,
+        _ => 2,
+    };
+    format!("{value:.digits$}")
 }

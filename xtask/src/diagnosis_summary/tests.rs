@@ -95,6 +95,7 @@ fn missing() -> Diagnosis {
         unlisted: None,
         experiment: None,
         showcase: None,
+        work: WorkDone::default(),
     }
 }
 

@@ -72,8 +72,8 @@ fn in_full(description: &Description) {
     println!("  Check       {}", description.check);
     println!("  Source      {}\n", description.source);
     println!(
-        "  {:<30} {:<14} {:>12} {:>12} {:>12}  {}",
-        "Parameter", "Unit", "start", "from", "to", "What it is"
+        "  {:<30} {:<14} {:>12} {:>12} {:>12}  What it is",
+        "Parameter", "Unit", "start", "from", "to"
     );
     for parameter in description.parameters {
         println!(

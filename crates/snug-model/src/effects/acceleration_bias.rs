@@ -37,12 +37,12 @@ impl Law for AccelerationBias {
     fn measure<N: Number>(
         &self,
         p: &[N],
-        since_rest_s: f64,
+        since_rest_s: N::Real,
         motion: Kinematics<N>,
     ) -> Option<Kinematics<N>> {
         Some(Kinematics {
-            displacement_rad: motion.displacement_rad + p[0] * (0.5 * since_rest_s * since_rest_s),
-            velocity_rad_per_s: motion.velocity_rad_per_s + p[0] * since_rest_s,
+            displacement_rad: motion.displacement_rad + p[0].times(since_rest_s * 0.5 * since_rest_s),
+            velocity_rad_per_s: motion.velocity_rad_per_s + p[0].times(since_rest_s),
             acceleration_rad_per_s2: motion.acceleration_rad_per_s2 + p[0],
         })
     }

@@ -8,7 +8,7 @@
 //! force k_h z_max for large. Excited by reversals. In the residual a step at every reversal that builds up over z_max.
 //! Source: Bouc (1967) and Wen (1976) with n = 1, β = γ.
 
-use crate::Number;
+use crate::{Number, Real};
 use crate::effect::{Description, Instant, Kind, Law, ParameterSpec, Scope};
 
 pub struct BoucWen;
@@ -61,10 +61,7 @@ impl Law for BoucWen {
         rates: &mut [N],
     ) {
         let (v, z) = (at.v_m_per_s, own[0]);
-        rates[0] = if v.value() * z.value() > 0.0 {
-            v - v * z.abs() / p[1]
-        } else {
-            v
-        };
+        let building_up = (v.value() * z.value()).is_positive();
+        rates[0] = N::select(building_up, v - v * z.abs() / p[1], v);
     }
 }

@@ -36,7 +36,7 @@ impl Law for CentripetalCrosstalk {
 
     #[inline(always)]
     fn leak<N: Number>(&self, p: &[N], _at: &Instant<N>, motion: &Kinematics<N>) -> Option<N> {
-        Some(p[0] * (motion.velocity_rad_per_s * motion.velocity_rad_per_s))
+        Some(p[0] * motion.velocity_rad_per_s.power(2))
     }
 
     fn measurement_only(&self) -> bool {

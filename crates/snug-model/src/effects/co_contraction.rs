@@ -53,6 +53,6 @@ impl Law for CoContraction {
 
     #[inline(always)]
     fn stiffening<N: Number>(&self, p: &[N], at: &Instant<N>) -> Option<N> {
-        Some(p[0] * ((-p[1] + at.since_onset_s) / p[2]).smooth_step())
+        Some(p[0] * ((-p[1]).plus(at.since_onset_s) / p[2]).smooth_step())
     }
 }

@@ -4,7 +4,7 @@
 //! peak. In the residual nothing shows until the peak, then a misfit in proportion to the velocity.
 //! Source: muscle resists lengthening and shortening differently (Hill's force–velocity relation).
 
-use crate::Number;
+use crate::{Number, Real};
 use crate::effect::{Description, Instant, Kind, Law, ParameterSpec, Scope};
 
 pub struct DirectionalDamping;
@@ -36,10 +36,8 @@ impl Law for DirectionalDamping {
 
     #[inline(always)]
     fn force<N: Number>(&self, p: &[N], at: &Instant<N>, _own: &[N]) -> Option<N> {
-        Some(if at.v_m_per_s.value() < 0.0 {
-            p[0] * at.v_m_per_s
-        } else {
-            N::from(0.0)
-        })
+        let v = at.v_m_per_s;
+        let back = (-v).value().is_positive();
+        Some(N::select(back, p[0] * v, v.constant(0.0)))
     }
 }

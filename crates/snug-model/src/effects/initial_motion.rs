@@ -44,7 +44,7 @@ impl Law for InitialMotion {
     }
 
     #[inline(always)]
-    fn initial<N: Number>(&self, p: &[N]) -> (N, N) {
-        (p[0], p[1])
+    fn initial<N: Number>(&self, p: &[N]) -> Option<(N, N)> {
+        Some((p[0], p[1]))
     }
 }

@@ -36,7 +36,7 @@ impl Law for OutputOffset {
     fn measure<N: Number>(
         &self,
         p: &[N],
-        _since_rest_s: f64,
+        _since_rest_s: N::Real,
         motion: Kinematics<N>,
     ) -> Option<Kinematics<N>> {
         Some(Kinematics {

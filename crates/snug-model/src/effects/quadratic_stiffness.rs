@@ -36,6 +36,6 @@ impl Law for QuadraticStiffness {
 
     #[inline(always)]
     fn force<N: Number>(&self, p: &[N], at: &Instant<N>, _own: &[N]) -> Option<N> {
-        Some(p[0] * (at.x_m * at.x_m))
+        Some(p[0] * at.x_m.power(2))
     }
 }

@@ -37,7 +37,7 @@ impl Law for TorqueDelay {
     fn logged_torque<N: Number>(&self, p: &[N]) -> Option<LoggedTorque<N>> {
         Some(LoggedTorque {
             delay_s: p[0],
-            ..LoggedTorque::faithful()
+            ..LoggedTorque::faithful(p[0])
         })
     }
 }

@@ -38,7 +38,7 @@ impl Law for TorqueLag {
     fn logged_torque<N: Number>(&self, p: &[N]) -> Option<LoggedTorque<N>> {
         Some(LoggedTorque {
             lag_s: p[0],
-            ..LoggedTorque::faithful()
+            ..LoggedTorque::faithful(p[0])
         })
     }
 }

@@ -37,7 +37,7 @@ impl Law for TorqueOffset {
     fn logged_torque<N: Number>(&self, p: &[N]) -> Option<LoggedTorque<N>> {
         Some(LoggedTorque {
             offset_nm: p[0],
-            ..LoggedTorque::faithful()
+            ..LoggedTorque::faithful(p[0])
         })
     }
 }

@@ -52,6 +52,6 @@ impl Law for VoluntaryPush {
 
     #[inline(always)]
     fn force<N: Number>(&self, p: &[N], at: &Instant<N>, _own: &[N]) -> Option<N> {
-        Some(p[0] * ((-p[1] + at.since_onset_s) / p[2]).smooth_step())
+        Some(p[0] * ((-p[1]).plus(at.since_onset_s) / p[2]).smooth_step())
     }
 }

@@ -1,4 +1,4 @@
-use crate::Number;
+use crate::{Number, Real};
 
 /// A quantity of the motion that an expression may use.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -119,7 +119,7 @@ impl Function {
     }
 
     /// Its value; a function of one argument leaves `second` alone.
-    #[inline]
+    #[inline(always)]
     pub fn of<N: Number>(self, first: N, second: N) -> N {
         match self {
             Self::Abs => first.abs(),
@@ -134,9 +134,8 @@ impl Function {
             Self::Atan => first.atan(),
             Self::Step => first.step(),
             Self::SmoothStep => first.smooth_step(),
-            Self::Min if second.value() < first.value() => second,
-            Self::Max if second.value() > first.value() => second,
-            Self::Min | Self::Max => first,
+            Self::Min => N::select(first.value().is_above(second.value()), second, first),
+            Self::Max => N::select(second.value().is_above(first.value()), second, first),
         }
     }
 }

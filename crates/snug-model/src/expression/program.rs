@@ -1,7 +1,8 @@
 use super::name::{Function, Variable};
 use super::tree::{Binary, Tree};
-use crate::Number;
 use crate::effect::Instant;
+use crate::real::Task;
+use crate::{Number, Real};
 
 /// Intermediate results a program may keep at a time.
 pub const MAXIMUM_TEMPORARIES: usize = 16;
@@ -19,7 +20,7 @@ pub struct Program {
 
 /// What an expression's variables stand for.
 #[derive(Debug, Clone, Copy)]
-pub struct Surroundings<'a, N> {
+pub struct Surroundings<'a, N: Number> {
     /// The instant at which the law acts.
     pub at: &'a Instant<N>,
     /// α \[rad/s²\]; known to the sensor only.
@@ -136,33 +137,63 @@ impl Program {
     /// Out of line: within the equations of motion it would cost every effect registers, used or not.
     #[inline(never)]
     pub fn evaluate<N: Number>(&self, p: &[N], around: &Surroundings<N>) -> N {
-        match self.temporaries {
-            0..=2 => self.run::<N, 2>(p, around),
-            3 | 4 => self.run::<N, 4>(p, around),
-            _ => self.run::<N, MAXIMUM_TEMPORARIES>(p, around),
-        }
+        let run = Run {
+            program: self,
+            p,
+            around,
+        };
+        around.at.lever_arm_m.vectorize(run)
     }
 
     #[inline(always)]
     fn run<N: Number, const T: usize>(&self, p: &[N], around: &Surroundings<N>) -> N {
-        let mut kept = [N::from(0.0); T];
+        let mut kept = [around.at.x_m.constant(0.0); T];
         for instruction in &self.instructions {
-            let of = |operand| fetch(operand, p, around, &kept);
+            let from = Operands {
+                p,
+                around,
+                kept: &kept,
+            };
             let value = match instruction.operation {
-                Operation::Add(a, b) => of(a) + of(b),
-                Operation::Subtract(a, b) => of(a) - of(b),
-                Operation::Multiply(a, b) => of(a) * of(b),
-                Operation::Divide(a, b) => of(a) / of(b),
-                Operation::Shift(a, by) => of(a) + by,
-                Operation::Scale(a, by) => of(a) * by,
-                Operation::WholePower(a, exponent) => of(a).power(exponent),
-                Operation::RealPower(a, exponent) => of(a).real_power(exponent),
-                Operation::Power(a, b) => of(a).power_of(of(b)),
-                Operation::Call(function, a, b) => function.of(of(a), of(b)),
+                Operation::Add(a, b) => from.get(a) + from.get(b),
+                Operation::Subtract(a, b) => from.get(a) - from.get(b),
+                Operation::Multiply(a, b) => from.get(a) * from.get(b),
+                Operation::Divide(a, b) => from.get(a) / from.get(b),
+                Operation::Shift(a, by) => from.get(a) + by,
+                Operation::Scale(a, by) => from.get(a) * by,
+                Operation::WholePower(a, exponent) => from.get(a).power(exponent),
+                Operation::RealPower(a, exponent) => from.get(a).real_power(exponent),
+                Operation::Power(a, b) => from.get(a).power_of(from.get(b)),
+                Operation::Call(function, a, b) => function.of(from.get(a), from.get(b)),
             };
             kept[instruction.to] = value;
         }
-        fetch(self.result, p, around, &kept)
+        let from = Operands {
+            p,
+            around,
+            kept: &kept,
+        };
+        from.get(self.result)
+    }
+}
+
+/// One evaluation.
+struct Run<'a, N: Number> {
+    program: &'a Program,
+    p: &'a [N],
+    around: &'a Surroundings<'a, N>,
+}
+
+impl<N: Number> Task for Run<'_, N> {
+    type Output = N;
+    #[inline(always)]
+    fn run(self) -> N {
+        let Self { program, p, around } = self;
+        match program.temporaries {
+            0..=2 => program.run::<N, 2>(p, around),
+            3 | 4 => program.run::<N, 4>(p, around),
+            _ => program.run::<N, MAXIMUM_TEMPORARIES>(p, around),
+        }
     }
 }
 
@@ -191,24 +222,36 @@ fn operation(operator: Binary, left: Operand, right: Operand) -> Operation {
     }
 }
 
-#[inline(always)]
-fn fetch<N: Number>(operand: Operand, p: &[N], around: &Surroundings<N>, kept: &[N]) -> N {
-    let at = around.at;
-    match operand {
-        Operand::Temporary(index) => kept[index],
-        Operand::Parameter(index) => p[index],
-        Operand::Constant(value) => N::from(value),
-        Operand::Variable(variable) => match variable {
-            Variable::X => at.x_m,
-            Variable::V => at.v_m_per_s,
-            Variable::Torque => at.torque_nm,
-            Variable::Time => N::from(at.since_onset_s),
-            Variable::Theta => at.x_m * (1.0 / at.lever_arm_m),
-            Variable::Omega => at.v_m_per_s * (1.0 / at.lever_arm_m),
-            Variable::Lever => N::from(at.lever_arm_m),
-            Variable::Acceleration => around
-                .acceleration_rad_per_s2
-                .expect("only what the sensor adds may name the acceleration"),
-        },
+/// What operands stand for at one instruction.
+struct Operands<'a, N: Number> {
+    p: &'a [N],
+    around: &'a Surroundings<'a, N>,
+    kept: &'a [N],
+}
+
+impl<N: Number> Operands<'_, N> {
+    #[inline(always)]
+    fn get(&self, operand: Operand) -> N {
+        let at = self.around.at;
+        match operand {
+            Operand::Temporary(index) => self.kept[index],
+            Operand::Parameter(index) => self.p[index],
+            Operand::Constant(value) => at.x_m.constant(value),
+            Operand::Variable(variable) => match variable {
+                Variable::X => at.x_m,
+                Variable::V => at.v_m_per_s,
+                Variable::Torque => at.torque_nm,
+                Variable::Time => N::from(at.since_onset_s),
+                Variable::Theta => at.x_m.times(at.lever_arm_m.constant(1.0) / at.lever_arm_m),
+                Variable::Omega => at
+                    .v_m_per_s
+                    .times(at.lever_arm_m.constant(1.0) / at.lever_arm_m),
+                Variable::Lever => N::from(at.lever_arm_m),
+                Variable::Acceleration => self
+                    .around
+                    .acceleration_rad_per_s2
+                    .expect("only what the sensor adds may name the acceleration"),
+            },
+        }
     }
 }

@@ -2,18 +2,18 @@
 
 use super::name::Function;
 use super::*;
-use crate::Dual;
 use crate::effect::Instant;
+use crate::{Dual, Number};
 
 const PARAMETERS: [&str; 2] = ["p", "q"];
 
 fn surroundings<N: crate::Number>(x_m: N, v_m_per_s: N) -> Instant<N> {
     Instant {
-        torque_nm: N::from(12.0),
+        torque_nm: x_m.constant(12.0),
         x_m,
         v_m_per_s,
-        since_onset_s: 0.07,
-        lever_arm_m: 0.25,
+        since_onset_s: x_m.value().constant(0.07),
+        lever_arm_m: x_m.value().constant(0.25),
     }
 }
 

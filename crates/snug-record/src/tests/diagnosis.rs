@@ -83,6 +83,7 @@ fn diagnosis() -> Diagnosis {
         unlisted: None,
         experiment: None,
         showcase: None,
+        work: WorkDone::default(),
     }
 }
 

@@ -7,6 +7,7 @@ mod corrections;
 mod detectability;
 mod deviations;
 mod distributions;
+mod effort;
 mod findings;
 mod glossary;
 mod identifiability;
@@ -58,6 +59,7 @@ const DIAGNOSIS: &[DiagnosisSection] = &[
     location::SECTION,
     comparison::SECTION,
     detectability::SECTION,
+    effort::SECTION,
 ];
 
 /// A section with its content.

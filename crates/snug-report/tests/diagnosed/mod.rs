@@ -7,7 +7,7 @@ use crate::specimen;
 use evidence::{effect, parameter, ranked};
 use snug_campaign::{
     AddedEffect, CampaignResult, CorrectedEffect, Diagnosis, Experiment, NoiseStatement, Removal,
-    Rung, Showcase, Traces, UnlistedTerm, Verdict,
+    Rung, Showcase, Traces, UnlistedTerm, Verdict, WorkDone,
 };
 
 /// `improve` on 24 tightenings: two effects added, nothing left.
@@ -32,6 +32,14 @@ pub fn improve() -> CampaignResult {
             statement: "Without torque_delay the error over noise rises from 1.018 to 1.38, so it stays.".into(),
         }],
         showcase: Some(showcase),
+        work: WorkDone {
+            rankings: 3,
+            signatures: 4_512,
+            pooled_fits: 123,
+            steps: 1_234,
+            linearizations: 29_616,
+            conic_solves: 7,
+        },
         final_location: Some(location::after()),
         experiment: None,
         ..diagnosis(&result)
@@ -106,6 +114,7 @@ fn diagnosis(result: &CampaignResult) -> Diagnosis {
             statement: "9 tightenings on the soft joint with targets 15 and 40 Nm would tell them apart.".into(),
         }),
         showcase: None,
+        work: WorkDone::default(),
     }
 }
 

@@ -1,0 +1,59 @@
+use crate::dense::dot;
+
+/// Coordinates of each signal in an orthonormal basis of all of them.
+pub(crate) fn coordinates(signals: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    let mut span = Nuisance { basis: Vec::new() };
+    let along = |span: &Nuisance, signal: &[f64]| -> Vec<f64> {
+        span.basis
+            .iter()
+            .map(|direction| dot(direction, signal))
+            .collect()
+    };
+    for signal in signals {
+        span.extend(signal, SAME_DIRECTION);
+    }
+    signals.iter().map(|signal| along(&span, signal)).collect()
+}
+
+/// Squared share of a signal below which what is new in it is rounding.
+const SAME_DIRECTION: f64 = 1e-12;
+
+/// Orthonormal basis of what the own parameters can imitate.
+pub(crate) struct Nuisance {
+    basis: Vec<Vec<f64>>,
+}
+
+impl Nuisance {
+    /// Gram–Schmidt, twice, of the first `columns` columns.
+    pub fn new(jacobian: &[f64], count: usize, columns: usize) -> Self {
+        let mut nuisance = Self { basis: Vec::new() };
+        for column in jacobian.chunks_exact(count.max(1)).take(columns) {
+            nuisance.extend(column, 1e-20);
+        }
+        nuisance
+    }
+
+    /// Adds what is new in a signal, if that is more than `least` of its squared length.
+    fn extend(&mut self, signal: &[f64], least: f64) {
+        let mut rest = signal.to_vec();
+        let before = dot(&rest, &rest);
+        self.project(&mut rest);
+        self.project(&mut rest);
+        let length = dot(&rest, &rest);
+        if length > least * before && length > 0.0 && length.is_finite() {
+            let scale = 1.0 / length.sqrt();
+            rest.iter_mut().for_each(|value| *value *= scale);
+            self.basis.push(rest);
+        }
+    }
+
+    /// Takes out of a signal what the basis can imitate.
+    pub fn project(&self, signal: &mut [f64]) {
+        for direction in &self.basis {
+            let along = dot(direction, signal);
+            for (value, d) in signal.iter_mut().zip(direction) {
+                *value -= along * d;
+            }
+        }
+    }
+}

@@ -1,0 +1,36 @@
+use super::DiagnosisSection;
+use maud::{Markup, html};
+use snug_campaign::{CampaignResult, Diagnosis};
+
+/// How much work the diagnosis was.
+pub const SECTION: DiagnosisSection = DiagnosisSection {
+    anchor: "effort",
+    short_title: "Work done",
+    title: "How much work this was",
+    render,
+};
+
+fn render(diagnosis: &Diagnosis, _result: &CampaignResult) -> Option<Markup> {
+    let work = &diagnosis.work;
+    let rows = [
+        ("rankings of all candidates", work.rankings),
+        (
+            "simulations for how a candidate would show",
+            work.signatures,
+        ),
+        ("fits of tightenings together", work.pooled_fits),
+        ("steps tried in them", work.steps),
+        (
+            "simulations with sensitivities in them",
+            work.linearizations,
+        ),
+        ("conic programs solved in them", work.conic_solves),
+    ];
+    Some(html! {
+        p { "Counts, not times: the same data and study give the same counts on every run and for any number of threads. \
+            More of them after an update means that something has become slower." }
+        table {
+            tbody { @for (what, count) in rows { tr { th scope="row" { (what) } td { (count) } } } }
+        }
+    })
+}

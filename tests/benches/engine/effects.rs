@@ -1,0 +1,87 @@
+//! Every effect of the catalogue: one fit of one tightening, and its share of a fit of many together.
+
+use crate::bare_loop;
+use crate::base::{fit, fitting};
+use crate::campaign::{Campaign, START, record};
+use crate::measure::{Clock, Times, race};
+use crate::table::{Reference, section, times_the};
+use snug_campaign::Quantity;
+use snug_diagnose::{Case, fit_together};
+use snug_model::Effect;
+use snug_synthetic::HiddenEffect;
+use std::hint::black_box;
+
+/// Tightenings that hide the effect and are fitted together.
+const TOGETHER: usize = 24;
+/// Of them those that are fitted one by one.
+const ALONE: usize = 4;
+/// How strongly they hide it.
+const STRENGTH: f64 = 0.3;
+
+pub fn fill(_is_long: bool) {
+    section(&format!(
+        "Catalogue: m, c, k and one effect from the whitened acceleration, 3000 samples; pooled: {TOGETHER} tightenings that share it; one core"
+    ));
+    let pool = one_core();
+    for &effect in Effect::ALL {
+        let name = effect.name();
+        let hidden = HiddenEffect::from_name(name).map(|hidden| (hidden, STRENGTH));
+        let cases = Campaign::hiding(
+            &hidden.map_or_else(|_| Vec::new(), |one| vec![one]),
+            TOGETHER,
+        )
+        .cases();
+        pool.install(|| row(name, effect, &cases));
+    }
+}
+
+fn row(name: &str, effect: Effect, cases: &[Case]) {
+    let with: Vec<Case> = (cases.iter().take(ALONE))
+        .filter_map(|case| with_effect(case, effect))
+        .collect();
+    let settings = fitting(Quantity::Acceleration);
+    let [bare, alone, together] = race(
+        Clock::Core,
+        [
+            (cases.len(), &mut || {
+                for case in cases {
+                    black_box(bare_loop::fit(&record(case), START));
+                }
+            }),
+            (with.len().max(1), &mut || {
+                for case in &with {
+                    black_box(fit(case, &settings));
+                }
+            }),
+            (cases.len(), &mut || {
+                black_box(fit_together(cases, &[effect]).expect("the benchmark's own data"));
+            }),
+        ],
+    );
+    let against = |times: &Times, what: &str| {
+        let reference = Reference {
+            name: "the bare scalar loop",
+            times: &bare,
+        };
+        times_the(&reference, times, &format!("{name}, {what}"));
+    };
+    against(&alone, "one tightening");
+    against(&together, "pooled, per tightening");
+}
+
+/// The same tightening, the effect in its model.
+fn with_effect(case: &Case, effect: Effect) -> Option<Case> {
+    let model = case.model.with_effect(effect).ok()?;
+    Some(Case {
+        model,
+        ..case.clone()
+    })
+}
+
+/// What runs in parallel elsewhere runs on one core here.
+pub fn one_core() -> rayon::ThreadPool {
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(1)
+        .build()
+        .expect("one thread can be started")
+}

@@ -1,0 +1,81 @@
+//! The whole catalogue ranked: what is missing beside the base model.
+
+use crate::bare_loop;
+use crate::campaign::{Campaign, START, record};
+use crate::measure::{Clock, once, race};
+use crate::table::{Reference, left_out, section, times_the};
+use snug_diagnose::{Case, DiagnoseSettings, Goal, Question, Watch, examine};
+use std::hint::black_box;
+
+/// Tightenings of the short row and of the long one.
+const FEW: usize = 24;
+const MANY: usize = 2687;
+
+pub fn fill(is_long: bool) {
+    section(
+        "Ranking of the whole catalogue, nothing hidden: base model fitted, every effect scored and refitted, negative control, where the model fails; all cores",
+    );
+    let campaign = Campaign::hiding(&[], FEW);
+    let cases = campaign.cases();
+    let mut candidates = 0;
+    let [bare, ours] = race(
+        Clock::Wall,
+        [
+            (1, &mut || bare_fits(&cases)),
+            (1, &mut || candidates = diagnose(&cases)),
+        ],
+    );
+    row(&bare, &ours, cases.len(), candidates);
+    if !is_long {
+        return left_out(&format!(
+            "the same for {MANY} tightenings takes minutes: --long"
+        ));
+    }
+    let cases = Campaign::hiding(&[], MANY).cases();
+    let bare = once(|| bare_fits(&cases));
+    let ours = once(|| candidates = diagnose(&cases));
+    row(&bare, &ours, cases.len(), candidates);
+}
+
+fn row(
+    bare: &crate::measure::Times,
+    ours: &crate::measure::Times,
+    tightenings: usize,
+    candidates: usize,
+) {
+    let reference = Reference {
+        name: "bare scalar loops",
+        times: &bare.scaled(candidates as f64),
+    };
+    let what = format!(
+        "{tightenings} tightenings; the reference fits the base model {candidates} times, once for each candidate"
+    );
+    times_the(&reference, ours, &what);
+}
+
+/// One base-model fit of each by the bare scalar loop.
+pub fn bare_fits(cases: &[Case]) {
+    for case in cases {
+        black_box(bare_loop::fit(&record(case), START));
+    }
+}
+
+/// Number of candidates ranked.
+fn diagnose(cases: &[Case]) -> usize {
+    let question = Question {
+        cases,
+        effects: Vec::new(),
+        custom: Vec::new(),
+        goal: Goal::Diagnose,
+    };
+    let answer = examine(
+        &question,
+        &DiagnoseSettings::default(),
+        &Watch::new(&|_| ()),
+    );
+    answer
+        .expect("the benchmark's own data")
+        .diagnosis
+        .ranking
+        .len()
+}
