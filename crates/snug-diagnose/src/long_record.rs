@@ -11,8 +11,12 @@ const SOON: usize = 30_000;
 
 /// Starts of an effect that are tried: twice the usual number where that is soon done, for the cost has more minima.
 pub(crate) fn most_starts(cases: &[Case], settings: &DiagnoseSettings) -> usize {
+    settings.starts * if is_soon_simulated(cases) { 2 } else { 1 }
+}
+
+fn is_soon_simulated(cases: &[Case]) -> bool {
     let samples: usize = cases.iter().map(|case| case.measured().len()).sum();
-    settings.starts * if samples <= SOON { 2 } else { 1 }
+    samples <= SOON
 }
 
 /// When the trial of one start stops.
@@ -21,8 +25,8 @@ const ROUGH: PooledSettings = PooledSettings {
     cost_tolerance: 1e-3,
 };
 
-/// Fits from each of `starts`, and with the best of their sizes from where the study's own mass, damping and stiffness
-/// begin; the lowest cost goes on to the end.
+/// Fits from each of `starts`, and with their sizes (those of the best alone where the record is long to simulate) from
+/// where the study's own mass, damping and stiffness begin; the lowest cost goes on to the end.
 ///
 /// A model without the effect may have been led far off by what it lacks, to where no step leads back.
 pub(crate) fn best_of(
@@ -44,16 +48,23 @@ pub(crate) fn best_of(
                 false
             }
         };
-    let mut leading = 0;
-    for (index, start) in starts.iter().enumerate() {
+    let begins_afresh = is_soon_simulated(hypothesis.cases);
+    let own = hypothesis.usual_start().own;
+    let afresh = |start: &Start| Start {
+        own: own.clone(),
+        shared: start.shared.clone(),
+    };
+    let mut leading = None;
+    for start in starts {
         if attempt(hypothesis, start) {
-            leading = index;
+            leading = Some(start);
+        }
+        if begins_afresh {
+            attempt(hypothesis, &afresh(start));
         }
     }
-    if let Some(leader) = starts.get(leading) {
-        let own = hypothesis.usual_start().own;
-        let shared = leader.shared.clone();
-        attempt(hypothesis, &Start { own, shared });
+    if let (Some(leader), false) = (leading, begins_afresh) {
+        attempt(hypothesis, &afresh(leader));
     }
     let Some(best) = best else {
         let none = || snug_identify::IdentifyError::NoStart.into();
