@@ -48,7 +48,7 @@ pub(crate) fn best_of(
                 false
             }
         };
-    let begins_afresh = is_soon_simulated(hypothesis.cases);
+    let begins_afresh = is_soon_simulated(&hypothesis.cases);
     let own = hypothesis.usual_start().own;
     let afresh = |start: &Start| Start {
         own: own.clone(),
