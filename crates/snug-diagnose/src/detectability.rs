@@ -1,9 +1,9 @@
 //! How large an effect that was not found would have to be to be seen in these data.
 
 use crate::DiagnoseSettings;
+use crate::column::Column;
 use crate::fitted::Fitted;
 use crate::ranking::Ranking;
-use crate::score::Column;
 use crate::unlisted::is_unlisted;
 use crate::wording::amount;
 use snug_campaign::Detectability;

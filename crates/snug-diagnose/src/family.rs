@@ -1,7 +1,7 @@
 //! Family-wise p: how often the largest statistic of all candidates reaches as far when whole units flip their sign
 //! (Westfall and Young's max-T).
 
-use crate::score::Column;
+use crate::column::Column;
 use rand::{RngCore, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use snug_model::Effect;

@@ -4,6 +4,7 @@ mod applicability;
 mod case;
 mod cases;
 mod climb;
+mod column;
 mod dense;
 mod detectability;
 mod error;

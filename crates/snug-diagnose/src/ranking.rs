@@ -2,12 +2,13 @@
 
 use crate::DiagnoseError;
 use crate::cases::Cases;
+use crate::column::Column;
 use crate::evidence::{clearness, spread_of_sum};
 use crate::family::Family;
 use crate::fitted::Fitted;
 use crate::hypothesis::{Hypothesis, Start};
 use crate::long_record;
-use crate::score::{Column, Control, Scored, Scorer};
+use crate::score::{Control, Scored, Scorer};
 use crate::units::Units;
 use crate::{Case, DiagnoseSettings, Watch};
 use rayon::prelude::*;
