@@ -113,11 +113,10 @@ pub(crate) fn justified(
             }
         }
         None => {
-            let gains =
-                |candidate: &&Candidate| candidate.gain() > 0.0 && candidate.clearness() > 1.0;
-            let all = ranking.candidates.iter().filter(gains);
+            let all = ranking.candidates.iter();
+            let gaining = all.filter(|candidate| candidate.gains_clearly());
             Err(Stop::NothingSupported {
-                best_p: all.map(|candidate| candidate.p_family).fold(1.0, f64::min),
+                best_p: gaining.map(|one| one.p_family).fold(1.0, f64::min),
             })
         }
     }
