@@ -34,6 +34,9 @@ impl Verdict {
 pub struct EffectParameter {
     /// Name with unit suffix.
     pub name: String,
+    /// What it is, in a few words, as its effect says it; empty where nothing says it.
+    #[serde(default)]
+    pub meaning: String,
     /// Unit as people write it.
     pub unit: String,
     /// Estimate; of a parameter that every tightening has of its own, the mean.
@@ -160,6 +163,9 @@ pub struct Detectability {
     pub effect: String,
     /// The parameter whose size is meant.
     pub parameter: String,
+    /// What that parameter is, in a few words, as its effect says it; empty where nothing says it.
+    #[serde(default)]
+    pub meaning: String,
     /// Its unit.
     pub unit: String,
     /// Absent or smaller than this (95 % power at the family-wise level).

@@ -389,7 +389,6 @@ impl Examination<'_> {
         let sizes = parameters(self.question.cases, fitted, effect);
         Some(UnlistedTerm {
             statement: wording::unlisted(
-                effect,
                 &declared,
                 gain,
                 &sizes,

@@ -1,6 +1,7 @@
 //! What changes from tightening to tightening: fatigue shows in the fitted m, c, k, not in the misfit of any one.
 
 use crate::Case;
+use crate::sizes::described;
 use crate::wording;
 use snug_campaign::{Drift, EffectParameter, RankedEffect};
 use snug_model::{BASE_PARAMETERS, TRENDS};
@@ -32,17 +33,12 @@ pub(crate) fn fatigue(drifts: &[Drift], cases: &[Case]) -> Option<RankedEffect> 
             let drift = over_number(name)?;
             let interval = drift.interval_percent;
             Some(EffectParameter {
-                name: spec.name.to_owned(),
-                unit: spec.unit.to_owned(),
                 value: per_tightening(drift.change_percent),
                 low: interval.map(|interval| per_tightening(interval.low)),
                 high: interval.map(|interval| per_tightening(interval.high)),
                 standard_error: interval
                     .map(|interval| per_tightening(interval.high - interval.low) / 3.92),
-                per_tightening: false,
-                spread: None,
-                minimum: spec.minimum,
-                maximum: spec.maximum,
+                ..described(spec)
             })
         })
         .collect();
@@ -65,7 +61,7 @@ pub(crate) fn fatigue(drifts: &[Drift], cases: &[Case]) -> Option<RankedEffect> 
             format!("How it shows: {}.", description.shows_as),
             format!(
                 "Its size in these data: {}.",
-                wording::sizes(description, &parameters)
+                wording::sizes(&parameters)
             ),
             description.check.to_owned(),
         ],

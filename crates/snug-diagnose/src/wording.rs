@@ -8,7 +8,7 @@ use crate::ranking::Candidate;
 use crate::units::Units;
 use crate::unlisted::{declaration, is_unlisted};
 use snug_campaign::{CorrectedEffect, EffectParameter, RankedEffect, Verdict};
-use snug_model::{CustomEffectSettings, Description, Effect, Law, TRENDS};
+use snug_model::{CustomEffectSettings, Effect, Law, TRENDS};
 
 /// What the words are about.
 pub(crate) struct Situation<'a> {
@@ -64,8 +64,12 @@ fn number(value: f64) -> String {
 }
 
 /// `friction force 1.18 N (1.14 to 1.23)`.
-fn size(meaning: &str, parameter: &EffectParameter) -> String {
-    let value = format!("{} {}", meaning, amount(parameter.value, &parameter.unit));
+fn size(parameter: &EffectParameter) -> String {
+    let value = format!(
+        "{} {}",
+        parameter.meaning,
+        amount(parameter.value, &parameter.unit)
+    );
     let range = match (parameter.low, parameter.high) {
         (Some(low), Some(high)) => format!(" ({} to {})", number(low), number(high)),
         _ => " (at the edge of its plausible range)".to_owned(),
@@ -81,14 +85,8 @@ fn size(meaning: &str, parameter: &EffectParameter) -> String {
 }
 
 /// What each parameter of an effect is, with its range, one after the other.
-pub(crate) fn sizes(description: &Description, parameters: &[EffectParameter]) -> String {
-    let told = parameters.iter().map(|parameter| {
-        // Beside an effect with a parameter of the same name it is called after its own: torque_lag_tau_s.
-        let mut specs = description.parameters.iter();
-        let spec = specs.find(|spec| parameter.name.ends_with(spec.name));
-        size(spec.map_or(&parameter.name, |spec| spec.meaning), parameter)
-    });
-    told.collect::<Vec<_>>().join(", ")
+pub(crate) fn sizes(parameters: &[EffectParameter]) -> String {
+    parameters.iter().map(size).collect::<Vec<_>>().join(", ")
 }
 
 fn spoken(effect: Effect) -> String {
@@ -202,7 +200,7 @@ pub(crate) fn reasons(situation: &Situation<'_>) -> Vec<String> {
         ));
         reasons.push(format!(
             "Its size: {}.",
-            sizes(chosen.effect.description(), &first.parameters)
+            sizes(&first.parameters)
         ));
         let twins: Vec<String> = first
             .twins
@@ -224,7 +222,7 @@ pub(crate) fn reasons(situation: &Situation<'_>) -> Vec<String> {
             reasons.push(format!(
                 "Beside the misfit, mass, damping or stiffness drift with the tightening's number ({}): {}.",
                 trend.name,
-                sizes(trend, &found.parameters)
+                sizes(&found.parameters)
             ));
         }
     }
@@ -315,7 +313,7 @@ pub(crate) fn explanation(effect: Effect, parameters: &[EffectParameter]) -> Vec
             ),
             format!(
                 "Its size in these data: {}.",
-                sizes(description, parameters)
+                sizes(parameters)
             ),
         ];
     }
@@ -324,7 +322,7 @@ pub(crate) fn explanation(effect: Effect, parameters: &[EffectParameter]) -> Vec
         format!("How it shows: {}.", description.shows_as),
         format!(
             "Its size in these data: {}.",
-            sizes(description, parameters)
+            sizes(parameters)
         ),
         description.check.to_owned(),
     ];
@@ -346,7 +344,6 @@ pub(crate) fn removal(attempt: &Attempt) -> String {
 
 /// The unlisted term in words.
 pub(crate) fn unlisted(
-    effect: Effect,
     declared: &CustomEffectSettings,
     gain: f64,
     parameters: &[EffectParameter],
@@ -356,7 +353,7 @@ pub(crate) fn unlisted(
     format!(
         "The simplest term that describes it is a force {} with {}; it removes {:.0} % of the misfit in {held_out} that took no part in finding its size. It describes; what causes it is for the bench to find out.",
         declared.expression,
-        sizes(effect.description(), parameters),
+        sizes(parameters),
         (gain * 100.0).clamp(0.0, 100.0)
     )
 }

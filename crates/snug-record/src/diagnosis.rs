@@ -141,6 +141,7 @@ pub(crate) const LADDER: Message = Message {
 
 const PARAMETER: &[Field] = &[
     field("name", Kind::Text, "", "Name with unit suffix"),
+    field("meaning", Kind::Text, "", "What it is, in a few words"),
     field("unit", Kind::Text, "", "Unit"),
     field("value", Kind::Double, "the parameter's", "Estimate"),
     field(

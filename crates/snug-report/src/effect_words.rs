@@ -80,48 +80,18 @@ pub fn sentence(text: &str) -> Markup {
 pub fn sizes(parameters: &[EffectParameter], result: &CampaignResult) -> Markup {
     html! {
         @for parameter in parameters {
-            span.size { (parameter_name(&parameter.name, result)) " " (size(parameter)) }
+            span.size { (parameter_name(&parameter.meaning, &parameter.name, result)) " " (size(parameter)) }
         }
     }
 }
 
-/// What the catalogue's parameters are called.
-const PARAMETERS: [(&str, &str); 27] = [
-    ("k3_n_per_m3", "coefficient k3"),
-    ("k2_n_per_m2", "coefficient k2"),
-    ("fc_n", "friction force"),
-    ("c2_n_s2_per_m2", "coefficient c2"),
-    ("c_rebound_kg_per_s", "extra damping on the way back"),
-    ("gap_m", "gap"),
-    ("k_m_n_per_m", "branch stiffness"),
-    ("k_h_n_per_m", "hysteresis stiffness"),
-    ("z_max_m", "largest hysteresis deflection"),
-    ("m2_kg", "its mass"),
-    ("k2_n_per_m", "its stiffness"),
-    ("c2_kg_per_s", "its damping"),
-    ("f_max_n", "largest grip force"),
-    ("k_r_n_per_m", "reflex stiffness"),
-    ("tau_s", "delay or time constant"),
-    ("f_n", "push"),
-    ("onset_s", "onset"),
-    ("rise_s", "rise time"),
-    ("rise_ratio", "rise of the stiffness"),
-    ("kappa_per_nm", "rise of the stiffness per Nm"),
-    ("offset_nm", "offset"),
-    ("delay_s", "delay"),
-    ("bias_rad_per_s2", "bias"),
-    ("theta0_rad", "angle at the start"),
-    ("omega0_rad_per_s", "velocity at the start"),
-    ("epsilon", "share of ω²"),
-    ("gamma_rad_per_s2", "share of sin θ"),
-];
-
-/// What a parameter of an effect is called; one that the catalogue does not have, by its own name.
-pub fn parameter_name(name: &str, result: &CampaignResult) -> String {
-    PARAMETERS.iter().find(|known| known.0 == name).map_or_else(
-        || quantity::name(name, result).words,
-        |known| known.1.to_owned(),
-    )
+/// What a parameter of an effect is called: as its effect says it, else by its own name.
+pub fn parameter_name(meaning: &str, name: &str, result: &CampaignResult) -> String {
+    if meaning.is_empty() {
+        quantity::name(name, result).words
+    } else {
+        meaning.to_owned()
+    }
 }
 
 /// How often chance alone would do as well: `once in 1000 cases`.

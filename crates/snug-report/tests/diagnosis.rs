@@ -106,7 +106,7 @@ fn the_verdict_states_sizes_with_intervals_units_and_certainty() {
         &[
             "the model is adequate",
             "cubic stiffness",
-            "k3 9.90 × 10⁵ N/m³ [9.61, 10.19] × 10⁵ N/m³",
+            "cubic stiffness 9.90 × 10⁵ N/m³ [9.61, 10.19] × 10⁵ N/m³",
             "It removes 83 % of the misfit",
             "chance alone does as well in 1 of 1000 cases",
             "delay 0.00160 s [0.00131, 0.00189] s",
@@ -228,7 +228,7 @@ fn candidates_stand_with_gain_chance_size_and_twins() {
         "ranking",
         &[
             "misfit removed in held-out tightenings [%]",
-            "cubic stiffness 83 ± 4 % p 0.001 coefficient k3 9.90 × 10⁵ N/m³",
+            "cubic stiffness 83 ± 4 % p 0.001 cubic stiffness 9.90 × 10⁵ N/m³",
             "not to be told from quadratic stiffness",
             "size not plausible",
             "4 more were tried; terms that are in no catalogue among them: 1",

@@ -12,7 +12,7 @@ pub fn significant(value: f64) -> String {
     }
 }
 
-/// A parameter with interval and unit: `k3_n_per_m3 9.90e5 [9.61e5, 1.02e6] N/m^3`.
+/// A parameter with interval and unit: `cubic stiffness 9.90e5 [9.61e5, 1.02e6] N/m^3`.
 pub fn sized(parameter: &EffectParameter) -> String {
     let interval = match (parameter.low, parameter.high) {
         // An interval without width says that the data do not determine the value.
@@ -34,9 +34,12 @@ pub fn sized(parameter: &EffectParameter) -> String {
         (true, None) => " on average".into(),
         (false, _) => String::new(),
     };
+    let called = match parameter.meaning.as_str() {
+        "" => &parameter.name,
+        meaning => meaning,
+    };
     format!(
-        "{} {}{interval} {unit}{own}",
-        parameter.name,
+        "{called} {}{interval} {unit}{own}",
         alike(parameter.value, parameter)
     )
     .trim_end()

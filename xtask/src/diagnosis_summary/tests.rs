@@ -6,6 +6,7 @@ use snug_campaign::*;
 fn parameter(name: &str, unit: &str, value: f64, low: f64, high: f64) -> EffectParameter {
     EffectParameter {
         name: name.into(),
+        meaning: "cubic stiffness".into(),
         unit: unit.into(),
         value,
         low: Some(low),
@@ -130,7 +131,7 @@ fn lines_keep_their_width_and_plain_text_has_no_colours() {
 #[test]
 fn sizes_stand_with_unit_and_interval() {
     let text = text(&missing(), "", false);
-    assert!(text.contains("k3_n_per_m3 9.90e5 [9.61e5, 1.02e6] N/m^3"));
+    assert!(text.contains("cubic stiffness 9.90e5 [9.61e5, 1.02e6] N/m^3"));
     assert!(text.contains("83 ± 4 %"));
     assert!(text.contains("< 0.001"));
     assert!(text.contains("effect_7") && !text.contains("effect_8"));

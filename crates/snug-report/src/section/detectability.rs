@@ -51,7 +51,7 @@ fn absent(list: &[Detectability], result: &CampaignResult) -> Markup {
                 th scope="col" { "largest plausible" }
             } }
             tbody { @for row in list { tr {
-                th scope="row" { (effect_name(&row.effect)) " " span.interval { (parameter_name(&row.parameter, result)) } }
+                th scope="row" { (effect_name(&row.effect)) " " span.interval { (parameter_name(&row.meaning, &row.parameter, result)) } }
                 td {
                     @match row.smallest_detectable.filter(|size| size.is_finite()) {
                         Some(size) => (amount(size, &row.unit)),

@@ -219,7 +219,7 @@ fn evidence(candidate: &RankedEffect, result: &CampaignResult) -> Markup {
                 li { "Its size lies on the edge of the plausible range, which speaks against it." }
             }
             @for parameter in &candidate.parameters {
-                li { (parameter_name(&parameter.name, result)) ": plausible from " (significant(parameter.minimum, 3)) " to " (significant(parameter.maximum, 3)) " " (crate::effect_words::unit_text(&parameter.unit)) "." }
+                li { (parameter_name(&parameter.meaning, &parameter.name, result)) ": plausible from " (significant(parameter.minimum, 3)) " to " (significant(parameter.maximum, 3)) " " (crate::effect_words::unit_text(&parameter.unit)) "." }
             }
         }
     }
