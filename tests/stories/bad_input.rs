@@ -147,7 +147,10 @@ fn a_typo_in_the_study_is_told_with_line_and_column() {
     };
     assert_eq!(*line, 2);
     let text = error.to_string();
-    assert!(text.contains("windw") && text.contains("window"), "{text}");
+    assert!(
+        text.contains("windw") && text.ends_with("(did you mean `window`?)"),
+        "{text}"
+    );
     assert!(error.is_bad_argument());
 }
 
@@ -262,7 +265,8 @@ fn settings_that_make_no_sense_are_named() {
     study.model.effects = vec!["cubic_stifness".to_owned()];
     let text = study.check().unwrap_err().to_string();
     assert!(
-        text.contains("cubic_stifness") && text.contains("cubic_stiffness"),
+        text.contains("`cubic_stifness` (did you mean `cubic_stiffness`?)")
+            && text.contains("grip_slip"),
         "{text}"
     );
     let mut study = study_on(&embedded(), Preset::Snug);

@@ -6,6 +6,7 @@ mod conditions;
 mod diagnosis;
 mod estimate;
 mod finding;
+mod likely_name;
 mod location;
 mod noise;
 mod parameter;
@@ -28,6 +29,7 @@ pub use diagnosis::{
 };
 pub use estimate::{Estimate, FitStatus, Identifiability, Interval, ParameterEstimate};
 pub use finding::{Finding, Severity};
+pub use likely_name::did_you_mean;
 pub use location::{Aspect, Drift, ForceCurve, ForceMap, Location, Share};
 pub use noise::{NoiseFloor, NoiseSource};
 pub use parameter::{Parameter, ParameterSource};

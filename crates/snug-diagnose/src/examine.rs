@@ -388,12 +388,7 @@ impl Examination<'_> {
         let declared = declaration(effect.name())?;
         let sizes = parameters(self.question.cases, fitted, effect);
         Some(UnlistedTerm {
-            statement: wording::unlisted(
-                &declared,
-                gain,
-                &sizes,
-                Units::of(self.question.cases),
-            ),
+            statement: wording::unlisted(&declared, gain, &sizes, Units::of(self.question.cases)),
             ron: wording::paste(&declared, &sizes),
             expression: declared.expression,
             heldout_gain: gain,

@@ -59,10 +59,7 @@ pub(crate) fn fatigue(drifts: &[Drift], cases: &[Case]) -> Option<RankedEffect> 
         explanation: vec![
             description.summary.to_owned(),
             format!("How it shows: {}.", description.shows_as),
-            format!(
-                "Its size in these data: {}.",
-                wording::sizes(&parameters)
-            ),
+            format!("Its size in these data: {}.", wording::sizes(&parameters)),
             description.check.to_owned(),
         ],
         parameters,

@@ -198,10 +198,7 @@ pub(crate) fn reasons(situation: &Situation<'_>) -> Vec<String> {
             first.p_family,
             situation,
         ));
-        reasons.push(format!(
-            "Its size: {}.",
-            sizes(&first.parameters)
-        ));
+        reasons.push(format!("Its size: {}.", sizes(&first.parameters)));
         let twins: Vec<String> = first
             .twins
             .iter()
@@ -311,19 +308,13 @@ pub(crate) fn explanation(effect: Effect, parameters: &[EffectParameter]) -> Vec
                 "A term in no catalogue: the hand's force gains {}.",
                 declared.expression
             ),
-            format!(
-                "Its size in these data: {}.",
-                sizes(parameters)
-            ),
+            format!("Its size in these data: {}.", sizes(parameters)),
         ];
     }
     let mut sentences = vec![
         description.summary.to_owned(),
         format!("How it shows: {}.", description.shows_as),
-        format!(
-            "Its size in these data: {}.",
-            sizes(parameters)
-        ),
+        format!("Its size in these data: {}.", sizes(parameters)),
         description.check.to_owned(),
     ];
     sentences.retain(|sentence| !sentence.is_empty());

@@ -1,7 +1,7 @@
 use crate::{DiagnosisSettings, StudyError};
 use ron::extensions::Extensions;
 use serde::{Deserialize, Serialize};
-use snug_campaign::{Intersample, Quantity};
+use snug_campaign::{Intersample, Quantity, did_you_mean};
 use snug_identify::{ConstraintKind, IdentifySettings};
 use snug_ingest::Source;
 use snug_model::ModelSettings;
@@ -87,7 +87,7 @@ impl Study {
                 path: path.to_path_buf(),
                 line: source.span.start.line,
                 column: source.span.start.col,
-                message: source.code.to_string(),
+                message: told(&source.code),
             })
     }
 
@@ -252,6 +252,20 @@ impl PresetChoices {
             },
         }
     }
+}
+
+/// What is wrong with a RON text; behind a misspelt name, the one that may have been meant.
+fn told(error: &ron::Error) -> String {
+    let meant = match error {
+        ron::Error::NoSuchStructField {
+            expected, found, ..
+        }
+        | ron::Error::NoSuchEnumVariant {
+            expected, found, ..
+        } => did_you_mean(found, expected),
+        _ => String::new(),
+    };
+    format!("{error}{meant}")
 }
 
 /// `Option` fields are written as plain values, and `Csv(channels: …)` needs no second pair of parentheses.
