@@ -4,6 +4,7 @@ mod campaign;
 mod comparison;
 mod conditions;
 mod diagnosis;
+mod diagnosis_summary;
 mod estimate;
 mod finding;
 mod likely_name;
@@ -27,6 +28,7 @@ pub use diagnosis::{
     NegativeControl, NoiseStatement, RankedEffect, Removal, Rung, Showcase, UnlistedTerm, Verdict,
     WorkDone,
 };
+pub use diagnosis_summary::DiagnosisSummary;
 pub use estimate::{Estimate, FitStatus, Identifiability, Interval, ParameterEstimate};
 pub use finding::{Finding, Severity};
 pub use likely_name::did_you_mean;
