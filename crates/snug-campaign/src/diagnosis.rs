@@ -66,6 +66,9 @@ pub struct RankedEffect {
     pub kind: String,
     /// True for a term that is in no catalogue and was tried to describe what is left.
     pub unlisted: bool,
+    /// The expression of such a term.
+    #[serde(default)]
+    pub expression: Option<String>,
     /// Its size, refitted to all tightenings.
     pub parameters: Vec<EffectParameter>,
     /// T = Σ s_i / √Σ s_i² over tightenings, before any refit.
@@ -84,7 +87,7 @@ pub struct RankedEffect {
     pub twins: Vec<String>,
     /// Whether its size is physically plausible: no estimate lies on a bound of its range.
     pub plausible: bool,
-    /// What it is, how it shows in these data, what to check at the bench: sentences for a tool engineer.
+    /// What it is, how it shows, what to check at the bench: sentences for a tool engineer.
     pub explanation: Vec<String>,
 }
 

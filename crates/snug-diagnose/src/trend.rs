@@ -46,6 +46,7 @@ pub(crate) fn fatigue(drifts: &[Drift], cases: &[Case]) -> Option<RankedEffect> 
         effect: description.name.to_owned(),
         kind: "trend".to_owned(),
         unlisted: false,
+        expression: None,
         score: 0.0,
         p_family: (smallest * tested.len() as f64).min(1.0),
         heldout_gain: 0.0,
@@ -56,12 +57,7 @@ pub(crate) fn fatigue(drifts: &[Drift], cases: &[Case]) -> Option<RankedEffect> 
         plausible: parameters
             .iter()
             .all(|slope| slope.value > slope.minimum && slope.value < slope.maximum),
-        explanation: vec![
-            description.summary.to_owned(),
-            format!("How it shows: {}.", description.shows_as),
-            format!("Its size in these data: {}.", wording::sizes(&parameters)),
-            description.check.to_owned(),
-        ],
+        explanation: wording::described(description),
         parameters,
     })
 }

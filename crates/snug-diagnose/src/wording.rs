@@ -8,7 +8,7 @@ use crate::ranking::Candidate;
 use crate::units::Units;
 use crate::unlisted::{declaration, is_unlisted};
 use snug_campaign::{CorrectedEffect, EffectParameter, RankedEffect, Verdict};
-use snug_model::{CustomEffectSettings, Effect, Law, TRENDS};
+use snug_model::{CustomEffectSettings, Description, Effect, Law, TRENDS};
 
 /// What the words are about.
 pub(crate) struct Situation<'a> {
@@ -32,12 +32,17 @@ pub(crate) struct Situation<'a> {
 }
 
 impl Situation<'_> {
-    /// Two effects that are to be told apart by an experiment, if there are.
+    /// Two effects that are to be told apart by an experiment, if there are: the one that is missing or was added last, and
+    /// its twin.
     pub fn twin_pair(&self) -> Option<(&Fitted, Effect)> {
-        let chosen = self.chosen?;
-        let first = self.ranking.first()?;
-        let twin = Effect::named(first.twins.first()?)?;
-        Some((&chosen.fitted, twin))
+        if let Some(chosen) = self.chosen {
+            let first = self.ranking.first()?;
+            let twin = Effect::named(first.twins.first()?)?;
+            return Some((&chosen.fitted, twin));
+        }
+        let added = self.additions.last()?;
+        let twin = *added.twins.first()?;
+        (self.after.effects.last() == Some(&added.effect)).then_some((self.after, twin))
     }
 }
 
@@ -89,10 +94,36 @@ pub(crate) fn sizes(parameters: &[EffectParameter]) -> String {
     parameters.iter().map(size).collect::<Vec<_>>().join(", ")
 }
 
-fn spoken(effect: Effect) -> String {
+/// An effect's name, `co contraction`, or the force that a term in no catalogue is.
+pub(crate) fn spoken(effect: Effect) -> String {
     match declaration(effect.name()) {
         Some(declared) => format!("a force {}", declared.expression),
         None => effect.name().replace('_', " "),
+    }
+}
+
+/// An effect that these data cannot tell from others is named with them.
+fn with_twins(name: String, twins: &[String]) -> String {
+    match twins {
+        [] => name,
+        some => format!(
+            "{name} or {} (these data cannot tell which)",
+            some.join(" or ")
+        ),
+    }
+}
+
+fn capitalised(text: &str) -> String {
+    let mut letters = text.chars();
+    let first = letters.next().map(char::to_uppercase);
+    first.into_iter().flatten().chain(letters).collect()
+}
+
+/// `from 1.541 to 1.007 times the measurement noise`.
+fn fall(before: &Fitted, after: &Fitted) -> String {
+    match before.is_weighted && after.is_weighted {
+        true => format!("from {:.3} to {}", before.error(), error(after)),
+        false => format!("from {} to {}", number(before.error()), error(after)),
     }
 }
 
@@ -113,36 +144,35 @@ fn joined(effects: &[String]) -> String {
 
 /// The verdict in one sentence.
 pub(crate) fn headline(situation: &Situation<'_>) -> String {
-    let (before, after) = (error(situation.before), error(situation.after));
-    let added: Vec<String> = situation
-        .additions
-        .iter()
-        .map(|one| spoken(one.effect))
+    let after = error(situation.after);
+    let fell = fall(situation.before, situation.after);
+    let added: Vec<String> = (situation.additions.iter())
+        .map(|one| {
+            let twins: Vec<String> = one.twins.iter().map(|&twin| spoken(twin)).collect();
+            with_twins(spoken(one.effect), &twins)
+        })
         .collect();
     match (situation.verdict, situation.chosen) {
         (Verdict::MissingEffect | Verdict::UnlistedEffect, Some(chosen)) => {
-            let known = match is_unlisted(chosen.effect) {
-                true => "A law that is not in the catalogue is missing",
-                false => "The model lacks",
-            };
             let name = spoken(chosen.effect);
-            let with = error(&chosen.fitted);
-            match is_unlisted(chosen.effect) {
+            let falls = fall(situation.after, &chosen.fitted);
+            let what = match is_unlisted(chosen.effect) {
                 true => format!(
-                    "{known}, best described as {name}: with it the error falls from {after} to {with}."
+                    "A law that is not in the catalogue is missing, best described as {name}"
                 ),
-                false => format!("{known} {name}: with it the error falls from {after} to {with}."),
-            }
+                false => format!("The model lacks {}", with_twins(name, &twins(situation))),
+            };
+            format!("{what}: with it the error falls {falls}.")
         }
         (Verdict::UnlistedEffect, None) if !added.is_empty() => format!(
-            "Something that is not in the catalogue acts here; {} describes it, and the error falls from {before} to {after}.",
+            "Something that is not in the catalogue acts here; {} describes it, and the error falls {fell}.",
             joined(&added)
         ),
         (Verdict::UnlistedEffect, None) => format!(
             "Misfit that repeats from tightening to tightening remains ({after}), and no effect of the catalogue explains it."
         ),
         (Verdict::Adequate, _) if !added.is_empty() => format!(
-            "With {} the model is complete: the error fell from {before} to {after}, and nothing more is justified.",
+            "With {} the model is complete: the error fell {fell}, and nothing more is justified.",
             joined(&added)
         ),
         (Verdict::Adequate, _) => {
@@ -199,11 +229,7 @@ pub(crate) fn reasons(situation: &Situation<'_>) -> Vec<String> {
             situation,
         ));
         reasons.push(format!("Its size: {}.", sizes(&first.parameters)));
-        let twins: Vec<String> = first
-            .twins
-            .iter()
-            .map(|twin| twin.replace('_', " "))
-            .collect();
+        let twins = twins(situation);
         if !twins.is_empty() {
             reasons.push(format!(
                 "These data cannot tell it from {}; they are named together.",
@@ -266,6 +292,14 @@ pub(crate) fn reasons(situation: &Situation<'_>) -> Vec<String> {
     reasons
 }
 
+/// What these data cannot tell from the effect that is missing.
+fn twins(situation: &Situation<'_>) -> Vec<String> {
+    let first = situation.ranking.first();
+    let twins = first.map_or(&[][..], |first| &first.twins);
+    let spoken = |twin: &String| Effect::named(twin).map_or_else(|| twin.replace('_', " "), spoken);
+    twins.iter().map(spoken).collect()
+}
+
 fn evidence(name: &str, gain: f64, p: f64, situation: &Situation<'_>) -> String {
     let chance = match p {
         p if p <= 0.001 => "less than once in 1000 measurements like this".to_owned(),
@@ -278,7 +312,8 @@ fn evidence(name: &str, gain: f64, p: f64, situation: &Situation<'_>) -> String 
         false => "the squared error",
     };
     format!(
-        "{name} removes {gain:.0} % of {of} in {held_out} that took no part in finding its size; chance alone would do that {chance}."
+        "{} removes {gain:.0} % of {of} in {held_out} that took no part in finding its size; chance alone would do that {chance}.",
+        capitalised(name)
     )
 }
 
@@ -286,7 +321,7 @@ fn evidence(name: &str, gain: f64, p: f64, situation: &Situation<'_>) -> String 
 pub(crate) fn stopped(situation: &Situation<'_>) -> Option<String> {
     Some(match situation.stopped? {
         Stop::NothingSupported { best_p } => format!(
-            "No further effect is supported: the best of the rest is matched by chance in {:.0} of 100 campaigns ({:.0} of 100 is the limit).",
+            "No further effect is supported: chance alone does as well as the best of the rest in {:.0} of 100 campaigns like this, and an effect is believed below {:.0} of 100 only.",
             best_p * 100.0,
             situation.settings.level * 100.0
         ),
@@ -299,26 +334,55 @@ pub(crate) fn stopped(situation: &Situation<'_>) -> Option<String> {
     })
 }
 
-/// What an effect is, how it shows here, what to check at the bench.
-pub(crate) fn explanation(effect: Effect, parameters: &[EffectParameter]) -> Vec<String> {
-    let description = effect.description();
-    if let Some(declared) = declaration(effect.name()) {
-        return vec![
+/// What an effect is, how it shows, what to check at the bench.
+pub(crate) fn explanation(effect: Effect) -> Vec<String> {
+    match declaration(effect.name()) {
+        Some(declared) => vec![
             format!(
-                "A term in no catalogue: the hand's force gains {}.",
-                declared.expression
+                "A term in no catalogue: the hand's force gains {} ({}).",
+                declared.expression,
+                symbols(&declared.expression)
             ),
-            format!("Its size in these data: {}.", sizes(parameters)),
-        ];
+            "It describes the missing force; what causes it is for the bench to find out."
+                .to_owned(),
+        ],
+        None => described(effect.description()),
     }
-    let mut sentences = vec![
-        description.summary.to_owned(),
-        format!("How it shows: {}.", description.shows_as),
-        format!("Its size in these data: {}.", sizes(parameters)),
-        description.check.to_owned(),
+}
+
+/// What the catalogue says about an effect or a trend.
+pub(crate) fn described(description: &Description) -> Vec<String> {
+    let Description {
+        summary,
+        shows_as,
+        check,
+        ..
+    } = description;
+    vec![
+        (*summary).to_owned(),
+        format!("How it shows: {shows_as}."),
+        format!("Check at the bench: {check}"),
+    ]
+}
+
+/// What the letters of an expression stand for.
+fn symbols(expression: &str) -> String {
+    let letters: Vec<&str> = expression
+        .split(|sign: char| !sign.is_ascii_alphanumeric())
+        .collect();
+    let meanings = [
+        ("x", "x: displacement of the grip"),
+        ("v", "v: its velocity"),
+        ("theta", "theta: the tool's angle"),
+        ("T", "T: joint torque"),
+        ("p", "p: its size"),
     ];
-    sentences.retain(|sentence| !sentence.is_empty());
-    sentences
+    let used = meanings
+        .iter()
+        .filter(|(letter, _)| letters.contains(letter));
+    used.map(|(_, meaning)| *meaning)
+        .collect::<Vec<_>>()
+        .join(", ")
 }
 
 /// What became of an attempt to do without a term.
@@ -342,9 +406,10 @@ pub(crate) fn unlisted(
 ) -> String {
     let held_out = units.named();
     format!(
-        "The simplest term that describes it is a force {} with {}; it removes {:.0} % of the misfit in {held_out} that took no part in finding its size. It describes; what causes it is for the bench to find out.",
+        "The simplest term that describes it is a force {} with {} ({}); it removes {:.0} % of the misfit in {held_out} that took no part in finding its size. It describes; what causes it is for the bench to find out.",
         declared.expression,
         sizes(parameters),
+        symbols(&declared.expression),
         (gain * 100.0).clamp(0.0, 100.0)
     )
 }

@@ -162,6 +162,12 @@ pub(crate) const RANKING: Message = Message {
         field("kind", Kind::Text, "", "Kind of the effect"),
         field("unlisted", Kind::Flag, "", "In no catalogue"),
         field(
+            "expression",
+            Kind::Text,
+            "",
+            "Expression of a term that is in no catalogue",
+        ),
+        field(
             "parameters",
             Kind::List(&Kind::Object(PARAMETER)),
             "",

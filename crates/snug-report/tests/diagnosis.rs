@@ -312,9 +312,9 @@ fn errors_absence_and_false_alarms_are_stated() {
         &page,
         "detectability",
         &[
-            "2 of 40 : 5.0 %",
+            "2 of 40 , which is 5.0 %",
             "[1.4, 16.5] %",
-            "Meant were 5.0 %",
+            "meant are 5.0 %",
             "coulomb friction friction force 0.830 N 30.0 N",
         ],
     );

@@ -22,6 +22,7 @@ fn candidate(effect: &str, gain: f64) -> RankedEffect {
         effect: effect.into(),
         kind: "mechanical".into(),
         unlisted: false,
+        expression: None,
         parameters: vec![EffectParameter {
             name: "k3_n_per_m3".into(),
             meaning: "cubic stiffness".into(),

@@ -32,7 +32,7 @@ fn false_alarms(control: &NegativeControl) -> Markup {
         h3 { "False alarms" }
         p { "Campaigns were simulated from the accepted model with noise like the measured, so that nothing was missing in them, \
             and ranked in the same way. An effect was called missing in " strong { (control.false_alarms) " of " (control.campaigns) }
-            ": " (percent(rate)) ", 95 % interval " (percent_interval(interval)) ". Meant were " (percent(control.nominal_rate)) "." }
+            ", which is " (percent(rate)) " (95 % interval " (percent_interval(interval)) "); meant are " (percent(control.nominal_rate)) "." }
         @if control.rate_low > control.nominal_rate {
             p.attention { "That is more than meant: read the verdict with care." }
         }

@@ -47,6 +47,7 @@ pub fn ranked(name: &str, kind: &str, behind: f64, gain: f64, error: f64, p: f64
         effect: name.into(),
         kind: kind.into(),
         unlisted: false,
+        expression: None,
         parameters: vec![],
         score: 11.2 - behind,
         p_family: p,
