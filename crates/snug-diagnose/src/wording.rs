@@ -249,14 +249,7 @@ pub(crate) fn reasons(situation: &Situation<'_>) -> Vec<String> {
             ));
         }
     }
-    for one in situation.corrected {
-        reasons.push(format!(
-            "Before the fit, {} was measured in the quiet part and taken out: about {} in {:.0} % of the tightenings.",
-            one.effect.replace('_', " "),
-            amount(one.size, &one.unit),
-            one.share * 100.0
-        ));
-    }
+    reasons.extend(situation.corrected.iter().map(correction));
     if !situation.impossible.is_empty() {
         let names: Vec<String> = situation
             .impossible
@@ -290,6 +283,23 @@ pub(crate) fn reasons(situation: &Situation<'_>) -> Vec<String> {
         ));
     }
     reasons
+}
+
+/// What preparation took out; where that is the rule and not the exception, with what to check.
+fn correction(one: &CorrectedEffect) -> String {
+    let taken_out = format!(
+        "Before the fit, {} was measured in the quiet part and taken out: about {} in {:.0} % of the tightenings.",
+        one.effect.replace('_', " "),
+        amount(one.size, &one.unit),
+        one.share * 100.0
+    );
+    match Effect::named(&one.effect).filter(|_| one.share > 0.5) {
+        Some(effect) => format!(
+            "{taken_out} Check at the bench: {}",
+            effect.description().check
+        ),
+        None => taken_out,
+    }
 }
 
 /// What these data cannot tell from the effect that is missing.

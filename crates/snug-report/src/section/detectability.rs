@@ -44,7 +44,7 @@ fn absent(list: &[Detectability], result: &CampaignResult) -> Markup {
         h3 { "What was not found is absent or smaller than this" }
         p { "Each effect was put into these data to see from which size on it would be found 95 times in 100. Beside it stands the \
             largest size that is physically plausible: where the first is much smaller, the effect can be ruled out for practical purposes." }
-        div.scroll { table.prose {
+        div.scroll { table {
             thead { tr {
                 th scope="col" { "effect" }
                 th scope="col" { "absent or smaller than" }

@@ -152,11 +152,9 @@ fn experiment(diagnosis: &Diagnosis) -> Markup {
             p.note {
                 "Conditions: " (experiment.conditions) ". "
                 @match experiment.tightenings {
-                    Some(count) => { "Tightenings needed: " (count) ". " }
-                    None => "None of the conditions that were tried separates them. ",
+                    Some(count) => { "Tightenings needed: " (count) "." }
+                    None => "None of the conditions that were tried separates them.",
                 }
-                "Each such tightening sets them apart by " (significant(experiment.distance_per_tightening, 2))
-                " times the noise."
             }
         }
     }
