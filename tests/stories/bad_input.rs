@@ -161,13 +161,13 @@ fn a_value_of_the_wrong_kind_is_told_with_its_field() {
     for (text, told) in [
         (
             "(\n  selection: (minimum_fit_percent: high),\n)",
-            "2:36: minimum_fit_percent is high: ",
+            "2:35: minimum_fit_percent is high: ",
         ),
         (
             "(\n  seed: 3,\n  preprocess: (preset: Tesis),\n)",
             "3:29: Unexpected variant named `Tesis`",
         ),
-        ("(seed: -1)", "1:8: seed is -: "),
+        ("(seed: -1)", "seed is -1: "),
     ] {
         std::fs::write(&path, text).unwrap();
         let error = Study::read(&path).unwrap_err();

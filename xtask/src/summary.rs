@@ -31,12 +31,13 @@ pub fn of_results(outcome: &Outcome) -> String {
         text.push_str("\nInterrupted: the results cover what was evaluated until then.\n");
     }
     if outcome.left_out > 0 {
+        let what = match outcome.left_out {
+            1 => "1 file or tightening".to_owned(),
+            some => format!("{some} files or tightenings"),
+        };
         line(
             &mut text,
-            format_args!(
-                "\nLeft out: {} (findings.json and the report say which, and why)",
-                counted(outcome.left_out, "file or tightening")
-            ),
+            format_args!("\nLeft out: {what} (findings.json and the report say which, and why)"),
         );
     }
     text.push_str("\nWritten:\n");

@@ -8,7 +8,7 @@ const PART: usize = 4;
 /// What an error says behind a name that nothing has: ` (did you mean `cubic_stiffness`?)`, or nothing.
 ///
 /// Meant is the known name that differs by the fewest letters (left out, added, replaced or swapped), at most every third;
-/// where there is none, every known name of which the unknown one is a part. Capitals count as small letters, hyphens and
+/// where there is none, every known name with a part like the unknown one. Capitals count as small letters, hyphens and
 /// spaces as underscores.
 pub fn did_you_mean<N: AsRef<str>>(unknown: &str, known: &[N]) -> String {
     let typed = plain(unknown);
@@ -17,7 +17,11 @@ pub fn did_you_mean<N: AsRef<str>>(unknown: &str, known: &[N]) -> String {
     let nearest = names()
         .filter(|name| likeness(name) >= LIKE)
         .max_by(|a, b| likeness(a).total_cmp(&likeness(b)));
-    let is_part = |name: &&str| typed.len() >= PART && plain(name).contains(&typed);
+    let is_part = |name: &&str| {
+        let name = plain(name);
+        let is_like = |part: &str| normalized_damerau_levenshtein(&typed, part) >= LIKE;
+        typed.len() >= PART && (name.contains(&typed) || name.split('_').any(is_like))
+    };
     let meant: Vec<String> = match nearest {
         Some(name) => vec![format!("`{name}`")],
         None => names()
@@ -66,10 +70,12 @@ mod tests {
             did_you_mean("stiffness", &EFFECTS),
             " (did you mean `cubic_stiffness` or `quadratic_stiffness`?)"
         );
-        assert_eq!(
-            did_you_mean("friction", &EFFECTS),
-            " (did you mean `coulomb_friction`?)"
-        );
+        for typed in ["friction", "frictoin"] {
+            assert_eq!(
+                did_you_mean(typed, &EFFECTS),
+                " (did you mean `coulomb_friction`?)"
+            );
+        }
     }
 
     #[test]

@@ -33,7 +33,8 @@ pub(crate) fn of_field(text: &str, path: &str) -> Option<Position> {
     found.map(|at| position(text, at))
 }
 
-/// The field whose value stands at `place`, and what stands there: `("minimum_fit_percent", "abc")`.
+/// The field whose value stands at `place` or, behind white space, right after it, and what stands there:
+/// `("minimum_fit_percent", "abc")`.
 ///
 /// `text` need not be well formed; `None` outside every field and at the text's end.
 pub(crate) fn field_at(text: &str, place: Position) -> Option<(&str, &str)> {
@@ -41,13 +42,19 @@ pub(crate) fn field_at(text: &str, place: Position) -> Option<(&str, &str)> {
     let mut lines = text.split_inclusive('\n');
     let line_start: usize = lines.by_ref().take(above).map(str::len).sum();
     let (bytes, _) = lines.next()?.char_indices().nth(in_line)?;
-    let at = line_start + bytes;
+    let rest = text[line_start + bytes..].trim_start();
+    let at = text.len() - rest.len();
+    if rest.is_empty() {
+        return None;
+    }
     let fields = keys(text).into_iter();
     let innermost = fields
         .filter(|key| key.value.contains(&at))
         .max_by_key(|key| key.at)?;
-    let found = &text[at..at + token(&text[at..]).length];
-    Some((innermost.name, found.trim())).filter(|(_, found)| !found.is_empty())
+    // A string may hold what ends other values.
+    let end = rest.find([',', ')', ']', '}', '\n']).unwrap_or(rest.len());
+    let found = rest[..end.max(token(rest).length)].trim();
+    Some((innermost.name, found)).filter(|_| !found.is_empty())
 }
 
 fn position(text: &str, at: usize) -> Position {
@@ -232,6 +239,7 @@ mod tests {
         let text = "(\n  title: 'µ',\n  selection: (minimum_fit_percent: abc, x: \"b c\")\n";
         let at = |line, column| field_at(text, Position { line, column });
         assert_eq!(at(3, 36), Some(("minimum_fit_percent", "abc")));
+        assert_eq!(at(3, 35), Some(("minimum_fit_percent", "abc")));
         assert_eq!(at(3, 44), Some(("x", "\"b c\"")));
         assert_eq!(at(1, 1), None);
         assert_eq!(at(9, 9), None);
