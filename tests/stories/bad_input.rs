@@ -165,7 +165,7 @@ fn a_value_of_the_wrong_kind_is_told_with_its_field() {
         ),
         (
             "(\n  seed: 3,\n  preprocess: (preset: Tesis),\n)",
-            "3:29: Unexpected variant named `Tesis`",
+            "3:24: Unexpected variant named `Tesis`",
         ),
         ("(seed: -1)", "seed is -1: "),
     ] {

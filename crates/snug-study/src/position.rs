@@ -51,10 +51,13 @@ pub(crate) fn field_at(text: &str, place: Position) -> Option<(&str, &str)> {
     let innermost = fields
         .filter(|key| key.value.contains(&at))
         .max_by_key(|key| key.at)?;
-    // A string may hold what ends other values.
-    let end = rest.find([',', ')', ']', '}', '\n']).unwrap_or(rest.len());
-    let found = rest[..end.max(token(rest).length)].trim();
-    Some((innermost.name, found)).filter(|_| !found.is_empty())
+    // A reader may have passed a sign: what is no list and no structure is told whole.
+    let value = text[innermost.value].trim();
+    let found = match value.contains(['(', '[', '{', '\n']) {
+        true => &rest[..token(rest).length],
+        false => value,
+    };
+    Some((innermost.name, found))
 }
 
 fn position(text: &str, at: usize) -> Position {
@@ -241,6 +244,10 @@ mod tests {
         assert_eq!(at(3, 36), Some(("minimum_fit_percent", "abc")));
         assert_eq!(at(3, 35), Some(("minimum_fit_percent", "abc")));
         assert_eq!(at(3, 44), Some(("x", "\"b c\"")));
+        assert_eq!(
+            field_at("(seed: -1)", Position { line: 1, column: 9 }),
+            Some(("seed", "-1"))
+        );
         assert_eq!(at(1, 1), None);
         assert_eq!(at(9, 9), None);
         assert_eq!(at(3, 99), None);
