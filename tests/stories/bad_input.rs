@@ -147,8 +147,65 @@ fn a_typo_in_the_study_is_told_with_line_and_column() {
     };
     assert_eq!(*line, 2);
     let text = error.to_string();
-    assert!(text.contains("windw") && text.contains("window"), "{text}");
+    assert!(
+        text.contains("windw") && text.ends_with("(did you mean `window`?)"),
+        "{text}"
+    );
     assert!(error.is_bad_argument());
+}
+
+#[test]
+fn a_value_of_the_wrong_kind_is_told_with_its_field() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("study.ron");
+    for (text, told) in [
+        (
+            "(\n  selection: (minimum_fit_percent: high),\n)",
+            "2:35: minimum_fit_percent is high: ",
+        ),
+        (
+            "(\n  seed: 3,\n  preprocess: (preset: Tesis),\n)",
+            "3:24: Unexpected variant named `Tesis`",
+        ),
+        ("(seed: -1)", "seed is -1: "),
+    ] {
+        std::fs::write(&path, text).unwrap();
+        let error = Study::read(&path).unwrap_err();
+        let found = error.to_string();
+        assert!(found.contains(told), "{found}");
+        assert!(error.is_bad_argument());
+    }
+}
+
+#[test]
+fn an_effect_named_twice_is_refused_before_any_work() {
+    let study = study_on(&embedded(), Preset::Snug);
+    let twice = ["backlash".to_owned(), "backlash".to_owned()];
+    let error = study.check_effects(&twice).unwrap_err();
+    assert!(error.to_string().contains("`backlash` is named twice"));
+    assert!(error.is_bad_argument());
+}
+
+#[test]
+fn a_diagnosis_of_nothing_says_what_was_left_out() {
+    let data = tempfile::tempdir().unwrap();
+    std::fs::write(data.path().join("garbage.mat"), [7; 300]).unwrap();
+    let out = tempfile::tempdir().unwrap();
+    let settings = snug_study::RunSettings {
+        out: out.path().to_path_buf(),
+        threads: None,
+    };
+    let outcome = snug_study::diagnose(
+        &study_on(data.path(), Preset::Snug),
+        &snug_study::Verb::Improve,
+        &settings,
+        &|_| (),
+        &std::sync::atomic::AtomicBool::new(false),
+    )
+    .unwrap();
+    assert_eq!(left_out(&outcome, "garbage.mat").len(), 1);
+    assert!(outcome.result.diagnosis.is_none());
+    assert!(out.path().join("findings.json").is_file());
 }
 
 #[test]
@@ -262,7 +319,8 @@ fn settings_that_make_no_sense_are_named() {
     study.model.effects = vec!["cubic_stifness".to_owned()];
     let text = study.check().unwrap_err().to_string();
     assert!(
-        text.contains("cubic_stifness") && text.contains("cubic_stiffness"),
+        text.contains("`cubic_stifness` (did you mean `cubic_stiffness`?)")
+            && text.contains("grip_slip"),
         "{text}"
     );
     let mut study = study_on(&embedded(), Preset::Snug);

@@ -1,6 +1,9 @@
 //! The layering: which crate may know which, checked against what cargo says.
 
+use crate::campaign::{embedded, run_study, study_on};
 use cargo_metadata::{DependencyKind, MetadataCommand};
+use snug_model::Effect;
+use snug_study::Preset;
 use std::collections::BTreeSet;
 
 /// Every allowed edge between Snug's crates. An edge that is not here is a design change: change it here on purpose.
@@ -78,4 +81,19 @@ fn crates_know_only_whom_they_may() {
         checked.insert(package.name.to_string());
     }
     assert_eq!(checked.len(), ALLOWED.len(), "a listed crate is gone");
+}
+
+/// Preparation knows no model and speaks of the catalogue's effects by name only.
+#[test]
+fn what_preparation_takes_out_is_in_the_catalogue() {
+    let (outcome, _out) = run_study(&study_on(&embedded(), Preset::Snug)).unwrap();
+    let tightenings = outcome.result.tightenings.iter();
+    let names: BTreeSet<&str> = tightenings
+        .flat_map(|tightening| &tightening.corrections)
+        .map(|correction| correction.effect.as_str())
+        .collect();
+    assert!(!names.is_empty());
+    for name in names {
+        assert!(Effect::named(name).is_some(), "{name}");
+    }
 }

@@ -77,6 +77,9 @@ fn diagnosing_names_the_hidden_effect_alone() {
     let file = json(&out.path().join("verdict.json"));
     assert_eq!(file["verdict"], "missing_effect");
     assert_eq!(file["ranking"][0]["effect"], effect.as_str());
+    let sizes = file["ranking"][0]["parameters"].as_array().unwrap();
+    let meanings: Vec<_> = sizes.iter().map(|size| size["meaning"].clone()).collect();
+    assert_eq!(meanings, ["stiffness of the reflex", "delay of the reflex"]);
     assert!(outcome.result.effects.is_empty(), "nothing is changed");
 }
 

@@ -1,45 +1,48 @@
 //! What a diagnosis came to, on one screen: the verdict, the ladder as a picture, the ranking, what to do next.
 
+mod ladder;
+mod ranking;
 mod size;
 #[cfg(test)]
 mod tests;
 
+use ladder::ladder;
+use ranking::ranking;
 use size::{by_chance, significant, sized};
-use snug_campaign::{Diagnosis, Location, RankedEffect, Rung, Verdict};
+use snug_campaign::{Diagnosis, Location, RankedEffect, Verdict};
 use std::fmt::Write as _;
 use std::io::IsTerminal as _;
 
 /// Columns that a line may have.
 const WIDTH: usize = 108;
-/// Columns of the longest bar.
-const BAR: usize = 36;
-/// Candidates shown; the report lists all. Behind the very first, neither twins nor unlisted terms nor what could be chance.
-const CANDIDATES: usize = 8;
-const FIRST: usize = 3;
+/// What the proposed commands need to know.
+pub struct Following<'a> {
+    /// The options of the command that was run (`--data DIR`), to be repeated.
+    pub options: &'a str,
+    /// The study file that holds the model found.
+    pub study: &'a str,
+}
 
 /// Prints a diagnosis on standard output.
-///
-/// `options` are those of the command that was run (`--study rig.ron`), repeated in the command that it proposes next.
-pub fn print(diagnosis: &Diagnosis, options: &str) {
-    print!(
-        "{}",
-        text(diagnosis, options, std::io::stdout().is_terminal())
-    );
+pub fn print(diagnosis: &Diagnosis, following: &Following<'_>) {
+    let is_terminal = std::io::stdout().is_terminal();
+    print!("{}", text(diagnosis, following, is_terminal));
 }
 
 /// The text; `terminal` allows block characters and bold type.
-fn text(diagnosis: &Diagnosis, options: &str, terminal: bool) -> String {
+fn text(diagnosis: &Diagnosis, following: &Following<'_>, terminal: bool) -> String {
     let mut page = Page {
         text: String::new(),
         terminal,
     };
     verdict(&mut page, diagnosis);
+    missing(&mut page, diagnosis);
     ladder(&mut page, diagnosis);
     added(&mut page, diagnosis);
     ranking(&mut page, diagnosis);
     places(&mut page, diagnosis);
     certainty(&mut page, diagnosis);
-    next(&mut page, diagnosis, options);
+    next(&mut page, diagnosis, following);
     page.text
 }
 
@@ -131,81 +134,42 @@ fn verdict(page: &mut Page, diagnosis: &Diagnosis) {
     }
 }
 
-fn ladder(page: &mut Page, diagnosis: &Diagnosis) {
-    let Some(first) = diagnosis.ladder.first() else {
+/// What the effect is that the verdict names, how it shows and what to check, while it is not yet in the model; the same of
+/// its twins.
+fn missing(page: &mut Page, diagnosis: &Diagnosis) {
+    let named = matches!(
+        diagnosis.verdict,
+        Verdict::MissingEffect | Verdict::UnlistedEffect
+    );
+    let Some(first) = diagnosis.ranking.first().filter(|_| named) else {
         return;
     };
-    let known = diagnosis
-        .ladder
-        .iter()
-        .any(|rung| rung.error_over_noise.is_some());
-    if known {
-        page.heading("How far the model misses the measurement, as a multiple of the noise (1.0 = nothing left but noise)");
-    } else {
-        page.heading(&format!(
-            "How far the model misses the measurement: residual of the {}, root mean square (the noise is unknown)",
-            diagnosis.compared_output
-        ));
+    if diagnosis.verdict == Verdict::UnlistedEffect && !first.unlisted {
+        return;
     }
-    let unseen = if known { "unseen" } else { "" };
-    page.line(&format!(
-        "  {:<32} {:>9} {unseen:>9} {:>9}",
-        "model", "error", "selected"
-    ));
-    let errors: Vec<Option<f64>> = diagnosis
-        .ladder
-        .iter()
-        .map(|rung| {
-            if known {
-                rung.error_over_noise
-            } else {
-                Some(rung.rms_fitted_output)
-            }
-        })
-        .collect();
-    let floor = if known { 1.0 } else { 0.0 };
-    let mut before: &Rung = first;
-    for (rung, error) in diagnosis.ladder.iter().zip(&errors) {
-        let number = |value: Option<f64>| value.map_or_else(|| "?".to_owned(), significant);
-        let unseen = if known {
-            number(rung.heldout_error_over_noise)
-        } else {
-            String::new()
-        };
-        let line = format!(
-            "  {:<32} {:>9} {unseen:>9} {:>7.0} %  {}",
-            shortened(&step(before, rung), 32),
-            number(*error),
-            100.0 * rung.selected_fraction,
-            bar(*error, &errors, floor, page.terminal)
-        );
-        page.line(&line);
-        before = rung;
-    }
-    if known {
-        page.line("  Bars begin at the noise and are logarithmic; unseen: in tightenings that the sizes were not fitted to.");
-    }
-    if let Some(stopped) = &diagnosis.stopped {
-        page.paragraph("  Stopped: ", stopped);
-    }
-    for removal in &diagnosis.removals {
-        page.paragraph("  Tried without: ", &removal.statement);
+    let is_twin = |one: &&RankedEffect| first.twins.contains(&one.effect);
+    let twins = diagnosis.ranking.iter().filter(is_twin);
+    for one in std::iter::once(first).chain(twins) {
+        let name = called(&one.effect, one.expression.as_ref());
+        page.heading(&format!("What {} is", name.replace('_', " ")));
+        for sentence in &one.explanation {
+            page.paragraph("  - ", sentence);
+        }
     }
 }
 
-/// What a rung changes against the one before it.
-fn step(before: &Rung, rung: &Rung) -> String {
-    let gained = rung.effects.iter().filter(|e| !before.effects.contains(e));
-    let lost = before.effects.iter().filter(|e| !rung.effects.contains(e));
-    let steps: Vec<String> = gained
-        .map(|effect| format!("+ {effect}"))
-        .chain(lost.map(|effect| format!("- {effect}")))
-        .collect();
-    match (steps.is_empty(), rung.effects.is_empty()) {
-        (true, true) => "base model: mass, damper, spring".into(),
-        (true, false) => format!("base + {}", rung.effects.join(" + ")),
-        (false, _) => steps.join(" "),
-    }
+/// `cubic_stiffness`; a term in no catalogue by what it is: `force p*x^2*v`.
+fn called(effect: &str, expression: Option<&String>) -> String {
+    expression.map_or_else(
+        || effect.to_owned(),
+        |expression| format!("force {expression}"),
+    )
+}
+
+/// An effect of the model by its name, a term in no catalogue by what it is.
+fn called_in(diagnosis: &Diagnosis, effect: &str) -> String {
+    let found = diagnosis.added.iter().find(|known| known.effect == effect);
+    called(effect, found.and_then(|known| known.expression.as_ref()))
 }
 
 fn shortened(text: &str, columns: usize) -> String {
@@ -216,31 +180,6 @@ fn shortened(text: &str, columns: usize) -> String {
     kept + "…"
 }
 
-/// A bar from the floor to the error: over noise logarithmic, else straight.
-fn bar(error: Option<f64>, errors: &[Option<f64>], floor: f64, terminal: bool) -> String {
-    let length = |error: f64| {
-        if floor > 0.0 {
-            (error / floor).ln().max(0.0)
-        } else {
-            error
-        }
-    };
-    let longest = errors
-        .iter()
-        .flatten()
-        .map(|error| length(*error))
-        .fold(0.0, f64::max);
-    let share = match error {
-        Some(error) if longest > 0.0 => length(error) / longest.max(0.05),
-        _ => 0.0,
-    };
-    if !share.is_finite() {
-        return "|".into();
-    }
-    let blocks = (share * BAR as f64).round() as usize;
-    format!("|{}", if terminal { "█" } else { "#" }.repeat(blocks))
-}
-
 fn added(page: &mut Page, diagnosis: &Diagnosis) {
     if diagnosis.added.is_empty() {
         return;
@@ -248,12 +187,13 @@ fn added(page: &mut Page, diagnosis: &Diagnosis) {
     page.heading("In the model now");
     for effect in &diagnosis.added {
         let sizes: Vec<String> = effect.parameters.iter().map(sized).collect();
-        page.paragraph("  ", &format!("{}: {}", effect.effect, sizes.join("; ")));
+        let name = called(&effect.effect, effect.expression.as_ref());
+        page.paragraph("  ", &format!("{name}: {}", sizes.join("; ")));
         let mut evidence = Vec::new();
         if let Some(gain) = effect.heldout_gain {
             evidence.push(format!(
                 "removes {:.0} % of the misfit in unseen tightenings",
-                100.0 * gain
+                100.0 * gain.clamp(0.0, 1.0)
             ));
         }
         if let Some(p) = effect.p_family {
@@ -266,84 +206,11 @@ fn added(page: &mut Page, diagnosis: &Diagnosis) {
             ));
         }
         if !evidence.is_empty() {
-            page.paragraph("    ", &evidence.join("; "));
+            page.paragraph("    - ", &evidence.join("; "));
         }
-    }
-}
-
-fn ranking(page: &mut Page, diagnosis: &Diagnosis) {
-    if diagnosis.ranking.is_empty() {
-        return;
-    }
-    let candidates: Vec<(usize, &RankedEffect)> = diagnosis
-        .ranking
-        .iter()
-        .enumerate()
-        .filter(|(place, candidate)| {
-            *place < FIRST || !candidate.unlisted && candidate.p_family <= 0.05
-        })
-        .take(CANDIDATES)
-        .collect();
-    let shown = candidates.len();
-    page.heading(&format!(
-        "What could {}be missing: the best {shown} of {} candidates",
-        if diagnosis.added.is_empty() {
-            ""
-        } else {
-            "still "
-        },
-        diagnosis.ranking.len()
-    ));
-    if diagnosis.verdict == Verdict::Adequate {
-        page.paragraph(
-            "  ",
-            "What the model leaves is within the noise: shares of next to nothing say little.",
-        );
-    }
-    page.line(&format!(
-        "  {:<27} {:>12} {:>8}  {}",
-        "effect", "removes", "chance", "size [95 % interval]"
-    ));
-    for (place, candidate) in candidates {
-        row(page, candidate, place < FIRST);
-    }
-    let unlisted = diagnosis
-        .ranking
-        .iter()
-        .filter(|candidate| candidate.unlisted)
-        .count();
-    if unlisted > 0 {
-        page.paragraph(
-            "  ",
-            &format!("{unlisted} of the candidates are simple terms that are in no catalogue; report.html has them all."),
-        );
-    }
-    page.paragraph(
-        "  ",
-        "removes: share of the misfit it takes away in tightenings its size was not fitted to; \
-         chance: how often chance alone would put something so strong at the top.",
-    );
-}
-
-fn row(page: &mut Page, candidate: &RankedEffect, with_twins: bool) {
-    let name = if candidate.unlisted {
-        format!("{} (unlisted)", candidate.effect)
-    } else {
-        candidate.effect.clone()
-    };
-    let gain = size::share(candidate.heldout_gain, candidate.heldout_gain_error);
-    let lead = format!(
-        "  {:<27} {gain:>12} {:>8}  ",
-        shortened(&name, 27),
-        size::p_value(candidate.p_family)
-    );
-    let mut sizes: Vec<String> = candidate.parameters.iter().map(sized).collect();
-    if !candidate.plausible {
-        sizes.push("not plausible: on the edge of its range".into());
-    }
-    page.paragraph(&lead, &sizes.join("; "));
-    if with_twins && !candidate.twins.is_empty() {
-        page.paragraph("      cannot be told from ", &candidate.twins.join(", "));
+        for sentence in &effect.explanation {
+            page.paragraph("    - ", sentence);
+        }
     }
 }
 
@@ -375,14 +242,15 @@ fn certainty(page: &mut Page, diagnosis: &Diagnosis) {
         return;
     };
     page.heading("How far to trust this");
+    let rate = control.false_alarms as f64 / control.campaigns.max(1) as f64;
     page.paragraph(
         "  ",
         &format!(
-            "On {} campaigns simulated without a missing effect, the ranking raised {} false alarm{} \
-             (meant: {:.0} in 100; 95 % interval of the rate reached {:.0} to {:.0} in 100).",
+            "{} campaigns were simulated in which nothing is missing. In {} of them, {:.0} in 100, an effect was called \
+             missing all the same; meant are {:.0} in 100 (95 % interval {:.0} to {:.0} in 100).",
             control.campaigns,
             control.false_alarms,
-            if control.false_alarms == 1 { "" } else { "s" },
+            100.0 * rate,
             100.0 * control.nominal_rate,
             100.0 * control.rate_low,
             100.0 * control.rate_high
@@ -390,10 +258,10 @@ fn certainty(page: &mut Page, diagnosis: &Diagnosis) {
     );
 }
 
-fn next(page: &mut Page, diagnosis: &Diagnosis, options: &str) {
+fn next(page: &mut Page, diagnosis: &Diagnosis, following: &Following<'_>) {
     page.heading("What to do next");
     let command = |page: &mut Page, words: &str| {
-        page.line(format!("    cargo xtask {words} {options}").trim_end());
+        page.line(format!("    cargo xtask {words} {}", following.options).trim_end());
     };
     if let Some(experiment) = &diagnosis.experiment {
         page.paragraph("  ", &experiment.statement);
@@ -402,6 +270,7 @@ fn next(page: &mut Page, diagnosis: &Diagnosis, options: &str) {
         page.paragraph("  ", "Ask which effect is missing; it changes nothing:");
         return command(page, "diagnose");
     }
+    let climbed = matches!(diagnosis.verb.as_str(), "add" | "improve");
     match diagnosis.verdict {
         Verdict::MissingEffect => {
             if let Some(best) = diagnosis.ranking.first() {
@@ -415,12 +284,15 @@ fn next(page: &mut Page, diagnosis: &Diagnosis, options: &str) {
             match &diagnosis.unlisted {
                 Some(term) => {
                     page.paragraph("  ", &term.statement);
-                    page.paragraph("  ", "To try it, paste this into the study's model.custom list and diagnose again:");
+                    page.paragraph("  ", "To keep it as a law of your own, paste this into the study's model.custom list:");
                     page.line(&format!("    {}", term.ron));
                 }
                 None => page.paragraph("  ", "The report draws the missing force over time, displacement and velocity."),
             }
-            command(page, "diagnose");
+            if !climbed {
+                page.paragraph("  ", "Or let Snug add it and see the error before and after:");
+                command(page, "improve");
+            }
         }
         Verdict::Undecided if diagnosis.experiment.is_none() => {
             page.paragraph("  ", "Record more tightenings; the reasons above say what is lacking.");
@@ -430,5 +302,9 @@ fn next(page: &mut Page, diagnosis: &Diagnosis, options: &str) {
             "  ",
             "Nothing needs to be added. report.html shows what was checked and how small a missing effect would have been seen.",
         ),
+    }
+    if climbed && !diagnosis.added.is_empty() {
+        page.paragraph("  ", "Use the model found for this and further recordings:");
+        page.line(&format!("    cargo xtask run --study {}", following.study));
     }
 }

@@ -5,6 +5,9 @@ use snug_study::Outcome;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
+/// Findings of a kind that are told in full.
+const SHOWN: usize = 2;
+
 /// What a run came to, on one screen.
 pub fn of_run(outcome: &Outcome) -> String {
     let result = &outcome.result;
@@ -18,8 +21,24 @@ pub fn of_run(outcome: &Outcome) -> String {
     validation(&mut text, result);
     agreement(&mut text, result);
     findings(&mut text, &result.findings);
+    text
+}
+
+/// What became of the work: whether it was cut short, what was left out, where the results stand.
+pub fn of_results(outcome: &Outcome) -> String {
+    let mut text = String::new();
     if outcome.interrupted {
         text.push_str("\nInterrupted: the results cover what was evaluated until then.\n");
+    }
+    if outcome.left_out > 0 {
+        let what = match outcome.left_out {
+            1 => "1 file or tightening".to_owned(),
+            some => format!("{some} files or tightenings"),
+        };
+        line(
+            &mut text,
+            format_args!("\nLeft out: {what} (findings.json and the report say which, and why)"),
+        );
     }
     text.push_str("\nWritten:\n");
     for path in &outcome.written {
@@ -195,17 +214,17 @@ fn agreement(text: &mut String, result: &CampaignResult) {
 }
 
 fn findings(text: &mut String, findings: &[Finding]) {
-    let mut counts: BTreeMap<(std::cmp::Reverse<Severity>, &str), usize> = BTreeMap::new();
+    let mut kinds: BTreeMap<(std::cmp::Reverse<Severity>, &str), Vec<&Finding>> = BTreeMap::new();
     for finding in findings {
-        *counts
-            .entry((std::cmp::Reverse(finding.severity), finding.code.as_str()))
-            .or_default() += 1;
+        let kind = (std::cmp::Reverse(finding.severity), finding.code.as_str());
+        kinds.entry(kind).or_default().push(finding);
     }
-    if counts.is_empty() {
+    if kinds.is_empty() {
         return;
     }
-    text.push_str("\n  findings (details in findings.json and in the report)\n");
-    for ((std::cmp::Reverse(severity), code), count) in counts {
+    text.push_str("\n  findings (all in findings.json and in the report)\n");
+    for ((std::cmp::Reverse(severity), code), alike) in kinds {
+        let count = alike.len();
         let severity = match severity {
             Severity::LeftOut => "left out",
             Severity::Repaired => "repaired",
@@ -215,5 +234,17 @@ fn findings(text: &mut String, findings: &[Finding]) {
             text,
             format_args!("  {count:>6} {severity:<9} {}", code.replace('_', " ")),
         );
+        for finding in alike.iter().take(SHOWN) {
+            let number = finding.tightening.map(|number| format!(" #{number}"));
+            line(
+                text,
+                format_args!(
+                    "                     {}{}: {}",
+                    finding.file,
+                    number.unwrap_or_default(),
+                    finding.message
+                ),
+            );
+        }
     }
 }

@@ -1,4 +1,6 @@
+use crate::exit;
 use std::path::{Path, PathBuf};
+use std::process::{Command, ExitCode};
 
 /// The workspace's folder: where cargo says this package is now, else where it was when it was built.
 pub fn root() -> PathBuf {
@@ -10,4 +12,23 @@ pub fn root() -> PathBuf {
 /// The campaign that ships with Snug.
 pub fn embedded_campaign() -> PathBuf {
     root().join("fixtures").join("campaign")
+}
+
+/// The cargo that runs this program, in the workspace's folder.
+pub fn cargo() -> Command {
+    let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    cargo.current_dir(root());
+    cargo
+}
+
+/// Runs a command to its end; whatever it ends with but success is a failure.
+pub fn run(mut command: Command) -> ExitCode {
+    match command.status() {
+        Ok(status) if status.success() => exit::DONE,
+        Ok(_) => exit::failed(),
+        Err(error) => {
+            eprintln!("cargo cannot be started: {error}");
+            exit::failed()
+        }
+    }
 }

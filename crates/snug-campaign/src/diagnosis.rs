@@ -34,6 +34,9 @@ impl Verdict {
 pub struct EffectParameter {
     /// Name with unit suffix.
     pub name: String,
+    /// What it is, in a few words, as its effect says it; empty where nothing says it.
+    #[serde(default)]
+    pub meaning: String,
     /// Unit as people write it.
     pub unit: String,
     /// Estimate; of a parameter that every tightening has of its own, the mean.
@@ -63,6 +66,9 @@ pub struct RankedEffect {
     pub kind: String,
     /// True for a term that is in no catalogue and was tried to describe what is left.
     pub unlisted: bool,
+    /// The expression of such a term.
+    #[serde(default)]
+    pub expression: Option<String>,
     /// Its size, refitted to all tightenings.
     pub parameters: Vec<EffectParameter>,
     /// T = Σ s_i / √Σ s_i² over tightenings, before any refit.
@@ -81,7 +87,7 @@ pub struct RankedEffect {
     pub twins: Vec<String>,
     /// Whether its size is physically plausible: no estimate lies on a bound of its range.
     pub plausible: bool,
-    /// What it is, how it shows in these data, what to check at the bench: sentences for a tool engineer.
+    /// What it is, how it shows, what to check at the bench: sentences for a tool engineer.
     pub explanation: Vec<String>,
 }
 
@@ -160,6 +166,9 @@ pub struct Detectability {
     pub effect: String,
     /// The parameter whose size is meant.
     pub parameter: String,
+    /// What that parameter is, in a few words, as its effect says it; empty where nothing says it.
+    #[serde(default)]
+    pub meaning: String,
     /// Its unit.
     pub unit: String,
     /// Absent or smaller than this (95 % power at the family-wise level).

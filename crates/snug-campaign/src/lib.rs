@@ -4,8 +4,10 @@ mod campaign;
 mod comparison;
 mod conditions;
 mod diagnosis;
+mod diagnosis_summary;
 mod estimate;
 mod finding;
+mod likely_name;
 mod location;
 mod noise;
 mod parameter;
@@ -26,8 +28,10 @@ pub use diagnosis::{
     NegativeControl, NoiseStatement, RankedEffect, Removal, Rung, Showcase, UnlistedTerm, Verdict,
     WorkDone,
 };
+pub use diagnosis_summary::DiagnosisSummary;
 pub use estimate::{Estimate, FitStatus, Identifiability, Interval, ParameterEstimate};
 pub use finding::{Finding, Severity};
+pub use likely_name::did_you_mean;
 pub use location::{Aspect, Drift, ForceCurve, ForceMap, Location, Share};
 pub use noise::{NoiseFloor, NoiseSource};
 pub use parameter::{Parameter, ParameterSource};

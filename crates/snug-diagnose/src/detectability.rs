@@ -63,6 +63,7 @@ fn card(column: &Column, needed: f64) -> Detectability {
     Detectability {
         effect: description.name.to_owned(),
         parameter: spec.name.to_owned(),
+        meaning: spec.meaning.to_owned(),
         unit: spec.unit.to_owned(),
         smallest_detectable: smallest,
         largest_plausible: largest,

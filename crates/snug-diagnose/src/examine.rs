@@ -291,6 +291,7 @@ impl Examination<'_> {
             effect: candidate.effect.name().to_owned(),
             kind: candidate.effect.description().kind.name().to_owned(),
             unlisted: is_unlisted(candidate.effect),
+            expression: declaration(candidate.effect.name()).map(|term| term.expression),
             score: candidate.score,
             p_family: candidate.p_family,
             heldout_gain: candidate.gain() / misfit,
@@ -305,7 +306,7 @@ impl Examination<'_> {
                 && sizes
                     .iter()
                     .all(|s| s.value > s.minimum && s.value < s.maximum),
-            explanation: wording::explanation(candidate.effect, &sizes),
+            explanation: wording::explanation(candidate.effect),
             parameters: sizes,
         }
     }
@@ -341,7 +342,7 @@ impl Examination<'_> {
                     needed: (self.climb.attempts.iter())
                         .find(|attempt| attempt.effect == effect)
                         .map(|attempt| attempt.loss / last.squares()),
-                    explanation: wording::explanation(effect, &sizes),
+                    explanation: wording::explanation(effect),
                     parameters: sizes,
                 }
             })
@@ -388,13 +389,7 @@ impl Examination<'_> {
         let declared = declaration(effect.name())?;
         let sizes = parameters(self.question.cases, fitted, effect);
         Some(UnlistedTerm {
-            statement: wording::unlisted(
-                effect,
-                &declared,
-                gain,
-                &sizes,
-                Units::of(self.question.cases),
-            ),
+            statement: wording::unlisted(&declared, gain, &sizes, Units::of(self.question.cases)),
             ron: wording::paste(&declared, &sizes),
             expression: declared.expression,
             heldout_gain: gain,

@@ -7,6 +7,7 @@ use crate::hypothesis::Hypothesis;
 use crate::ranking::fit_effects;
 use crate::sizes::held;
 use crate::units::Units;
+use crate::wording::spoken;
 use snug_campaign::Experiment;
 use snug_identify::PooledSettings;
 use snug_model::{Effect, Input};
@@ -73,7 +74,7 @@ pub(crate) fn separating_experiment(
     }
     let (change, distance) = best?;
     let tightenings = (distance > 1e-3).then(|| (TELLING / distance).ceil().max(1.0) as usize);
-    let between = [chosen, second].map(|effect| effect.name().replace('_', " "));
+    let between = [chosen, second].map(spoken);
     let statement = match tightenings {
         Some(number) if number <= 10_000 => format!(
             "To tell {} from {}: make about {number} more tightenings {}.",

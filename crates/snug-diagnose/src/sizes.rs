@@ -4,7 +4,7 @@ use crate::Case;
 use crate::dense::dot;
 use crate::fitted::Fitted;
 use snug_campaign::EffectParameter;
-use snug_model::{Effect, Law, Model, Scope};
+use snug_model::{Effect, Law, Model, ParameterSpec, Scope};
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
 /// Every parameter of one of the model's effects.
@@ -23,15 +23,10 @@ pub(crate) fn parameters(cases: &[Case], fitted: &Fitted, effect: Effect) -> Vec
             let parameter = &model.parameters()[first + offset];
             let mut size = EffectParameter {
                 name: parameter.name.clone(),
-                unit: parameter.unit.clone(),
                 value: parameter.value,
-                low: None,
-                high: None,
-                standard_error: None,
-                per_tightening: spec.scope == Scope::PerTightening,
-                spread: None,
                 minimum: parameter.minimum,
                 maximum: parameter.maximum,
+                ..described(spec)
             };
             if let Some(column) = fitted.shared_names().iter().position(|n| *n == size.name) {
                 size.value = fitted.shared[column];
@@ -46,6 +41,23 @@ pub(crate) fn parameters(cases: &[Case], fitted: &Fitted, effect: Effect) -> Vec
             size
         })
         .collect()
+}
+
+/// A parameter as its effect describes it, at its usual start and without an interval.
+pub(crate) fn described(spec: &ParameterSpec) -> EffectParameter {
+    EffectParameter {
+        name: spec.name.to_owned(),
+        meaning: spec.meaning.to_owned(),
+        unit: spec.unit.to_owned(),
+        value: spec.starts[0],
+        low: None,
+        high: None,
+        standard_error: None,
+        per_tightening: spec.scope == Scope::PerTightening,
+        spread: None,
+        minimum: spec.minimum,
+        maximum: spec.maximum,
+    }
 }
 
 /// Index of an effect's first parameter in a model that has `effects`.

@@ -1,6 +1,7 @@
 //! What changes from tightening to tightening: fatigue shows in the fitted m, c, k, not in the misfit of any one.
 
 use crate::Case;
+use crate::sizes::described;
 use crate::wording;
 use snug_campaign::{Drift, EffectParameter, RankedEffect};
 use snug_model::{BASE_PARAMETERS, TRENDS};
@@ -32,17 +33,12 @@ pub(crate) fn fatigue(drifts: &[Drift], cases: &[Case]) -> Option<RankedEffect> 
             let drift = over_number(name)?;
             let interval = drift.interval_percent;
             Some(EffectParameter {
-                name: spec.name.to_owned(),
-                unit: spec.unit.to_owned(),
                 value: per_tightening(drift.change_percent),
                 low: interval.map(|interval| per_tightening(interval.low)),
                 high: interval.map(|interval| per_tightening(interval.high)),
                 standard_error: interval
                     .map(|interval| per_tightening(interval.high - interval.low) / 3.92),
-                per_tightening: false,
-                spread: None,
-                minimum: spec.minimum,
-                maximum: spec.maximum,
+                ..described(spec)
             })
         })
         .collect();
@@ -50,6 +46,7 @@ pub(crate) fn fatigue(drifts: &[Drift], cases: &[Case]) -> Option<RankedEffect> 
         effect: description.name.to_owned(),
         kind: "trend".to_owned(),
         unlisted: false,
+        expression: None,
         score: 0.0,
         p_family: (smallest * tested.len() as f64).min(1.0),
         heldout_gain: 0.0,
@@ -60,15 +57,7 @@ pub(crate) fn fatigue(drifts: &[Drift], cases: &[Case]) -> Option<RankedEffect> 
         plausible: parameters
             .iter()
             .all(|slope| slope.value > slope.minimum && slope.value < slope.maximum),
-        explanation: vec![
-            description.summary.to_owned(),
-            format!("How it shows: {}.", description.shows_as),
-            format!(
-                "Its size in these data: {}.",
-                wording::sizes(description, &parameters)
-            ),
-            description.check.to_owned(),
-        ],
+        explanation: wording::described(description),
         parameters,
     })
 }

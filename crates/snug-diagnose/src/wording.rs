@@ -32,12 +32,17 @@ pub(crate) struct Situation<'a> {
 }
 
 impl Situation<'_> {
-    /// Two effects that are to be told apart by an experiment, if there are.
+    /// Two effects that are to be told apart by an experiment, if there are: the one that is missing or was added last, and
+    /// its twin.
     pub fn twin_pair(&self) -> Option<(&Fitted, Effect)> {
-        let chosen = self.chosen?;
-        let first = self.ranking.first()?;
-        let twin = Effect::named(first.twins.first()?)?;
-        Some((&chosen.fitted, twin))
+        if let Some(chosen) = self.chosen {
+            let first = self.ranking.first()?;
+            let twin = Effect::named(first.twins.first()?)?;
+            return Some((&chosen.fitted, twin));
+        }
+        let added = self.additions.last()?;
+        let twin = *added.twins.first()?;
+        (self.after.effects.last() == Some(&added.effect)).then_some((self.after, twin))
     }
 }
 
@@ -64,8 +69,12 @@ fn number(value: f64) -> String {
 }
 
 /// `friction force 1.18 N (1.14 to 1.23)`.
-fn size(meaning: &str, parameter: &EffectParameter) -> String {
-    let value = format!("{} {}", meaning, amount(parameter.value, &parameter.unit));
+fn size(parameter: &EffectParameter) -> String {
+    let value = format!(
+        "{} {}",
+        parameter.meaning,
+        amount(parameter.value, &parameter.unit)
+    );
     let range = match (parameter.low, parameter.high) {
         (Some(low), Some(high)) => format!(" ({} to {})", number(low), number(high)),
         _ => " (at the edge of its plausible range)".to_owned(),
@@ -81,20 +90,40 @@ fn size(meaning: &str, parameter: &EffectParameter) -> String {
 }
 
 /// What each parameter of an effect is, with its range, one after the other.
-pub(crate) fn sizes(description: &Description, parameters: &[EffectParameter]) -> String {
-    let told = parameters.iter().map(|parameter| {
-        // Beside an effect with a parameter of the same name it is called after its own: torque_lag_tau_s.
-        let mut specs = description.parameters.iter();
-        let spec = specs.find(|spec| parameter.name.ends_with(spec.name));
-        size(spec.map_or(&parameter.name, |spec| spec.meaning), parameter)
-    });
-    told.collect::<Vec<_>>().join(", ")
+pub(crate) fn sizes(parameters: &[EffectParameter]) -> String {
+    parameters.iter().map(size).collect::<Vec<_>>().join(", ")
 }
 
-fn spoken(effect: Effect) -> String {
+/// An effect's name, `co contraction`, or the force that a term in no catalogue is.
+pub(crate) fn spoken(effect: Effect) -> String {
     match declaration(effect.name()) {
         Some(declared) => format!("a force {}", declared.expression),
         None => effect.name().replace('_', " "),
+    }
+}
+
+/// An effect that these data cannot tell from others is named with them.
+fn with_twins(name: String, twins: &[String]) -> String {
+    match twins {
+        [] => name,
+        some => format!(
+            "{name} or {} (these data cannot tell which)",
+            some.join(" or ")
+        ),
+    }
+}
+
+fn capitalised(text: &str) -> String {
+    let mut letters = text.chars();
+    let first = letters.next().map(char::to_uppercase);
+    first.into_iter().flatten().chain(letters).collect()
+}
+
+/// `from 1.541 to 1.007 times the measurement noise`.
+fn fall(before: &Fitted, after: &Fitted) -> String {
+    match before.is_weighted && after.is_weighted {
+        true => format!("from {:.3} to {}", before.error(), error(after)),
+        false => format!("from {} to {}", number(before.error()), error(after)),
     }
 }
 
@@ -115,36 +144,35 @@ fn joined(effects: &[String]) -> String {
 
 /// The verdict in one sentence.
 pub(crate) fn headline(situation: &Situation<'_>) -> String {
-    let (before, after) = (error(situation.before), error(situation.after));
-    let added: Vec<String> = situation
-        .additions
-        .iter()
-        .map(|one| spoken(one.effect))
+    let after = error(situation.after);
+    let fell = fall(situation.before, situation.after);
+    let added: Vec<String> = (situation.additions.iter())
+        .map(|one| {
+            let twins: Vec<String> = one.twins.iter().map(|&twin| spoken(twin)).collect();
+            with_twins(spoken(one.effect), &twins)
+        })
         .collect();
     match (situation.verdict, situation.chosen) {
         (Verdict::MissingEffect | Verdict::UnlistedEffect, Some(chosen)) => {
-            let known = match is_unlisted(chosen.effect) {
-                true => "A law that is not in the catalogue is missing",
-                false => "The model lacks",
-            };
             let name = spoken(chosen.effect);
-            let with = error(&chosen.fitted);
-            match is_unlisted(chosen.effect) {
+            let falls = fall(situation.after, &chosen.fitted);
+            let what = match is_unlisted(chosen.effect) {
                 true => format!(
-                    "{known}, best described as {name}: with it the error falls from {after} to {with}."
+                    "A law that is not in the catalogue is missing, best described as {name}"
                 ),
-                false => format!("{known} {name}: with it the error falls from {after} to {with}."),
-            }
+                false => format!("The model lacks {}", with_twins(name, &twins(situation))),
+            };
+            format!("{what}: with it the error falls {falls}.")
         }
         (Verdict::UnlistedEffect, None) if !added.is_empty() => format!(
-            "Something that is not in the catalogue acts here; {} describes it, and the error falls from {before} to {after}.",
+            "Something that is not in the catalogue acts here; {} describes it, and the error falls {fell}.",
             joined(&added)
         ),
         (Verdict::UnlistedEffect, None) => format!(
             "Misfit that repeats from tightening to tightening remains ({after}), and no effect of the catalogue explains it."
         ),
         (Verdict::Adequate, _) if !added.is_empty() => format!(
-            "With {} the model is complete: the error fell from {before} to {after}, and nothing more is justified.",
+            "With {} the model is complete: the error fell {fell}, and nothing more is justified.",
             joined(&added)
         ),
         (Verdict::Adequate, _) => {
@@ -200,15 +228,8 @@ pub(crate) fn reasons(situation: &Situation<'_>) -> Vec<String> {
             first.p_family,
             situation,
         ));
-        reasons.push(format!(
-            "Its size: {}.",
-            sizes(chosen.effect.description(), &first.parameters)
-        ));
-        let twins: Vec<String> = first
-            .twins
-            .iter()
-            .map(|twin| twin.replace('_', " "))
-            .collect();
+        reasons.push(format!("Its size: {}.", sizes(&first.parameters)));
+        let twins = twins(situation);
         if !twins.is_empty() {
             reasons.push(format!(
                 "These data cannot tell it from {}; they are named together.",
@@ -224,18 +245,11 @@ pub(crate) fn reasons(situation: &Situation<'_>) -> Vec<String> {
             reasons.push(format!(
                 "Beside the misfit, mass, damping or stiffness drift with the tightening's number ({}): {}.",
                 trend.name,
-                sizes(trend, &found.parameters)
+                sizes(&found.parameters)
             ));
         }
     }
-    for one in situation.corrected {
-        reasons.push(format!(
-            "Before the fit, {} was measured in the quiet part and taken out: about {} in {:.0} % of the tightenings.",
-            one.effect.replace('_', " "),
-            amount(one.size, &one.unit),
-            one.share * 100.0
-        ));
-    }
+    reasons.extend(situation.corrected.iter().map(correction));
     if !situation.impossible.is_empty() {
         let names: Vec<String> = situation
             .impossible
@@ -271,6 +285,31 @@ pub(crate) fn reasons(situation: &Situation<'_>) -> Vec<String> {
     reasons
 }
 
+/// What preparation took out; where that is the rule and not the exception, with what to check.
+fn correction(one: &CorrectedEffect) -> String {
+    let taken_out = format!(
+        "Before the fit, {} was measured in the quiet part and taken out: about {} in {:.0} % of the tightenings.",
+        one.effect.replace('_', " "),
+        amount(one.size, &one.unit),
+        one.share * 100.0
+    );
+    match Effect::named(&one.effect).filter(|_| one.share > 0.5) {
+        Some(effect) => format!(
+            "{taken_out} Check at the bench: {}",
+            effect.description().check
+        ),
+        None => taken_out,
+    }
+}
+
+/// What these data cannot tell from the effect that is missing.
+fn twins(situation: &Situation<'_>) -> Vec<String> {
+    let first = situation.ranking.first();
+    let twins = first.map_or(&[][..], |first| &first.twins);
+    let spoken = |twin: &String| Effect::named(twin).map_or_else(|| twin.replace('_', " "), spoken);
+    twins.iter().map(spoken).collect()
+}
+
 fn evidence(name: &str, gain: f64, p: f64, situation: &Situation<'_>) -> String {
     let chance = match p {
         p if p <= 0.001 => "less than once in 1000 measurements like this".to_owned(),
@@ -283,7 +322,8 @@ fn evidence(name: &str, gain: f64, p: f64, situation: &Situation<'_>) -> String 
         false => "the squared error",
     };
     format!(
-        "{name} removes {gain:.0} % of {of} in {held_out} that took no part in finding its size; chance alone would do that {chance}."
+        "{} removes {gain:.0} % of {of} in {held_out} that took no part in finding its size; chance alone would do that {chance}.",
+        capitalised(name)
     )
 }
 
@@ -291,7 +331,7 @@ fn evidence(name: &str, gain: f64, p: f64, situation: &Situation<'_>) -> String 
 pub(crate) fn stopped(situation: &Situation<'_>) -> Option<String> {
     Some(match situation.stopped? {
         Stop::NothingSupported { best_p } => format!(
-            "No further effect is supported: the best of the rest is matched by chance in {:.0} of 100 campaigns ({:.0} of 100 is the limit).",
+            "No further effect is supported: chance alone does as well as the best of the rest in {:.0} of 100 campaigns like this, and an effect is believed below {:.0} of 100 only.",
             best_p * 100.0,
             situation.settings.level * 100.0
         ),
@@ -304,32 +344,55 @@ pub(crate) fn stopped(situation: &Situation<'_>) -> Option<String> {
     })
 }
 
-/// What an effect is, how it shows here, what to check at the bench.
-pub(crate) fn explanation(effect: Effect, parameters: &[EffectParameter]) -> Vec<String> {
-    let description = effect.description();
-    if let Some(declared) = declaration(effect.name()) {
-        return vec![
+/// What an effect is, how it shows, what to check at the bench.
+pub(crate) fn explanation(effect: Effect) -> Vec<String> {
+    match declaration(effect.name()) {
+        Some(declared) => vec![
             format!(
-                "A term in no catalogue: the hand's force gains {}.",
-                declared.expression
+                "A term in no catalogue: the hand's force gains {} ({}).",
+                declared.expression,
+                symbols(&declared.expression)
             ),
-            format!(
-                "Its size in these data: {}.",
-                sizes(description, parameters)
-            ),
-        ];
+            "It describes the missing force; what causes it is for the bench to find out."
+                .to_owned(),
+        ],
+        None => described(effect.description()),
     }
-    let mut sentences = vec![
-        description.summary.to_owned(),
-        format!("How it shows: {}.", description.shows_as),
-        format!(
-            "Its size in these data: {}.",
-            sizes(description, parameters)
-        ),
-        description.check.to_owned(),
+}
+
+/// What the catalogue says about an effect or a trend.
+pub(crate) fn described(description: &Description) -> Vec<String> {
+    let Description {
+        summary,
+        shows_as,
+        check,
+        ..
+    } = description;
+    vec![
+        (*summary).to_owned(),
+        format!("How it shows: {shows_as}."),
+        format!("Check at the bench: {check}"),
+    ]
+}
+
+/// What the letters of an expression stand for.
+fn symbols(expression: &str) -> String {
+    let letters: Vec<&str> = expression
+        .split(|sign: char| !sign.is_ascii_alphanumeric())
+        .collect();
+    let meanings = [
+        ("x", "x: displacement of the grip"),
+        ("v", "v: its velocity"),
+        ("theta", "theta: the tool's angle"),
+        ("T", "T: joint torque"),
+        ("p", "p: its size"),
     ];
-    sentences.retain(|sentence| !sentence.is_empty());
-    sentences
+    let used = meanings
+        .iter()
+        .filter(|(letter, _)| letters.contains(letter));
+    used.map(|(_, meaning)| *meaning)
+        .collect::<Vec<_>>()
+        .join(", ")
 }
 
 /// What became of an attempt to do without a term.
@@ -346,7 +409,6 @@ pub(crate) fn removal(attempt: &Attempt) -> String {
 
 /// The unlisted term in words.
 pub(crate) fn unlisted(
-    effect: Effect,
     declared: &CustomEffectSettings,
     gain: f64,
     parameters: &[EffectParameter],
@@ -354,9 +416,10 @@ pub(crate) fn unlisted(
 ) -> String {
     let held_out = units.named();
     format!(
-        "The simplest term that describes it is a force {} with {}; it removes {:.0} % of the misfit in {held_out} that took no part in finding its size. It describes; what causes it is for the bench to find out.",
+        "The simplest term that describes it is a force {} with {} ({}); it removes {:.0} % of the misfit in {held_out} that took no part in finding its size. It describes; what causes it is for the bench to find out.",
         declared.expression,
-        sizes(effect.description(), parameters),
+        sizes(parameters),
+        symbols(&declared.expression),
         (gain * 100.0).clamp(0.0, 100.0)
     )
 }

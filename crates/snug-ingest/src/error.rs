@@ -1,4 +1,4 @@
-use snug_campaign::{Finding, Severity};
+use snug_campaign::{Finding, Severity, did_you_mean};
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
@@ -246,7 +246,12 @@ pub enum IngestError {
     },
 
     /// A channel stands in the file under none of its names.
-    #[error("no {channel} channel: expected {}, the file holds {}", accepted.join(" or "), listed(present))]
+    #[error(
+        "no {channel} channel: expected {}, the file holds {}{}",
+        accepted.join(" or "),
+        listed(present),
+        accepted.iter().map(|name| did_you_mean(name, present)).collect::<String>()
+    )]
     MissingChannel {
         /// What is measured.
         channel: String,

@@ -1,3 +1,4 @@
+use snug_campaign::did_you_mean;
 use thiserror::Error;
 
 /// Why a model cannot be assembled.
@@ -20,7 +21,7 @@ pub enum ModelError {
         effect: &'static str,
     },
     /// Neither the catalogue nor the study has an effect of that name.
-    #[error("there is no effect `{name}`; there are: {}", known.join(", "))]
+    #[error("there is no effect `{name}`{}; there are: {}", did_you_mean(name, known), known.join(", "))]
     UnknownEffect {
         /// The name.
         name: String,
@@ -28,7 +29,7 @@ pub enum ModelError {
         known: Vec<&'static str>,
     },
     /// The model has no parameter of that name.
-    #[error("the model has no parameter `{name}`; it has: {}", known.join(", "))]
+    #[error("the model has no parameter `{name}`{}; it has: {}", did_you_mean(name, known), known.join(", "))]
     UnknownParameter {
         /// The name.
         name: String,

@@ -76,17 +76,9 @@ fn without_gaps(torque_nm: &[f64]) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
-    use crate::synthetic::{ONSET, PEAK, SEGMENT, recording};
-    use crate::{PreprocessSettings, Preprocessed, Preset, preprocess};
-    use snug_campaign::{Quantity, Recording};
-
-    fn prepared(recording: &Recording, preset: Preset) -> Preprocessed {
-        let settings = PreprocessSettings {
-            preset,
-            ..PreprocessSettings::default()
-        };
-        preprocess(recording, &settings, Quantity::Acceleration).unwrap()
-    }
+    use crate::synthetic::{ONSET, PEAK, SEGMENT, prepared, recording};
+    use crate::{Preprocessed, Preset};
+    use snug_campaign::Recording;
 
     fn codes(result: &Preprocessed) -> Vec<&str> {
         result.findings.iter().map(|f| f.code.as_str()).collect()

@@ -1,9 +1,10 @@
 //! Signals with known properties for the tests.
 
+use crate::{PreprocessSettings, Preprocessed, Preset, preprocess};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
-use snug_campaign::{Conditions, Motion, Recording, Segment, TimeBase};
+use snug_campaign::{Conditions, Motion, Quantity, Recording, Segment, TimeBase};
 
 pub(crate) fn white_noise(count: usize, standard_deviation: f64, seed: u64) -> Vec<f64> {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
@@ -80,6 +81,15 @@ pub(crate) fn acceleration(torque_nm: &[f64]) -> Vec<f64> {
             acceleration
         })
         .collect()
+}
+
+/// What `preset` makes of a recording, its acceleration to be fitted.
+pub(crate) fn prepared(recording: &Recording, preset: Preset) -> Preprocessed {
+    let settings = PreprocessSettings {
+        preset,
+        ..PreprocessSettings::default()
+    };
+    preprocess(recording, &settings, Quantity::Acceleration).expect("the settings are the defaults")
 }
 
 /// A recording of as many tightenings as `seeds`, 30 Nm, with noise like a real rig's and the given acceleration bias.

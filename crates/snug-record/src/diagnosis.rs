@@ -2,64 +2,28 @@
 
 use crate::schema::{Field, Kind, Message, field};
 use serde::Serialize;
-use snug_campaign::{
-    AddedEffect, CorrectedEffect, Detectability, Diagnosis, Drift, Experiment, Misfit,
-    NegativeControl, NoiseStatement, Removal, UnlistedTerm, WorkDone,
-};
+use snug_campaign::{Diagnosis, DiagnosisSummary, Misfit};
 
 /// The message of `/verdict`: the diagnosis without ladder and ranking, which have topics of their own, and without maps
 /// and signals.
 #[derive(Serialize)]
 pub(crate) struct VerdictMessage<'a> {
-    verdict: &'static str,
-    headline: &'a str,
-    reasons: &'a [String],
-    stopped: Option<&'a str>,
-    verb: &'a str,
-    tightenings: usize,
-    compared_output: &'a str,
-    noise: &'a NoiseStatement,
-    added: &'a [AddedEffect],
-    corrected: &'a [CorrectedEffect],
-    removals: &'a [Removal],
-    unlisted: Option<&'a UnlistedTerm>,
-    experiment: Option<&'a Experiment>,
-    control: Option<&'a NegativeControl>,
-    detectability: &'a [Detectability],
-    drift: &'a [Drift],
+    #[serde(flatten)]
+    summary: DiagnosisSummary<'a>,
     comparison: &'a [Misfit],
     where_it_fails: &'a [String],
     where_the_final_model_fails: &'a [String],
     repeatable_share: Option<f64>,
-    work: WorkDone,
 }
 
 pub(crate) fn verdict(diagnosis: &Diagnosis) -> VerdictMessage<'_> {
+    let last = diagnosis.final_location.as_ref();
     VerdictMessage {
-        verdict: diagnosis.verdict.name(),
-        headline: &diagnosis.headline,
-        reasons: &diagnosis.reasons,
-        stopped: diagnosis.stopped.as_deref(),
-        verb: &diagnosis.verb,
-        tightenings: diagnosis.tightenings,
-        compared_output: &diagnosis.compared_output,
-        noise: &diagnosis.noise,
-        added: &diagnosis.added,
-        corrected: &diagnosis.corrected,
-        removals: &diagnosis.removals,
-        unlisted: diagnosis.unlisted.as_ref(),
-        experiment: diagnosis.experiment.as_ref(),
-        control: diagnosis.control.as_ref(),
-        detectability: &diagnosis.detectability,
-        drift: &diagnosis.drift,
+        summary: diagnosis.summary(),
         comparison: &diagnosis.comparison.pooled,
         where_it_fails: &diagnosis.location.remarks,
-        where_the_final_model_fails: diagnosis
-            .final_location
-            .as_ref()
-            .map_or(&[], |location| &location.remarks),
+        where_the_final_model_fails: last.map_or(&[], |location| &location.remarks),
         repeatable_share: diagnosis.location.repeatable_share,
-        work: diagnosis.work,
     }
 }
 
@@ -141,6 +105,7 @@ pub(crate) const LADDER: Message = Message {
 
 const PARAMETER: &[Field] = &[
     field("name", Kind::Text, "", "Name with unit suffix"),
+    field("meaning", Kind::Text, "", "What it is, in a few words"),
     field("unit", Kind::Text, "", "Unit"),
     field("value", Kind::Double, "the parameter's", "Estimate"),
     field(
@@ -196,6 +161,12 @@ pub(crate) const RANKING: Message = Message {
         field("effect", Kind::Text, "", "Effect"),
         field("kind", Kind::Text, "", "Kind of the effect"),
         field("unlisted", Kind::Flag, "", "In no catalogue"),
+        field(
+            "expression",
+            Kind::Text,
+            "",
+            "Expression of a term that is in no catalogue",
+        ),
         field(
             "parameters",
             Kind::List(&Kind::Object(PARAMETER)),

@@ -17,6 +17,14 @@ pub fn effect_name(name: &str) -> String {
     }
 }
 
+/// An effect by its name; a term that is in no catalogue by what it is, `force p*x^2*v`.
+pub fn called(effect: &str, expression: Option<&String>) -> String {
+    expression.map_or_else(
+        || effect_name(effect),
+        |expression| format!("force {expression}"),
+    )
+}
+
 /// Names as a sentence lists them.
 pub fn effect_names(names: &[String]) -> String {
     let names: Vec<String> = names.iter().map(|name| effect_name(name)).collect();
@@ -25,11 +33,15 @@ pub fn effect_names(names: &[String]) -> String {
 
 /// `N/m^3` as `N/m³`; nothing for a pure number.
 pub fn unit_text(unit: &str) -> String {
-    if unit == "1" {
-        return String::new();
+    match unit {
+        "1" => String::new(),
+        unit => raised(unit),
     }
-    let raised = [("^2", "²"), ("^3", "³"), ("^4", "⁴"), ("^5", "⁵")];
-    raised.iter().fold(unit.to_owned(), |text, (plain, mark)| {
+}
+
+fn raised(text: &str) -> String {
+    let marks = [("^2", "²"), ("^3", "³"), ("^4", "⁴"), ("^5", "⁵")];
+    marks.iter().fold(text.to_owned(), |text, (plain, mark)| {
         text.replace(plain, mark)
     })
 }
@@ -64,13 +76,15 @@ pub fn size(parameter: &EffectParameter) -> Markup {
 
 /// A sentence with its `commands` set as code and its units raised; an expression keeps its signs.
 pub fn sentence(text: &str) -> Markup {
-    let raised = if text.contains('*') {
-        text.to_owned()
-    } else {
-        unit_text(text)
-    };
+    let words: Vec<String> = text
+        .split(' ')
+        .map(|word| match word.contains('*') {
+            true => word.to_owned(),
+            false => raised(word),
+        })
+        .collect();
     html! {
-        @for (place, part) in raised.split('`').enumerate() {
+        @for (place, part) in words.join(" ").split('`').enumerate() {
             @if place % 2 == 1 { code { (part) } } @else { (part) }
         }
     }
@@ -80,48 +94,18 @@ pub fn sentence(text: &str) -> Markup {
 pub fn sizes(parameters: &[EffectParameter], result: &CampaignResult) -> Markup {
     html! {
         @for parameter in parameters {
-            span.size { (parameter_name(&parameter.name, result)) " " (size(parameter)) }
+            span.size { (parameter_name(&parameter.meaning, &parameter.name, result)) " " (size(parameter)) }
         }
     }
 }
 
-/// What the catalogue's parameters are called.
-const PARAMETERS: [(&str, &str); 27] = [
-    ("k3_n_per_m3", "coefficient k3"),
-    ("k2_n_per_m2", "coefficient k2"),
-    ("fc_n", "friction force"),
-    ("c2_n_s2_per_m2", "coefficient c2"),
-    ("c_rebound_kg_per_s", "extra damping on the way back"),
-    ("gap_m", "gap"),
-    ("k_m_n_per_m", "branch stiffness"),
-    ("k_h_n_per_m", "hysteresis stiffness"),
-    ("z_max_m", "largest hysteresis deflection"),
-    ("m2_kg", "its mass"),
-    ("k2_n_per_m", "its stiffness"),
-    ("c2_kg_per_s", "its damping"),
-    ("f_max_n", "largest grip force"),
-    ("k_r_n_per_m", "reflex stiffness"),
-    ("tau_s", "delay or time constant"),
-    ("f_n", "push"),
-    ("onset_s", "onset"),
-    ("rise_s", "rise time"),
-    ("rise_ratio", "rise of the stiffness"),
-    ("kappa_per_nm", "rise of the stiffness per Nm"),
-    ("offset_nm", "offset"),
-    ("delay_s", "delay"),
-    ("bias_rad_per_s2", "bias"),
-    ("theta0_rad", "angle at the start"),
-    ("omega0_rad_per_s", "velocity at the start"),
-    ("epsilon", "share of ω²"),
-    ("gamma_rad_per_s2", "share of sin θ"),
-];
-
-/// What a parameter of an effect is called; one that the catalogue does not have, by its own name.
-pub fn parameter_name(name: &str, result: &CampaignResult) -> String {
-    PARAMETERS.iter().find(|known| known.0 == name).map_or_else(
-        || quantity::name(name, result).words,
-        |known| known.1.to_owned(),
-    )
+/// What a parameter of an effect is called: as its effect says it, else by its own name.
+pub fn parameter_name(meaning: &str, name: &str, result: &CampaignResult) -> String {
+    if meaning.is_empty() {
+        quantity::name(name, result).words
+    } else {
+        meaning.to_owned()
+    }
 }
 
 /// How often chance alone would do as well: `once in 1000 cases`.
@@ -153,6 +137,8 @@ pub fn share_with_error(share: f64, error: f64) -> String {
         return "nothing sure".into();
     }
     let decimals = if error < 0.005 { 1 } else { 0 };
+    // Few tightenings leave the misfit itself uncertain; more than all of it cannot be removed.
+    let share = share.min(1.0);
     format!(
         "{}\u{a0}±\u{a0}{}\u{a0}%",
         fixed(100.0 * share, decimals),
@@ -185,7 +171,17 @@ mod tests {
     }
 
     #[test]
+    fn units_in_a_sentence_are_raised_beside_an_expression() {
+        let told = sentence("a force p*x^2*v with p 3 N s/m^3: 1 and `improve`").into_string();
+        assert_eq!(
+            told,
+            "a force p*x^2*v with p 3 N s/m³: 1 and <code>improve</code>"
+        );
+    }
+
+    #[test]
     fn a_share_that_its_error_swallows_is_no_percentage() {
+        assert_eq!(share_with_error(1.73, 0.4), "100\u{a0}±\u{a0}40\u{a0}%");
         assert_eq!(share_with_error(0.72, 6.17), "nothing sure");
         assert_eq!(share_with_error(0.83, 0.04), "83\u{a0}±\u{a0}4\u{a0}%");
         assert_eq!(

@@ -1,7 +1,8 @@
 //! What a column name means: `stiffness_n_per_m` is read as "stiffness k" in N/m.
 
+use crate::effect_words::{effect_name, unit_text};
 use crate::signal_unit;
-use snug_campaign::CampaignResult;
+use snug_campaign::{CampaignResult, EffectParameter};
 
 /// How a quantity is called on the page.
 #[derive(Debug, Clone, PartialEq)]
@@ -45,8 +46,22 @@ const KNOWN: [(&str, &str, &str, &str); 12] = [
     ("selected_share", "selected share", "", ""),
 ];
 
-/// Names a column; the unit of an effect's parameter is taken from its estimates, else read from the name's end.
+/// Names a column, as the page shows it.
 pub fn name(column: &str, result: &CampaignResult) -> QuantityName {
+    let declared = as_declared(column, result);
+    QuantityName {
+        unit: unit_text(&declared.unit),
+        ..declared
+    }
+}
+
+/// A column's unit, as files give it.
+pub fn unit(column: &str, result: &CampaignResult) -> String {
+    as_declared(column, result).unit
+}
+
+/// Names a column; the unit of an effect's parameter is taken from its estimates, else read from the name's end.
+fn as_declared(column: &str, result: &CampaignResult) -> QuantityName {
     if let Some((_, words, symbol, unit)) = KNOWN.iter().find(|known| known.0 == column) {
         return QuantityName {
             words: (*words).into(),
@@ -54,6 +69,9 @@ pub fn name(column: &str, result: &CampaignResult) -> QuantityName {
             unit: signal_unit::base_parameter(&result.units, column)
                 .unwrap_or_else(|| (*unit).into()),
         };
+    }
+    if let Some(name) = of_added_effect(column, result) {
+        return name;
     }
     let (stem, suffix_unit) = split_unit(column);
     let declared = result
@@ -67,6 +85,25 @@ pub fn name(column: &str, result: &CampaignResult) -> QuantityName {
         symbol: "",
         unit: signal_unit::effect_parameter(&result.units, declared.unwrap_or(suffix_unit)),
     }
+}
+
+/// A parameter of an effect that the diagnosis put into the model: `coulomb friction: friction force`.
+fn of_added_effect(column: &str, result: &CampaignResult) -> Option<QuantityName> {
+    let added = &result.diagnosis.as_ref()?.added;
+    added.iter().find_map(|effect| {
+        let is_column = |size: &&EffectParameter| size.name == column && !size.meaning.is_empty();
+        let size = effect.parameters.iter().find(is_column)?;
+        let effect = effect_name(&effect.effect);
+        Some(QuantityName {
+            // An effect with one parameter may be called like it.
+            words: match size.meaning == effect {
+                true => effect,
+                false => format!("{effect}: {}", size.meaning),
+            },
+            symbol: "",
+            unit: signal_unit::effect_parameter(&result.units, size.unit.clone()),
+        })
+    })
 }
 
 /// A factor or method of the statistics in words.

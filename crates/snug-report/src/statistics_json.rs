@@ -113,7 +113,7 @@ fn condition<'a>(summary: &'a ConditionSummary, result: &CampaignResult) -> Cond
             .iter()
             .map(|row| Quantity {
                 quantity: &row.quantity,
-                unit: quantity::name(&row.quantity, result).unit,
+                unit: quantity::unit(&row.quantity, result),
                 selected: &row.selected,
                 rejected: &row.rejected,
             })

@@ -5,7 +5,7 @@ mod diagnosed;
 mod specimen;
 
 use serde_json::Value;
-use snug_campaign::CampaignResult;
+use snug_campaign::{CampaignResult, EffectParameter};
 use snug_report::{verdict_json, write};
 
 fn verdict(result: &CampaignResult) -> Value {
@@ -124,6 +124,16 @@ fn the_keys_are_those_agreed() {
     }
 }
 
+/// A verdict of an earlier version says nothing of what a parameter is.
+#[test]
+fn a_size_without_a_meaning_can_still_be_read() {
+    let mut file = verdict(&diagnosed::improve());
+    let size = &mut file["added"][0]["parameters"][0];
+    size.as_object_mut().unwrap().remove("meaning").unwrap();
+    let size: EffectParameter = serde_json::from_value(size.clone()).unwrap();
+    assert_eq!((size.meaning.as_str(), size.value), ("", 9.9e5));
+}
+
 #[test]
 fn the_numbers_are_those_found_to_the_last_digit() {
     let result = diagnosed::improve();
@@ -132,6 +142,7 @@ fn the_numbers_are_those_found_to_the_last_digit() {
     assert_eq!(cubic["effect"], "cubic_stiffness");
     let size = &cubic["parameters"][0];
     assert_eq!(size["name"], "k3_n_per_m3");
+    assert_eq!(size["meaning"], "cubic stiffness");
     assert_eq!(size["unit"], "N/m^3");
     assert_eq!(size["value"], 9.9e5);
     assert_eq!(size["low"], 9.9e5 - 1.96 * 1.5e4);

@@ -1,3 +1,4 @@
+use crate::distributions::student_t_two_sided;
 use serde::Serialize;
 
 /// What every hypothesis test of this crate states.
@@ -16,6 +17,19 @@ pub struct TestResult {
     pub degrees_of_freedom: Vec<f64>,
     /// Probability, if the null hypothesis holds, of a statistic at least as extreme.
     pub p: f64,
+}
+
+impl TestResult {
+    /// A two-sided test of Student's `t` with `df` degrees of freedom.
+    pub(crate) fn of_t(method: &'static str, t: f64, df: f64) -> Self {
+        Self {
+            method,
+            statistic_name: "t",
+            statistic: t,
+            degrees_of_freedom: vec![df],
+            p: student_t_two_sided(t, df),
+        }
+    }
 }
 
 /// A confidence interval, in the unit of the quantity it belongs to.

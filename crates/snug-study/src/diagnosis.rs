@@ -108,13 +108,31 @@ impl Verb {
     }
 }
 
+/// The study as it is, whose findings name the reason; an error where it has tightenings all the same.
+fn nothing_to_compare(
+    study: &Study,
+    settings: &RunSettings,
+    progress: &(dyn Fn(ProgressEvent<'_>) + Sync),
+    interrupted: &AtomicBool,
+) -> Result<Outcome, StudyError> {
+    let outcome = crate::run(study, settings, progress, interrupted)?;
+    match outcome.result.tightenings.len() {
+        0 => Ok(outcome),
+        tightenings => Err(DiagnoseError::NothingToCompare {
+            tightenings,
+            reason: "each is faulty or kept for validation; findings.json says why",
+        }
+        .into()),
+    }
+}
+
 /// Diagnoses a study and runs it with the model that came of it.
 ///
 /// The outcome's `study.ron` holds that model, sizes that all tightenings share held at their estimates with their
 /// standard errors, so that it can be run again and diagnosed further.
 ///
 /// # Errors
-/// As [`crate::run()`]; and when no tightening can be compared with the model.
+/// As [`crate::run()`]; and when there are tightenings, but none can be compared with the model.
 pub fn diagnose(
     study: &Study,
     verb: &Verb,
@@ -131,6 +149,9 @@ pub fn diagnose(
     let cases = pool.install(|| cases(study, &listing.files, study.diagnosis.most_tightenings))?;
     if interrupted.load(Ordering::Relaxed) {
         return Err(StudyError::Interrupted);
+    }
+    if cases.is_empty() {
+        return nothing_to_compare(study, settings, progress, interrupted);
     }
     let settled = pool.install(|| settle(study, &cases));
     let (study, cases, remarks) = match &settled {

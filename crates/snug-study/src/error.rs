@@ -1,4 +1,5 @@
 use crate::position;
+use snug_campaign::did_you_mean;
 use snug_diagnose::DiagnoseError;
 use snug_identify::IdentifyError;
 use snug_ingest::IngestError;
@@ -63,7 +64,11 @@ pub enum StudyError {
         effect: String,
     },
     /// An effect is to be taken out that the model does not have.
-    #[error("the model does not have {effect}; it has {present:?}")]
+    #[error(
+        "the model does not have `{effect}`{}; it has: {}",
+        did_you_mean(effect, present),
+        listed(present)
+    )]
     NotInModel {
         /// The effect.
         effect: String,
@@ -105,7 +110,7 @@ pub enum StudyError {
         samples: usize,
     },
     /// The source has no range of that name.
-    #[error("validation.ranges: there is no range `{name}` in the source; it has: {}", known.join(", "))]
+    #[error("validation.ranges: there is no range `{name}` in the source{}; it has: {}", did_you_mean(name, known), known.join(", "))]
     UnknownRange {
         /// The name.
         name: String,
@@ -146,6 +151,14 @@ pub enum StudyError {
     /// The report cannot be written.
     #[error("report: {0}")]
     Report(#[from] ReportError),
+}
+
+/// Names as an error lists them.
+fn listed(names: &[String]) -> String {
+    match names {
+        [] => "nothing beyond mass, damper and spring".to_owned(),
+        some => some.join(", "),
+    }
 }
 
 impl StudyError {

@@ -33,6 +33,33 @@ pub(crate) fn of_field(text: &str, path: &str) -> Option<Position> {
     found.map(|at| position(text, at))
 }
 
+/// The field whose value stands at `place` or, behind white space, right after it, and what stands there:
+/// `("minimum_fit_percent", "abc")`.
+///
+/// `text` need not be well formed; `None` outside every field and at the text's end.
+pub(crate) fn field_at(text: &str, place: Position) -> Option<(&str, &str)> {
+    let (above, in_line) = (place.line.checked_sub(1)?, place.column.checked_sub(1)?);
+    let mut lines = text.split_inclusive('\n');
+    let line_start: usize = lines.by_ref().take(above).map(str::len).sum();
+    let (bytes, _) = lines.next()?.char_indices().nth(in_line)?;
+    let rest = text[line_start + bytes..].trim_start();
+    let at = text.len() - rest.len();
+    if rest.is_empty() {
+        return None;
+    }
+    let fields = keys(text).into_iter();
+    let innermost = fields
+        .filter(|key| key.value.contains(&at))
+        .max_by_key(|key| key.at)?;
+    // A reader may have passed a sign: what is no list and no structure is told whole.
+    let value = text[innermost.value].trim();
+    let found = match value.contains(['(', '[', '{', '\n']) {
+        true => &rest[..token(rest).length],
+        false => value,
+    };
+    Some((innermost.name, found))
+}
+
 fn position(text: &str, at: usize) -> Position {
     let before = &text[..at];
     let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
@@ -208,6 +235,22 @@ mod tests {
         ] {
             assert_eq!(at(path), Some(place), "{path}");
         }
+    }
+
+    #[test]
+    fn what_stands_at_a_place_is_named_with_its_field() {
+        let text = "(\n  title: 'µ',\n  selection: (minimum_fit_percent: abc, x: \"b c\")\n";
+        let at = |line, column| field_at(text, Position { line, column });
+        assert_eq!(at(3, 36), Some(("minimum_fit_percent", "abc")));
+        assert_eq!(at(3, 35), Some(("minimum_fit_percent", "abc")));
+        assert_eq!(at(3, 44), Some(("x", "\"b c\"")));
+        assert_eq!(
+            field_at("(seed: -1)", Position { line: 1, column: 9 }),
+            Some(("seed", "-1"))
+        );
+        assert_eq!(at(1, 1), None);
+        assert_eq!(at(9, 9), None);
+        assert_eq!(at(3, 99), None);
     }
 
     #[test]

@@ -1,10 +1,11 @@
+use crate::position::{self, Position};
 use crate::{DiagnosisSettings, StudyError};
 use ron::extensions::Extensions;
 use serde::{Deserialize, Serialize};
-use snug_campaign::{Intersample, Quantity};
+use snug_campaign::{Intersample, Quantity, did_you_mean};
 use snug_identify::{ConstraintKind, IdentifySettings};
 use snug_ingest::Source;
-use snug_model::ModelSettings;
+use snug_model::{ModelError, ModelSettings};
 use snug_preprocess::{PreprocessSettings, Preset};
 use snug_record::RecordSettings;
 use std::path::{Path, PathBuf};
@@ -81,14 +82,15 @@ impl Study {
     /// # Errors
     /// [`StudyError::Syntax`] with line and column.
     pub fn parse(text: &str, path: &Path) -> Result<Self, StudyError> {
-        options()
-            .from_str(text)
-            .map_err(|source| StudyError::Syntax {
+        options().from_str(text).map_err(|source| {
+            let (line, column) = (source.span.start.line, source.span.start.col);
+            StudyError::Syntax {
                 path: path.to_path_buf(),
-                line: source.span.start.line,
-                column: source.span.start.col,
-                message: source.code.to_string(),
-            })
+                line,
+                column,
+                message: told(&source.code, text, Position { line, column }),
+            }
+        })
     }
 
     /// The study with every default written out, as RON that [`Study::read`] takes.
@@ -207,8 +209,11 @@ impl Study {
     /// # Errors
     /// [`StudyError::Model`] names the known ones, [`StudyError::AlreadyInModel`] what is there.
     pub fn check_effects(&self, names: &[String]) -> Result<(), StudyError> {
-        for name in names {
-            self.model.effect(name)?;
+        for (index, name) in names.iter().enumerate() {
+            let effect = self.model.effect(name)?.name();
+            if names[..index].contains(name) {
+                return Err(ModelError::DuplicateEffect { effect }.into());
+            }
             if self.model.effects.contains(name) {
                 return Err(StudyError::AlreadyInModel {
                     effect: name.clone(),
@@ -251,6 +256,22 @@ impl PresetChoices {
                 constraints: vec![ConstraintKind::Stable],
             },
         }
+    }
+}
+
+/// What is wrong with a RON text at `place`, in which field; behind a misspelt name, the one that may have been meant.
+fn told(error: &ron::Error, text: &str, place: Position) -> String {
+    match error {
+        ron::Error::NoSuchStructField {
+            expected, found, ..
+        }
+        | ron::Error::NoSuchEnumVariant {
+            expected, found, ..
+        } => format!("{error}{}", did_you_mean(found, expected)),
+        _ => match position::field_at(text, place) {
+            Some((field, found)) => format!("{field} is {found}: {error}"),
+            None => error.to_string(),
+        },
     }
 }
 

@@ -42,7 +42,11 @@ fn main() {
         .collect();
     let known = SECTIONS.map(|(name, _)| name);
     if let Some(unknown) = named.iter().find(|name| !known.contains(&name.as_str())) {
-        println!("no section {unknown}; there are {}", known.join(", "));
+        let meant = snug_campaign::did_you_mean(unknown, &known);
+        println!(
+            "there is no section `{unknown}`{meant}; there are: {}",
+            known.join(", ")
+        );
         std::process::exit(2);
     }
     for (name, fill) in SECTIONS {

@@ -12,19 +12,19 @@ pub fn significant(value: f64) -> String {
     }
 }
 
-/// A parameter with interval and unit: `k3_n_per_m3 9.90e5 [9.61e5, 1.02e6] N/m^3`.
+/// A parameter with interval and unit: `cubic stiffness 9.90e5 [9.61e5, 1.02e6] N/m^3`.
 pub fn sized(parameter: &EffectParameter) -> String {
-    let interval = match (parameter.low, parameter.high) {
+    let unit = match parameter.unit.as_str() {
+        "1" => String::new(),
+        unit => format!(" {unit}"),
+    };
+    let range = match (parameter.low, parameter.high) {
         // An interval without width says that the data do not determine the value.
         (Some(low), Some(high)) if high - low > 1e-6 * parameter.value.abs() => {
-            format!(" [{}, {}]", alike(low, parameter), alike(high, parameter))
+            let (low, high) = (alike(low, parameter), alike(high, parameter));
+            format!(" [{low}, {high}]{unit}")
         }
-        _ => " (no interval)".into(),
-    };
-    let unit = if parameter.unit == "1" {
-        ""
-    } else {
-        &parameter.unit
+        _ => format!("{unit} (no interval)"),
     };
     let own = match (parameter.per_tightening, parameter.spread) {
         (true, Some(spread)) => format!(
@@ -34,13 +34,11 @@ pub fn sized(parameter: &EffectParameter) -> String {
         (true, None) => " on average".into(),
         (false, _) => String::new(),
     };
-    format!(
-        "{} {}{interval} {unit}{own}",
-        parameter.name,
-        alike(parameter.value, parameter)
-    )
-    .trim_end()
-    .to_owned()
+    let called = match parameter.meaning.as_str() {
+        "" => &parameter.name,
+        meaning => meaning,
+    };
+    format!("{called} {}{range}{own}", alike(parameter.value, parameter))
 }
 
 /// As many decimals as half the interval supports with two digits; a power of ten where the value needs one.
@@ -49,6 +47,9 @@ fn alike(number: f64, parameter: &EffectParameter) -> String {
         .into_iter()
         .flatten()
         .fold(0.0, |largest: f64, value| largest.max(value.abs()));
+    if number == 0.0 {
+        return "0".into();
+    }
     if !(1e-3..1e5).contains(&largest) || !number.is_finite() {
         return significant_in_powers(number);
     }
@@ -57,7 +58,15 @@ fn alike(number: f64, parameter: &EffectParameter) -> String {
         _ => return significant(number),
     };
     let decimals = (1 - half.log10().floor() as i32).clamp(0, 8);
-    format!("{number:.*}", decimals as usize)
+    unsigned_zero(format!("{number:.*}", decimals as usize))
+}
+
+/// A rounded zero has no sign.
+fn unsigned_zero(text: String) -> String {
+    match text.strip_prefix('-') {
+        Some(rest) if rest.chars().all(|digit| matches!(digit, '0' | '.')) => rest.to_owned(),
+        _ => text,
+    }
 }
 
 fn significant_in_powers(number: f64) -> String {
@@ -74,16 +83,9 @@ pub fn share(share: f64, error: f64) -> String {
         return "nothing sure".into();
     }
     let decimals = if error < 0.005 { 1 } else { 0 };
-    let text = format!(
-        "{:.decimals$} ± {:.decimals$} %",
-        100.0 * share,
-        (100.0 * error).max(0.1)
-    );
-    // A rounded zero has no sign.
-    match text.strip_prefix('-') {
-        Some(rest) if rest.starts_with("0 ") || rest.starts_with("0.0 ") => rest.to_owned(),
-        _ => text,
-    }
+    // Few tightenings leave the misfit itself uncertain; more than all of it cannot be removed.
+    let share = unsigned_zero(format!("{:.decimals$}", 100.0 * share.min(1.0)));
+    format!("{share} ± {:.decimals$} %", (100.0 * error).max(0.1))
 }
 
 /// A p value that does not pretend.

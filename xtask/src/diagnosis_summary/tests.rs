@@ -1,11 +1,17 @@
 #![allow(clippy::unwrap_used)]
 
-use super::{WIDTH, text};
+use super::{Following, WIDTH, text};
 use snug_campaign::*;
+
+const FOLLOWING: Following = Following {
+    options: "--study rig.ron",
+    study: "rig.ron",
+};
 
 fn parameter(name: &str, unit: &str, value: f64, low: f64, high: f64) -> EffectParameter {
     EffectParameter {
         name: name.into(),
+        meaning: "cubic stiffness".into(),
         unit: unit.into(),
         value,
         low: Some(low),
@@ -23,6 +29,7 @@ fn candidate(effect: &str, gain: f64, p: f64, size: EffectParameter) -> RankedEf
         effect: effect.into(),
         kind: "mechanical".into(),
         unlisted: false,
+        expression: None,
         parameters: vec![size],
         score: 9.0,
         p_family: p,
@@ -106,7 +113,7 @@ fn blocks(text: &str, line: &str) -> usize {
 
 #[test]
 fn the_verdict_leads_and_the_next_command_closes() {
-    let text = text(&missing(), "--study rig.ron", false);
+    let text = text(&missing(), &FOLLOWING, false);
     let first = text.trim_start().lines().next().unwrap();
     assert_eq!(first, "Verdict: an effect is missing");
     assert!(text.contains("    cargo xtask add effect_0 --study rig.ron\n"));
@@ -119,22 +126,50 @@ fn the_verdict_leads_and_the_next_command_closes() {
 
 #[test]
 fn lines_keep_their_width_and_plain_text_has_no_colours() {
-    let plain = text(&missing(), "", false);
+    let plain = text(&missing(), &FOLLOWING, false);
     for line in plain.lines() {
         assert!(line.chars().count() <= WIDTH + 2, "{line}");
     }
     assert!(!plain.contains('\u{1b}') && !plain.contains('█'));
-    assert!(text(&missing(), "", true).contains('\u{1b}'));
+    assert!(text(&missing(), &FOLLOWING, true).contains('\u{1b}'));
 }
 
 #[test]
 fn sizes_stand_with_unit_and_interval() {
-    let text = text(&missing(), "", false);
-    assert!(text.contains("k3_n_per_m3 9.90e5 [9.61e5, 1.02e6] N/m^3"));
+    let text = text(&missing(), &FOLLOWING, false);
+    assert!(text.contains("cubic stiffness 9.90e5 [9.61e5, 1.02e6] N/m^3"));
     assert!(text.contains("83 ± 4 %"));
     assert!(text.contains("< 0.001"));
     assert!(text.contains("effect_7") && !text.contains("effect_8"));
     assert!(text.contains("the best 8 of 11 candidates"));
+}
+
+/// What it is, how it shows, what to check; and twins of the first only, since the others are no question any more.
+#[test]
+fn what_is_missing_is_explained() {
+    let mut diagnosis = missing();
+    diagnosis.ranking[0].explanation = vec!["The hand's spring becomes stiffer.".into()];
+    diagnosis.ranking[0].heldout_gain = 1.73;
+    let text = text(&diagnosis, &FOLLOWING, false);
+    assert!(text.contains("What effect 0 is\n  - The hand's spring becomes stiffer.\n"));
+    assert_eq!(text.matches("cannot be told from").count(), 1);
+    assert!(text.contains("100 ± 4 %") && !text.contains("173"));
+}
+
+#[test]
+fn zero_is_zero_and_units_follow_the_value() {
+    let mut size = parameter("gap_m", "m", 1.3e-7, 0.0, 3.1e-7);
+    assert_eq!(
+        super::sized(&size),
+        "cubic stiffness 1.30e-7 [0, 3.10e-7] m"
+    );
+    size.low = None;
+    assert_eq!(
+        super::sized(&size),
+        "cubic stiffness 1.30e-7 m (no interval)"
+    );
+    let size = parameter("bias", "rad/s^2", 0.13, -0.001, 0.26);
+    assert!(super::sized(&size).contains("[0.00, 0.26]"));
 }
 
 #[test]
@@ -142,22 +177,23 @@ fn terms_in_no_catalogue_stand_only_among_the_first_and_unsure_shares_are_no_per
     let mut diagnosis = missing();
     for place in [1, 4, 6] {
         diagnosis.ranking[place].unlisted = true;
+        diagnosis.ranking[place].expression = Some(format!("p*x^{place}"));
     }
     diagnosis.ranking[0].heldout_gain = 0.72;
     diagnosis.ranking[0].heldout_gain_error = 6.17;
-    let text = text(&diagnosis, "", false);
-    assert!(text.contains("effect_1 (unlisted)"));
-    assert!(!text.contains("effect_4") && !text.contains("effect_6"));
-    assert!(text.contains("3 of the candidates are simple terms"));
+    let text = text(&diagnosis, &FOLLOWING, false);
+    assert!(text.contains("  force p*x^1 "));
+    assert!(!text.contains("p*x^4") && !text.contains("p*x^6"));
+    assert!(text.contains("3 of the candidates are simple forces"));
     assert!(text.contains("nothing sure") && !text.contains("617"));
 }
 
 #[test]
 fn bars_shrink_to_nothing_at_the_floor() {
-    let text = text(&missing(), "", false);
+    let text = text(&missing(), &FOLLOWING, false);
     let base = blocks(&text, "base model");
     let middle = blocks(&text, "+ cubic_stiffness");
-    assert_eq!(base, super::BAR);
+    assert_eq!(base, 36);
     // ln 1.38 / ln 6.4 = 0.1735 of 36 columns.
     assert_eq!(middle, 6);
     assert_eq!(blocks(&text, "+ torque_delay"), 0);
@@ -167,7 +203,7 @@ fn bars_shrink_to_nothing_at_the_floor() {
 fn without_noise_the_error_has_the_output_s_name() {
     let mut diagnosis = missing();
     diagnosis.ladder = vec![rung(&[], None, 1.0), rung(&["sin"], None, 0.5)];
-    let text = text(&diagnosis, "", false);
+    let text = text(&diagnosis, &FOLLOWING, false);
     assert!(text.contains("residual of the acceleration"));
     assert_eq!(blocks(&text, "base model"), 36);
     assert_eq!(blocks(&text, "+ sin"), 18);
@@ -178,19 +214,19 @@ fn every_verdict_says_what_to_do() {
     let mut diagnosis = missing();
     diagnosis.verb = "compare".into();
     assert!(
-        text(&diagnosis, "", false)
+        text(&diagnosis, &FOLLOWING, false)
             .trim_end()
-            .ends_with("cargo xtask diagnose")
+            .ends_with("cargo xtask diagnose --study rig.ron")
     );
     diagnosis.verdict = Verdict::Undecided;
-    let compared = text(&diagnosis, "", false);
+    let compared = text(&diagnosis, &FOLLOWING, false);
     assert!(compared.contains("Verdict: the model leaves more than the noise"));
     assert!(!compared.contains("too little data"));
     diagnosis.verb = "improve".into();
     diagnosis.verdict = Verdict::Adequate;
-    assert!(text(&diagnosis, "", false).contains("Nothing needs to be added"));
+    assert!(text(&diagnosis, &FOLLOWING, false).contains("Nothing needs to be added"));
     diagnosis.verdict = Verdict::Undecided;
-    assert!(text(&diagnosis, "", false).contains("Record more tightenings"));
+    assert!(text(&diagnosis, &FOLLOWING, false).contains("Record more tightenings"));
     diagnosis.verdict = Verdict::UnlistedEffect;
     diagnosis.unlisted = Some(UnlistedTerm {
         expression: "p*x^2*v".into(),
@@ -198,5 +234,14 @@ fn every_verdict_says_what_to_do() {
         heldout_gain: 0.7,
         statement: "A damping that grows with x².".into(),
     });
-    assert!(text(&diagnosis, "", false).contains("    (name: \"x2v\")\n    cargo xtask diagnose"));
+    let found = text(&diagnosis, &FOLLOWING, false);
+    assert!(found.contains("    (name: \"x2v\")\n"));
+    assert!(
+        !found.contains("cargo xtask improve"),
+        "it was already asked to"
+    );
+    diagnosis.verb = "diagnose".into();
+    let found = text(&diagnosis, &FOLLOWING, false);
+    let last = "cargo xtask improve --study rig.ron";
+    assert!(found.trim_end().ends_with(last));
 }

@@ -1,4 +1,5 @@
 use crate::exit;
+use snug_campaign::did_you_mean;
 use snug_model::{Description, Effect, INVISIBLE, Invisible, Law, TRENDS};
 use std::process::ExitCode;
 
@@ -21,7 +22,8 @@ pub fn effects(name: Option<&str>) -> ExitCode {
         .chain(INVISIBLE.iter().map(|invisible| invisible.name))
         .collect();
     eprintln!(
-        "no effect is called `{name}`; there are: {}",
+        "there is no effect `{name}`{}; there are: {}",
+        did_you_mean(name, &names),
         names.join(", ")
     );
     exit::bad_arguments()

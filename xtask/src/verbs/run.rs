@@ -1,4 +1,5 @@
 use crate::arguments::{PresetName, RunOptions};
+use crate::diagnosis_summary::Following;
 use crate::progress::Progress;
 use crate::{diagnosis_summary, exit, summary, workspace};
 use snug_study::{Outcome, Preset, ProgressEvent, RunSettings, Study, StudyError};
@@ -50,10 +51,16 @@ pub fn carry_out(
     match outcome {
         Ok(outcome) => {
             if !options.quiet {
+                let written = settings.out.join("study.ron");
+                let following = Following {
+                    options: next,
+                    study: &options.study.as_ref().unwrap_or(&written).to_string_lossy(),
+                };
                 match &outcome.result.diagnosis {
-                    Some(diagnosis) => diagnosis_summary::print(diagnosis, next),
+                    Some(diagnosis) => diagnosis_summary::print(diagnosis, &following),
                     None => print!("{}", summary::of_run(&outcome)),
                 }
+                print!("{}", summary::of_results(&outcome));
             }
             exit_code(&outcome)
         }

@@ -1,15 +1,10 @@
-use crate::{exit, workspace};
-use std::process::{Command, ExitCode};
+use crate::workspace;
+use std::process::ExitCode;
 
 /// Every test of the workspace, optimised, documentation examples included.
 pub fn test(many: bool, blind: bool, filter: Option<&str>) -> ExitCode {
-    let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
-    cargo.current_dir(workspace::root()).args([
-        "test",
-        "--release",
-        "--workspace",
-        "--no-fail-fast",
-    ]);
+    let mut cargo = workspace::cargo();
+    cargo.args(["test", "--release", "--workspace", "--no-fail-fast"]);
     if let Some(filter) = filter {
         cargo.arg(filter);
     }
@@ -19,12 +14,5 @@ pub fn test(many: bool, blind: bool, filter: Option<&str>) -> ExitCode {
     if blind {
         cargo.env("SNUG_BLIND", "1");
     }
-    match cargo.status() {
-        Ok(status) if status.success() => exit::DONE,
-        Ok(_) => exit::failed(),
-        Err(error) => {
-            eprintln!("cargo cannot be started: {error}");
-            exit::failed()
-        }
-    }
+    workspace::run(cargo)
 }

@@ -35,12 +35,13 @@ const SHAPES: [(&str, Shape); COUNT] = [
         |x, _| x * x,
     ),
     (
-        "x³, as a spring does that stiffens (or softens) with the way",
+        "x³, as a spring does that stiffens (or softens) the further it is pushed",
         |x, _| x * x * x,
     ),
-    ("x² v, as a damper does that grows with the way", |x, v| {
-        x * x * v
-    }),
+    (
+        "x² v, as a damper does that grows with the displacement",
+        |x, v| x * x * v,
+    ),
     ("x v, as a damper does that differs to each side", |x, v| {
         x * v
     }),

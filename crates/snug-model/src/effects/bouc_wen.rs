@@ -30,7 +30,7 @@ impl Law for BoucWen {
                 scope: Scope::Shared,
             }, ParameterSpec {
                 name: "z_max_m",
-                meaning: "way until it lets go",
+                meaning: "travel until it lets go",
                 unit: "m",
                 starts: &[0.0025, 0.0008, 0.008],
                 minimum: 1e-4,

@@ -102,17 +102,9 @@ fn noise_before(
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
-    use crate::synthetic::recording;
-    use crate::{PreprocessSettings, Preprocessed, Preset, preprocess};
-    use snug_campaign::{Quantity, Recording, Severity};
-
-    fn prepared(recording: &Recording, preset: Preset) -> Preprocessed {
-        let settings = PreprocessSettings {
-            preset,
-            ..PreprocessSettings::default()
-        };
-        preprocess(recording, &settings, Quantity::Acceleration).unwrap()
-    }
+    use crate::Preset;
+    use crate::synthetic::{prepared, recording};
+    use snug_campaign::Severity;
 
     #[test]
     fn the_original_takes_the_grip_force_under_one_name_only() {

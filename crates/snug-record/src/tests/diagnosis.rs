@@ -22,8 +22,10 @@ fn candidate(effect: &str, gain: f64) -> RankedEffect {
         effect: effect.into(),
         kind: "mechanical".into(),
         unlisted: false,
+        expression: None,
         parameters: vec![EffectParameter {
             name: "k3_n_per_m3".into(),
+            meaning: "cubic stiffness".into(),
             unit: "N/m^3".into(),
             value: 9.9e5,
             low: Some(9.6e5),

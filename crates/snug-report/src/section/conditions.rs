@@ -48,7 +48,8 @@ fn drawings(quantities: &[&str], result: &CampaignResult) -> Markup {
     html! {
         p {
             "Each dot is the mean of the selected tightenings of a group with its 95 % interval (thick); the thin line reaches \
-            one standard deviation to both sides, which is how much single tightenings differ."
+            one standard deviation to both sides, which is how much single tightenings differ. An interval that ends at the frame \
+            goes on beyond it: its group is too small to say much."
         }
         (legend(&[("c-selected", "mean and 95 % interval"), ("c-quiet", "± standard deviation")]))
         div.figures.small { @for column in quantities { (drawing(column, result)) } }
@@ -134,10 +135,13 @@ fn cell(moments: Option<&Moments>) -> Markup {
     }
 }
 
+/// Height, group and numbers of a row of the drawing.
+type Placed<'a> = (f64, &'a ConditionSummary, &'a Moments);
+
 /// Mean, interval and spread of one quantity, one row per level.
 fn drawing(column: &str, result: &CampaignResult) -> Markup {
     let mut rows: Vec<(String, bool)> = Vec::new();
-    let mut placed: Vec<(f64, &ConditionSummary, &Moments)> = Vec::new();
+    let mut placed: Vec<Placed<'_>> = Vec::new();
     for (factor, levels) in factors(result) {
         if factor != "all" {
             rows.push((quantity::words(factor), true));
@@ -150,14 +154,7 @@ fn drawing(column: &str, result: &CampaignResult) -> Markup {
         }
     }
     let name = quantity::name(column, result);
-    let ends = placed.iter().flat_map(|(_, _, moments)| {
-        let deviation = moments.standard_deviation.unwrap_or(0.0);
-        let interval = moments.mean_interval.map(|i| [i.low, i.high]);
-        [moments.mean - deviation, moments.mean + deviation]
-            .into_iter()
-            .chain(interval.into_iter().flatten())
-    });
-    let (low, high) = linear_range(ends, 0.05);
+    let (low, high) = shown_range(&placed);
     let figure = Figure {
         description: format!(
             "Mean {} per condition with 95 % intervals",
@@ -167,12 +164,30 @@ fn drawing(column: &str, result: &CampaignResult) -> Markup {
         height: 56.0 + 17.0 * rows.len() as f64,
         x: Axis::linear(name.with_unit(), low, high, 5),
         y: Axis::rows(&rows),
-        marks: marks(&placed, &name.unit),
+        marks: marks(&placed, (low, high), &name.unit),
     };
     captioned(&quantity::capitalised(&name.words), figure.svg(), None)
 }
 
-fn marks(placed: &[(f64, &ConditionSummary, &Moments)], unit: &str) -> Vec<Mark> {
+/// Every mean with its standard deviation, and the intervals as far as they do not press all that together: that of two
+/// tightenings is many times as wide as they differ.
+fn shown_range(placed: &[Placed<'_>]) -> (f64, f64) {
+    let spread: Vec<f64> = (placed.iter())
+        .flat_map(|(_, _, moments)| {
+            let deviation = moments.standard_deviation.unwrap_or(0.0);
+            [moments.mean - deviation, moments.mean + deviation]
+        })
+        .collect();
+    let (least, most) = linear_range(spread.iter().copied(), 0.5);
+    let intervals = placed
+        .iter()
+        .filter_map(|(_, _, moments)| moments.mean_interval)
+        .flat_map(|interval| [interval.low, interval.high])
+        .map(|end| end.clamp(least, most));
+    linear_range(intervals.chain(spread), 0.05)
+}
+
+fn marks(placed: &[Placed<'_>], (low, high): (f64, f64), unit: &str) -> Vec<Mark> {
     let spreads = placed.iter().filter_map(|(y, _, moments)| {
         let deviation = moments.standard_deviation?;
         Some(Segment {
@@ -183,7 +198,7 @@ fn marks(placed: &[(f64, &ConditionSummary, &Moments)], unit: &str) -> Vec<Mark>
     let intervals = placed.iter().filter_map(|(y, _, moments)| {
         let interval = moments.mean_interval?;
         Some(Segment {
-            x: (interval.low, interval.high),
+            x: (interval.low.max(low), interval.high.min(high)),
             y: (*y, *y),
         })
     });

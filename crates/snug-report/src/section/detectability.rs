@@ -32,7 +32,7 @@ fn false_alarms(control: &NegativeControl) -> Markup {
         h3 { "False alarms" }
         p { "Campaigns were simulated from the accepted model with noise like the measured, so that nothing was missing in them, \
             and ranked in the same way. An effect was called missing in " strong { (control.false_alarms) " of " (control.campaigns) }
-            ": " (percent(rate)) ", 95 % interval " (percent_interval(interval)) ". Meant were " (percent(control.nominal_rate)) "." }
+            ", which is " (percent(rate)) " (95 % interval " (percent_interval(interval)) "); meant are " (percent(control.nominal_rate)) "." }
         @if control.rate_low > control.nominal_rate {
             p.attention { "That is more than meant: read the verdict with care." }
         }
@@ -44,14 +44,14 @@ fn absent(list: &[Detectability], result: &CampaignResult) -> Markup {
         h3 { "What was not found is absent or smaller than this" }
         p { "Each effect was put into these data to see from which size on it would be found 95 times in 100. Beside it stands the \
             largest size that is physically plausible: where the first is much smaller, the effect can be ruled out for practical purposes." }
-        div.scroll { table.prose {
+        div.scroll { table {
             thead { tr {
                 th scope="col" { "effect" }
                 th scope="col" { "absent or smaller than" }
                 th scope="col" { "largest plausible" }
             } }
             tbody { @for row in list { tr {
-                th scope="row" { (effect_name(&row.effect)) " " span.interval { (parameter_name(&row.parameter, result)) } }
+                th scope="row" { (effect_name(&row.effect)) " " span.interval { (parameter_name(&row.meaning, &row.parameter, result)) } }
                 td {
                     @match row.smallest_detectable.filter(|size| size.is_finite()) {
                         Some(size) => (amount(size, &row.unit)),

@@ -27,7 +27,13 @@ fn render(result: &CampaignResult) -> Markup {
         "stiffness_n_per_m",
         "natural_frequency_hz",
     ];
-    columns.extend(effect_parameters(result));
+    // A value that all tightenings share has no distribution.
+    let own = |column: &&str| {
+        let mut values = fitted(result).filter_map(|tightening| value(tightening, column));
+        let first = values.next();
+        values.any(|value| Some(value) != first)
+    };
+    columns.extend(effect_parameters(result).into_iter().filter(own));
     columns.extend(["fit_percent", "error_over_noise"]);
     let drawings: Vec<Markup> = columns
         .iter()

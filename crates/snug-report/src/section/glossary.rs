@@ -10,7 +10,7 @@ pub const SECTION: Section = Section {
     render,
 };
 
-const TERMS: [(&str, &str); 17] = [
+const TERMS: [(&str, &str); 22] = [
     (
         "Tightening",
         "One run of the tool on one bolt: torque builds up, then drops, and the tool kicks the hand.",
@@ -57,6 +57,23 @@ const TERMS: [(&str, &str); 17] = [
     (
         "Error over noise",
         "Root mean square of the residual in multiples of the measurement noise: 1 means nothing is left but noise.",
+    ),
+    (
+        "Effect",
+        "A physical law that the model can have beyond mass, damper and spring; “cargo xtask effects” lists them.",
+    ),
+    ("Misfit", "What of the residual is more than the noise."),
+    (
+        "Held out, unseen",
+        "Tightenings that took no part in finding an effect's size. What helps there, too, is a law and no accident.",
+    ),
+    (
+        "Chance, p",
+        "How often chance alone would do as well, all candidates taken together: 0.05 is 5 of 100 times.",
+    ),
+    (
+        "Twins, not to be told from",
+        "Effects that explain these data equally well; the bench or further tightenings must decide.",
     ),
     (
         "Euler method",

@@ -1,5 +1,5 @@
 use super::DiagnosisSection;
-use crate::effect_words::{effect_name, unit_text};
+use crate::effect_words::{called, effect_name, unit_text};
 use crate::figure::{Axis, Bar, Dot, Figure, Mark, Segment, captioned, legend};
 use crate::number::{percent, plain, significant};
 use maud::{Markup, html};
@@ -49,7 +49,7 @@ fn render(diagnosis: &Diagnosis, _: &CampaignResult) -> Option<Markup> {
     if rungs.is_empty() {
         return None;
     }
-    let names = names(rungs);
+    let names = names(diagnosis);
     let known = rungs.iter().any(|rung| rung.error_over_noise.is_some());
     let unit = output_unit(diagnosis);
     let error = if known {
@@ -101,15 +101,20 @@ fn output_unit(diagnosis: &Diagnosis) -> String {
 }
 
 /// What each rung changes against the one before.
-fn names(rungs: &[Rung]) -> Vec<String> {
+fn names(diagnosis: &Diagnosis) -> Vec<String> {
+    let known = |effect: &String| {
+        let added = diagnosis.added.iter();
+        let found = added.clone().find(|known| known.effect == *effect);
+        called(effect, found.and_then(|known| known.expression.as_ref()))
+    };
     let mut before: &[String] = &[];
     let mut names = Vec::new();
-    for (place, rung) in rungs.iter().enumerate() {
+    for (place, rung) in diagnosis.ladder.iter().enumerate() {
         let gained = rung.effects.iter().filter(|e| !before.contains(e));
         let lost = before.iter().filter(|e| !rung.effects.contains(e));
         let steps: Vec<String> = gained
-            .map(|effect| format!("+ {}", effect_name(effect)))
-            .chain(lost.map(|effect| format!("− {}", effect_name(effect))))
+            .map(|effect| format!("+ {}", known(effect)))
+            .chain(lost.map(|effect| format!("− {}", known(effect))))
             .collect();
         names.push(match (steps.is_empty(), place) {
             (true, 0) => "mass, damper, spring".into(),

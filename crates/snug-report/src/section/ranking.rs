@@ -1,5 +1,5 @@
 use super::DiagnosisSection;
-use crate::effect_words::{LEVEL, UNSURE, by_chance, effect_name, effect_names, parameter_name};
+use crate::effect_words::{LEVEL, UNSURE, by_chance, called, effect_names, parameter_name};
 use crate::effect_words::{sentence, share_with_error, sizes};
 use crate::figure::{Axis, Bar, Figure, Mark, Segment, captioned, legend};
 use crate::number::{fixed, p_value, plain, significant};
@@ -40,8 +40,8 @@ fn render(diagnosis: &Diagnosis, result: &CampaignResult) -> Option<Markup> {
         }
         (figure(&shown))
         p { "A candidate is believed when chance alone would do as well in fewer than " (fixed(100.0 * LEVEL, 0))
-            " of 100 cases; that already allows for the number of candidates. Open a row for what it is, how it shows and what to check." }
-        div.candidates { @for (place, candidate) in shown.iter().enumerate() { (entry(candidate, place < ALWAYS, result)) } }
+            " of 100 cases (p below " (LEVEL) "); that already allows for the number of candidates. Open a row for what it is, how it shows and what to check." }
+        div.candidates { @for (place, candidate) in shown.iter().enumerate() { (entry(candidate, place == 0, result)) } }
         @if !rest.is_empty() {
             details {
                 summary {
@@ -89,12 +89,7 @@ fn class(candidate: &RankedEffect) -> &'static str {
 }
 
 fn label(candidate: &RankedEffect) -> String {
-    let name = effect_name(&candidate.effect);
-    if candidate.unlisted {
-        format!("{name} (unlisted)")
-    } else {
-        name
-    }
+    called(&candidate.effect, candidate.expression.as_ref())
 }
 
 fn figure(ranking: &[&RankedEffect]) -> Markup {
@@ -185,11 +180,12 @@ fn bar(row: usize, candidate: &RankedEffect, (low, high): (f64, f64)) -> Bar {
     }
 }
 
+/// A row of the candidates; twins are a question of the first only.
 fn entry(candidate: &RankedEffect, with_twins: bool, result: &CampaignResult) -> Markup {
     html! {
         details.candidate {
             summary {
-                span.name.strong[supported(candidate)] { (effect_name(&candidate.effect)) }
+                span.name.strong[supported(candidate)] { (label(candidate)) }
                 " " span.gain { (share_with_error(candidate.heldout_gain, candidate.heldout_gain_error)) }
                 " " span.chance { "p " (p_value(Some(candidate.p_family))) }
                 " " span.sizes { (sizes(&candidate.parameters, result)) }
@@ -197,12 +193,12 @@ fn entry(candidate: &RankedEffect, with_twins: bool, result: &CampaignResult) ->
                 @if candidate.unlisted { " " span.tag.unlisted { "in no catalogue" } }
                 @if !candidate.plausible { " " span.tag.implausible { "size not plausible" } }
             }
-            (evidence(candidate, result))
+            (evidence(candidate, with_twins, result))
         }
     }
 }
 
-fn evidence(candidate: &RankedEffect, result: &CampaignResult) -> Markup {
+fn evidence(candidate: &RankedEffect, with_twins: bool, result: &CampaignResult) -> Markup {
     html! {
         ul { @for line in &candidate.explanation { li { (sentence(line)) } } }
         ul.note {
@@ -212,14 +208,14 @@ fn evidence(candidate: &RankedEffect, result: &CampaignResult) -> Markup {
             @if candidate.behind_first > 0.0 {
                 li { "The first candidate explains more by " (significant(candidate.behind_first, 2)) " standard deviations over tightenings." }
             }
-            @if !candidate.twins.is_empty() {
+            @if with_twins && !candidate.twins.is_empty() {
                 li { "These data cannot tell it from " (effect_names(&candidate.twins)) "." }
             }
             @if !candidate.plausible {
                 li { "Its size lies on the edge of the plausible range, which speaks against it." }
             }
             @for parameter in &candidate.parameters {
-                li { (parameter_name(&parameter.name, result)) ": plausible from " (significant(parameter.minimum, 3)) " to " (significant(parameter.maximum, 3)) " " (crate::effect_words::unit_text(&parameter.unit)) "." }
+                li { (parameter_name(&parameter.meaning, &parameter.name, result)) ": plausible from " (significant(parameter.minimum, 3)) " to " (significant(parameter.maximum, 3)) " " (crate::effect_words::unit_text(&parameter.unit)) "." }
             }
         }
     }

@@ -1,10 +1,12 @@
 use super::DiagnosisSection;
 use crate::effect_words::{
-    by_chance, effect_name, effect_names, sentence, share_with_error, sizes, unit_text,
+    by_chance, called, effect_name, effect_names, sentence, share_with_error, sizes, unit_text,
 };
 use crate::number::{fixed, percent, significant};
 use maud::{Markup, html};
-use snug_campaign::{AddedEffect, CampaignResult, CorrectedEffect, Diagnosis, Verdict};
+use snug_campaign::{
+    AddedEffect, CampaignResult, CorrectedEffect, Diagnosis, RankedEffect, Verdict,
+};
 
 /// What is missing in the model, in one sentence, and why.
 pub const SECTION: DiagnosisSection = DiagnosisSection {
@@ -57,18 +59,17 @@ fn word(diagnosis: &Diagnosis) -> &'static str {
 fn added(effect: &AddedEffect, result: &CampaignResult) -> Markup {
     html! {
         div.effect {
-            h4 { (effect_name(&effect.effect)) " " span.nature { (effect.kind) } }
-            @if let Some(expression) = &effect.expression { p { code { (expression) } } }
+            h4 { (called(&effect.effect, effect.expression.as_ref())) " " span.nature { (effect.kind) } }
             p.sizes { (sizes(&effect.parameters, result)) }
             @if let Some(gain) = effect.heldout_gain {
-                p { "It removes " strong { (fixed(100.0 * gain, 0)) "\u{a0}%" } " of the misfit in tightenings that its size was not fitted to." }
+                p { "It removes " strong { (fixed(100.0 * gain.min(1.0), 0)) "\u{a0}%" } " of the misfit in tightenings that its size was not fitted to." }
             }
             @match effect.p_family {
                 Some(p) => p { "How sure: " (by_chance(p)) "." },
                 None => p { "The study's model already had it, so it was not put to the test here." },
             }
             @if let Some(needed) = effect.needed {
-                p { "Without it, the squared error over noise would grow by " (significant(needed, 3)) "." }
+                p { "Without it, the squared error would " (growth(needed)) "." }
             }
             @if !effect.twins.is_empty() {
                 p.attention { "These data cannot tell it from " strong { (effect_names(&effect.twins)) } "." }
@@ -80,6 +81,15 @@ fn added(effect: &AddedEffect, result: &CampaignResult) -> Markup {
     }
 }
 
+/// By how much something grows, given as a share of itself.
+fn growth(share: f64) -> String {
+    if share >= 1.0 {
+        format!("be {} times as large", significant(1.0 + share, 2))
+    } else {
+        format!("grow by {}", percent(share))
+    }
+}
+
 /// The effect that the verdict names, while it is not yet in the model.
 fn missing(diagnosis: &Diagnosis, result: &CampaignResult) -> Markup {
     let first = diagnosis
@@ -88,23 +98,37 @@ fn missing(diagnosis: &Diagnosis, result: &CampaignResult) -> Markup {
         .filter(|_| diagnosis.verdict == Verdict::MissingEffect);
     html! {
         @if let Some(first) = first {
-            h3 { "What is missing" }
-            div.effects { div.effect {
-                h4 { (effect_name(&first.effect)) " " span.nature { (first.kind) } }
-                p.sizes { (sizes(&first.parameters, result)) }
-                p { "It removes " strong { (share_with_error(first.heldout_gain, first.heldout_gain_error)) }
-                    " of the misfit in tightenings that its size was not fitted to." }
-                p { "How sure: " (by_chance(first.p_family)) "." }
-                @if !first.twins.is_empty() {
-                    p.attention { "These data cannot tell it from " strong { (effect_names(&first.twins)) } "." }
-                }
-                @if !first.plausible { p.attention { "Its size lies on the edge of what is plausible." } }
-                @if !first.explanation.is_empty() {
-                    ul { @for line in &first.explanation { li { (sentence(line)) } } }
-                }
+            h3 { @if first.twins.is_empty() { "What is missing" } @else { "What is missing: one of these, and these data cannot tell which" } }
+            div.effects { @for one in named(diagnosis, first) {
+                (candidate(one, result))
             } }
             p { "To add it and see the error before and after: " code { "cargo xtask add " (first.effect) }
                 ", with the same " code { "--data" } " or " code { "--study" } " as now." }
+        }
+    }
+}
+
+/// An effect and what these data cannot tell from it.
+fn named<'a>(
+    diagnosis: &'a Diagnosis,
+    first: &'a RankedEffect,
+) -> impl Iterator<Item = &'a RankedEffect> {
+    let is_twin = |one: &&RankedEffect| first.twins.contains(&one.effect);
+    std::iter::once(first).chain(diagnosis.ranking.iter().filter(is_twin))
+}
+
+fn candidate(one: &RankedEffect, result: &CampaignResult) -> Markup {
+    html! {
+        div.effect {
+            h4 { (effect_name(&one.effect)) " " span.nature { (one.kind) } }
+            p.sizes { (sizes(&one.parameters, result)) }
+            p { "It removes " strong { (share_with_error(one.heldout_gain, one.heldout_gain_error)) }
+                " of the misfit in tightenings that its size was not fitted to." }
+            p { "How sure: " (by_chance(one.p_family)) "." }
+            @if !one.plausible { p.attention { "Its size lies on the edge of what is plausible." } }
+            @if !one.explanation.is_empty() {
+                ul { @for line in &one.explanation { li { (sentence(line)) } } }
+            }
         }
     }
 }
@@ -113,8 +137,7 @@ fn unlisted(diagnosis: &Diagnosis) -> Markup {
     html! {
         @if let Some(term) = &diagnosis.unlisted {
             h3 { "The simplest term that describes what no effect of the catalogue explains" }
-            p { code { (term.expression) } " – " (term.statement) " It removes " strong { (fixed(100.0 * term.heldout_gain, 0)) "\u{a0}%" }
-                " of the remaining misfit in tightenings it was not fitted to." }
+            p { (sentence(&term.statement)) }
             p { "To try it, paste this into the list " code { "model.custom" } " of the study file:" }
             pre { code { (term.ron) } }
         }
@@ -125,15 +148,13 @@ fn experiment(diagnosis: &Diagnosis) -> Markup {
     html! {
         @if let Some(experiment) = &diagnosis.experiment {
             h3 { "What would tell " (between(&experiment.between)) " apart" }
-            p { (experiment.statement) }
+            p { (sentence(&experiment.statement)) }
             p.note {
                 "Conditions: " (experiment.conditions) ". "
                 @match experiment.tightenings {
-                    Some(count) => { "Tightenings needed: " (count) ". " }
-                    None => "None of the conditions that were tried separates them. ",
+                    Some(count) => { "Tightenings needed: " (count) "." }
+                    None => "None of the conditions that were tried separates them.",
                 }
-                "Each such tightening sets them apart by " (significant(experiment.distance_per_tightening, 2))
-                " times the noise."
             }
         }
     }

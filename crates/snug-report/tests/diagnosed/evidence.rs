@@ -4,6 +4,7 @@ use snug_campaign::{AddedEffect, Detectability, EffectParameter, NegativeControl
 pub fn parameter(name: &str, unit: &str, value: f64, standard_error: f64) -> EffectParameter {
     EffectParameter {
         name: name.into(),
+        meaning: meaning(name).into(),
         unit: unit.into(),
         value,
         low: Some(value - 1.96 * standard_error),
@@ -13,6 +14,15 @@ pub fn parameter(name: &str, unit: &str, value: f64, standard_error: f64) -> Eff
         spread: None,
         minimum: -5.0 * value.abs(),
         maximum: 5.0 * value.abs(),
+    }
+}
+
+/// As the effects say it; the others' names speak for themselves.
+fn meaning(name: &str) -> &'static str {
+    match name {
+        "k3_n_per_m3" => "cubic stiffness",
+        "fc_n" => "friction force",
+        _ => "",
     }
 }
 
@@ -37,6 +47,7 @@ pub fn ranked(name: &str, kind: &str, behind: f64, gain: f64, error: f64, p: f64
         effect: name.into(),
         kind: kind.into(),
         unlisted: false,
+        expression: None,
         parameters: vec![],
         score: 11.2 - behind,
         p_family: p,
@@ -109,6 +120,7 @@ pub fn detectability() -> Vec<Detectability> {
         Detectability {
             effect: "coulomb_friction".into(),
             parameter: "fc_n".into(),
+            meaning: meaning("fc_n").into(),
             unit: "N".into(),
             smallest_detectable: Some(0.83),
             largest_plausible: 30.0,
@@ -117,6 +129,7 @@ pub fn detectability() -> Vec<Detectability> {
         Detectability {
             effect: "second_mass".into(),
             parameter: "m2_kg".into(),
+            meaning: meaning("m2_kg").into(),
             unit: "kg".into(),
             smallest_detectable: None,
             largest_plausible: 2.0,

@@ -9,6 +9,15 @@ pub struct Tag {
     pub attributes: String,
 }
 
+/// Nothing that is not finite reaches a drawing.
+pub fn assert_finite_attributes(page: &str) {
+    for Tag { name, attributes } in start_tags(page).expect("the page is well formed") {
+        for word in ["NaN", "\"inf"] {
+            assert!(!attributes.contains(word), "{name} {attributes}");
+        }
+    }
+}
+
 /// Every start tag of a page, in order.
 ///
 /// # Errors

@@ -4,7 +4,7 @@ use serde::Serialize;
 use super::Design;
 use super::orthonormal::Orthonormal;
 use super::spectrum::Spectrum;
-use crate::distributions::{student_t_quantile, student_t_two_sided};
+use crate::distributions::student_t_quantile;
 use crate::sample::{check_confidence, check_finite, check_lengths};
 use crate::{Interval, Result, StatisticsError, TestResult};
 
@@ -46,13 +46,7 @@ pub(super) fn t_contrast(
             high: estimate + reach,
             confidence,
         },
-        test: TestResult {
-            method,
-            statistic_name: "t",
-            statistic: t,
-            degrees_of_freedom: vec![df],
-            p: student_t_two_sided(t, df),
-        },
+        test: TestResult::of_t(method, t, df),
     })
 }
 

@@ -1,7 +1,7 @@
 use serde::Serialize;
 
 use super::Moments;
-use crate::distributions::{student_t_quantile, student_t_two_sided};
+use crate::distributions::student_t_quantile;
 use crate::sample::{check_confidence, check_sample};
 use crate::{Interval, Result, StatisticsError, TestResult};
 
@@ -43,13 +43,7 @@ pub fn one_sample_t(values: &[f64], null_mean: f64, confidence: f64) -> Result<O
     let mean = moments.mean.to_f64();
     let t = (moments.mean - null_mean.into()).to_f64() / standard_error;
     Ok(OneSampleT {
-        test: TestResult {
-            method: METHOD,
-            statistic_name: "t",
-            statistic: t,
-            degrees_of_freedom: vec![df],
-            p: student_t_two_sided(t, df),
-        },
+        test: TestResult::of_t(METHOD, t, df),
         mean,
         standard_error,
         interval: t_interval(mean, standard_error, df, confidence),

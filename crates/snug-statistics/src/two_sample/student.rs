@@ -1,7 +1,7 @@
 use serde::Serialize;
 
 use crate::descriptive::Moments;
-use crate::distributions::{student_t_quantile, student_t_two_sided};
+use crate::distributions::student_t_quantile;
 use crate::sample::{check_confidence, check_sample};
 use crate::{Interval, Result, StatisticsError, TestResult};
 
@@ -68,13 +68,7 @@ pub(super) fn t_test(
     let t = mean_difference / standard_error;
     let reach = student_t_quantile(0.5 + 0.5 * confidence, df) * standard_error;
     Ok(TwoSampleT {
-        test: TestResult {
-            method,
-            statistic_name: "t",
-            statistic: t,
-            degrees_of_freedom: vec![df],
-            p: student_t_two_sided(t, df),
-        },
+        test: TestResult::of_t(method, t, df),
         mean_difference,
         standard_error,
         interval: Interval {

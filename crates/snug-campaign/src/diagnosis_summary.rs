@@ -1,0 +1,53 @@
+use crate::{
+    AddedEffect, CorrectedEffect, Detectability, Diagnosis, Drift, Experiment, NegativeControl,
+    NoiseStatement, Removal, UnlistedTerm, WorkDone,
+};
+use serde::Serialize;
+
+/// What every file says of a diagnosis: all of it but the ladder, the ranking, the comparison, the places of failure and
+/// the signals, of which each file has its own form.
+#[derive(Debug, Clone, Copy, Serialize)]
+pub struct DiagnosisSummary<'a> {
+    verdict: &'static str,
+    headline: &'a str,
+    reasons: &'a [String],
+    stopped: Option<&'a str>,
+    verb: &'a str,
+    tightenings: usize,
+    compared_output: &'a str,
+    noise: &'a NoiseStatement,
+    added: &'a [AddedEffect],
+    corrected: &'a [CorrectedEffect],
+    removals: &'a [Removal],
+    unlisted: Option<&'a UnlistedTerm>,
+    experiment: Option<&'a Experiment>,
+    control: Option<&'a NegativeControl>,
+    detectability: &'a [Detectability],
+    drift: &'a [Drift],
+    work: WorkDone,
+}
+
+impl Diagnosis {
+    /// What every file says of it.
+    pub fn summary(&self) -> DiagnosisSummary<'_> {
+        DiagnosisSummary {
+            verdict: self.verdict.name(),
+            headline: &self.headline,
+            reasons: &self.reasons,
+            stopped: self.stopped.as_deref(),
+            verb: &self.verb,
+            tightenings: self.tightenings,
+            compared_output: &self.compared_output,
+            noise: &self.noise,
+            added: &self.added,
+            corrected: &self.corrected,
+            removals: &self.removals,
+            unlisted: self.unlisted.as_ref(),
+            experiment: self.experiment.as_ref(),
+            control: self.control.as_ref(),
+            detectability: &self.detectability,
+            drift: &self.drift,
+            work: self.work,
+        }
+    }
+}

@@ -1,0 +1,120 @@
+use super::size::significant;
+use super::{Page, called_in, shortened};
+use snug_campaign::{Diagnosis, Rung};
+
+/// Columns of the longest bar.
+const BAR: usize = 36;
+
+/// Each model with its error, and a bar.
+pub fn ladder(page: &mut Page, diagnosis: &Diagnosis) {
+    let Some(first) = diagnosis.ladder.first() else {
+        return;
+    };
+    let known = diagnosis
+        .ladder
+        .iter()
+        .any(|rung| rung.error_over_noise.is_some());
+    if known {
+        page.heading("How far the model misses the measurement, as a multiple of the noise (1.0 = nothing left but noise)");
+    } else {
+        page.heading(&format!(
+            "How far the model misses the measurement: residual of the {}, root mean square (the noise is unknown)",
+            diagnosis.compared_output
+        ));
+    }
+    let unseen = if known { "unseen" } else { "" };
+    page.line(&format!(
+        "  {:<32} {:>9} {unseen:>9} {:>9}",
+        "model", "error", "selected"
+    ));
+    let errors: Vec<Option<f64>> = diagnosis
+        .ladder
+        .iter()
+        .map(|rung| {
+            if known {
+                rung.error_over_noise
+            } else {
+                Some(rung.rms_fitted_output)
+            }
+        })
+        .collect();
+    let floor = if known { 1.0 } else { 0.0 };
+    let mut before: &Rung = first;
+    for (rung, error) in diagnosis.ladder.iter().zip(&errors) {
+        let number = |value: Option<f64>| value.map_or_else(|| "?".to_owned(), significant);
+        let unseen = if known {
+            number(rung.heldout_error_over_noise)
+        } else {
+            String::new()
+        };
+        let line = format!(
+            "  {:<32} {:>9} {unseen:>9} {:>7.0} %  {}",
+            shortened(&step(before, rung, diagnosis), 32),
+            number(*error),
+            100.0 * rung.selected_fraction,
+            bar(*error, &errors, floor, page.terminal)
+        );
+        page.line(&line);
+        before = rung;
+    }
+    let bars = match known {
+        true => {
+            "Bars begin at the noise and are logarithmic; unseen: error in tightenings that the sizes were not fitted to; "
+        }
+        false => "",
+    };
+    page.paragraph(
+        "  ",
+        &format!("{bars}selected: share of tightenings that fit well enough to be used."),
+    );
+    if let Some(stopped) = &diagnosis.stopped {
+        page.paragraph("  Stopped: ", stopped);
+    }
+    for removal in &diagnosis.removals {
+        page.paragraph("  Tried without: ", &removal.statement);
+    }
+}
+
+/// What a rung changes against the one before it.
+fn step(before: &Rung, rung: &Rung, diagnosis: &Diagnosis) -> String {
+    let called = |effect: &String| called_in(diagnosis, effect);
+    let gained = rung.effects.iter().filter(|e| !before.effects.contains(e));
+    let lost = before.effects.iter().filter(|e| !rung.effects.contains(e));
+    let steps: Vec<String> = gained
+        .map(|effect| format!("+ {}", called(effect)))
+        .chain(lost.map(|effect| format!("- {}", called(effect))))
+        .collect();
+    match (steps.is_empty(), rung.effects.is_empty()) {
+        (true, true) => "base model: mass, damper, spring".into(),
+        (true, false) => {
+            let effects: Vec<String> = rung.effects.iter().map(called).collect();
+            format!("base + {}", effects.join(" + "))
+        }
+        (false, _) => steps.join(" "),
+    }
+}
+
+/// A bar from the floor to the error: over noise logarithmic, else straight.
+fn bar(error: Option<f64>, errors: &[Option<f64>], floor: f64, terminal: bool) -> String {
+    let length = |error: f64| {
+        if floor > 0.0 {
+            (error / floor).ln().max(0.0)
+        } else {
+            error
+        }
+    };
+    let longest = errors
+        .iter()
+        .flatten()
+        .map(|error| length(*error))
+        .fold(0.0, f64::max);
+    let share = match error {
+        Some(error) if longest > 0.0 => length(error) / longest.max(0.05),
+        _ => 0.0,
+    };
+    if !share.is_finite() {
+        return "|".into();
+    }
+    let blocks = (share * BAR as f64).round() as usize;
+    format!("|{}", if terminal { "█" } else { "#" }.repeat(blocks))
+}

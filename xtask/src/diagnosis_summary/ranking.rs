@@ -1,0 +1,89 @@
+use super::size::{self, sized};
+use super::{Page, called, shortened};
+use snug_campaign::{Diagnosis, RankedEffect, Verdict};
+
+/// Candidates shown; the report lists all. Behind the very first, neither terms in no catalogue nor what could be chance.
+const CANDIDATES: usize = 8;
+const FIRST: usize = 3;
+
+/// The best candidates, and what their columns mean.
+pub fn ranking(page: &mut Page, diagnosis: &Diagnosis) {
+    if diagnosis.ranking.is_empty() {
+        return;
+    }
+    let candidates: Vec<(usize, &RankedEffect)> = diagnosis
+        .ranking
+        .iter()
+        .enumerate()
+        .filter(|(place, candidate)| {
+            *place < FIRST || !candidate.unlisted && candidate.p_family <= 0.05
+        })
+        .take(CANDIDATES)
+        .collect();
+    let shown = candidates.len();
+    let is_complete = match diagnosis.verdict {
+        Verdict::Adequate => true,
+        Verdict::UnlistedEffect => diagnosis
+            .ranking
+            .iter()
+            .take(1)
+            .all(|first| !first.unlisted),
+        _ => false,
+    };
+    let what = match (is_complete, diagnosis.added.is_empty()) {
+        (true, _) => "What else was tried",
+        (_, true) => "What could be missing",
+        (_, false) => "What could still be missing",
+    };
+    page.heading(&format!(
+        "{what}: the best {shown} of {} candidates",
+        diagnosis.ranking.len()
+    ));
+    if diagnosis.verdict == Verdict::Adequate {
+        page.paragraph(
+            "  ",
+            "What the model leaves is within the noise: shares of next to nothing say little.",
+        );
+    }
+    page.line(&format!(
+        "  {:<27} {:>12} {:>8}  {}",
+        "effect", "removes", "chance", "size [95 % interval]"
+    ));
+    for (place, candidate) in candidates {
+        row(page, candidate, place == 0);
+    }
+    let unlisted = diagnosis
+        .ranking
+        .iter()
+        .filter(|candidate| candidate.unlisted)
+        .count();
+    if unlisted > 0 {
+        page.paragraph(
+            "  ",
+            &format!("{unlisted} of the candidates are simple forces that are in no catalogue (named by their formula); report.html has them all."),
+        );
+    }
+    page.paragraph(
+        "  ",
+        "removes: share of the misfit that it takes away in tightenings its size was not fitted to; \
+         chance: how often (1 = always) chance alone would put something so strong at the top.",
+    );
+}
+
+fn row(page: &mut Page, candidate: &RankedEffect, with_twins: bool) {
+    let name = called(&candidate.effect, candidate.expression.as_ref());
+    let gain = size::share(candidate.heldout_gain, candidate.heldout_gain_error);
+    let lead = format!(
+        "  {:<27} {gain:>12} {:>8}  ",
+        shortened(&name, 27),
+        size::p_value(candidate.p_family)
+    );
+    let mut sizes: Vec<String> = candidate.parameters.iter().map(sized).collect();
+    if !candidate.plausible {
+        sizes.push("not plausible: on the edge of its range".into());
+    }
+    page.paragraph(&lead, &sizes.join("; "));
+    if with_twins && !candidate.twins.is_empty() {
+        page.paragraph("      cannot be told from ", &candidate.twins.join(", "));
+    }
+}
