@@ -1,6 +1,5 @@
 use crate::number::OfOne;
 use crate::{Number, Real};
-use std::array;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
 /// A value with its partial derivatives with respect to `P` parameters (forward differentiation, exact to rounding).
@@ -22,11 +21,13 @@ impl<const P: usize, R: Real> Dual<P, R> {
 
     /// Each partial derivative by itself.
     #[inline(always)]
-    fn with(value: R, partial: impl FnMut(usize) -> R) -> Self {
-        Self {
-            value,
-            partials: array::from_fn(partial),
+    fn with(value: R, mut partial: impl FnMut(usize) -> R) -> Self {
+        // A loop, not `array::from_fn`: only what is inlined into the vector code uses its registers.
+        let mut partials = [value; P];
+        for (j, one) in partials.iter_mut().enumerate() {
+            *one = partial(j);
         }
+        Self { value, partials }
     }
 }
 

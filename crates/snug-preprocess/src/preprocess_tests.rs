@@ -285,9 +285,10 @@ fn a_long_gap_in_the_quiet_part_shortens_it() {
     let mut recording = recording(&[6], 0.0);
     accelerations(&mut recording)[3000..3200].fill(f64::NAN);
     let prepared = &snug(&recording).tightenings[0];
-    assert_eq!(
-        prepared.tightening.noise.as_ref().unwrap().samples,
-        14_800 - 3200
+    let measured = prepared.tightening.noise.as_ref().unwrap().samples;
+    assert!(
+        measured.abs_diff(14_800 - 3200) <= 2,
+        "{measured}: up to the guard before the onset"
     );
     assert_eq!(
         thesis(&recording).findings[0].code,

@@ -70,6 +70,15 @@ impl Plant {
         self.log_torque_nm(time_s - self.torque_delay_s())
     }
 
+    /// Time since the first pulse's torque began \[s\]: what muscles count from.
+    fn since_onset_s(&self, now: Now) -> f64 {
+        now.time_s - self.onset_s()
+    }
+
+    fn onset_s(&self) -> f64 {
+        self.pulses.first().map_or(0.0, |pulse| pulse.start_s)
+    }
+
     pub(crate) fn now(&self, time_s: f64) -> Now {
         Now {
             time_s,
@@ -115,7 +124,8 @@ impl Plant {
         }
         for law in &self.laws {
             if let Law::Muscular(law) = law {
-                knots.extend(law.knots_s().into_iter().flatten());
+                let knots_s = law.knots_s().into_iter().flatten();
+                knots.extend(knots_s.map(|knot| knot + self.onset_s()));
             }
         }
         knots.sort_by(f64::total_cmp);
@@ -138,7 +148,7 @@ impl Plant {
                     };
                     law.added_force_n(x, v, branch)
                 }
-                Law::Muscular(law) => law.added_force_n(now.time_s, |delay_s| {
+                Law::Muscular(law) => law.added_force_n(self.since_onset_s(now), |delay_s| {
                     self.lever_arm_m * past.theta_rad(now.time_s - delay_s)
                 }),
                 Law::Unlisted(law) => law.added_force_n(x, v),
@@ -208,7 +218,7 @@ impl Plant {
         for law in &self.laws {
             match law {
                 Law::Muscular(law) => {
-                    growth += law.stiffness_growth_ratio(now.time_s, now.torque_nm);
+                    growth += law.stiffness_growth_ratio(self.since_onset_s(now), now.torque_nm);
                 }
                 Law::Mechanical(MechanicalLaw::Backlash { gap_m }) => {
                     touching = if x.abs() > *gap_m { 1.0 } else { 0.0 };

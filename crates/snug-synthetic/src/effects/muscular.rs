@@ -1,4 +1,4 @@
-//! Muscles and nerves. Times count from the window's start.
+//! Muscles and nerves. Times count from the torque's onset.
 
 use super::HiddenEffect;
 use crate::pulse::smooth_step;
@@ -81,32 +81,32 @@ impl MuscularLaw {
     }
 
     /// What the law adds to the hand force \[N\]; `past_x_m` gives x a delay ago.
-    pub(crate) fn added_force_n(&self, time_s: f64, past_x_m: impl Fn(f64) -> f64) -> f64 {
+    pub(crate) fn added_force_n(&self, since_onset_s: f64, past_x_m: impl Fn(f64) -> f64) -> f64 {
         match *self {
             Self::StretchReflex { k_r_n_per_m, tau_s } => k_r_n_per_m * past_x_m(tau_s),
             Self::VoluntaryPush {
                 f_n,
                 onset_s,
                 rise_s,
-            } => f_n * smooth_step((time_s - onset_s) / rise_s),
+            } => f_n * smooth_step((since_onset_s - onset_s) / rise_s),
             Self::CoContraction { .. } | Self::TorqueDependentStiffness { .. } => 0.0,
         }
     }
 
     /// By how much of itself the base stiffness grows.
-    pub(crate) fn stiffness_growth_ratio(&self, time_s: f64, torque_nm: f64) -> f64 {
+    pub(crate) fn stiffness_growth_ratio(&self, since_onset_s: f64, torque_nm: f64) -> f64 {
         match *self {
             Self::CoContraction {
                 rise_ratio,
                 onset_s,
                 rise_s,
-            } => rise_ratio * smooth_step((time_s - onset_s) / rise_s),
+            } => rise_ratio * smooth_step((since_onset_s - onset_s) / rise_s),
             Self::TorqueDependentStiffness { kappa_per_nm } => kappa_per_nm * torque_nm.abs(),
             Self::StretchReflex { .. } | Self::VoluntaryPush { .. } => 0.0,
         }
     }
 
-    /// Where a derivative of the law's time course jumps \[s\].
+    /// Where a derivative of the law's time course jumps, after the onset \[s\].
     pub(crate) fn knots_s(&self) -> Option<[f64; 2]> {
         match *self {
             Self::VoluntaryPush {
