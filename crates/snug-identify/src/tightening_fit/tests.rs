@@ -255,14 +255,15 @@ fn side_by_side_agrees_with_the_general_road() {
 }
 
 /// A search ends within some 1e-8 standard errors of the optimum, as its settings say; on a cone, where steps shrink
-/// slowly, searches from different starts end farther apart.
+/// slowly, or from another start it may end farther away.
 fn agree(found: &Estimate, expected: &Estimate, same_start: bool, what: &str) {
     assert_eq!(found.status, expected.status, "{what}");
     assert_eq!(
         found.active_constraints, expected.active_constraints,
         "{what}"
     );
-    let share = if same_start { 1e-8 } else { 1e-6 };
+    let is_inside = found.active_constraints.is_empty();
+    let share = if same_start && is_inside { 1e-8 } else { 1e-6 };
     for (one, other) in found.parameters.iter().zip(&expected.parameters) {
         let allowed = 1e-9 * other.value + share * other.standard_error.unwrap_or(0.0);
         assert!((one.value - other.value).abs() < allowed, "{what}");
