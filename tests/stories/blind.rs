@@ -6,7 +6,7 @@
 
 use snug_campaign::{AddedEffect, Diagnosis, Verdict};
 use snug_diagnose::{Case, DiagnoseSettings, Goal, Question, Watch, examine};
-use snug_study::Study;
+use snug_study::{Preset, Study};
 use snug_synthetic::{
     CampaignPlan, HiddenEffect as Hidden, MatStyle, NoiseKind, Truth, ZeroErrors, simulate,
 };
@@ -18,9 +18,9 @@ const FEW: [(Hidden, f64); 3] = [
     (Hidden::TorqueDelay, 0.16),
 ];
 
-/// Every effect of the catalogue, at strengths that raise the error by about 3 % and about a fifth, and strong: at its
+/// Every effect of the catalogue but an offset of the torque, which the quiet part shows, at strengths that raise the error by about 3 % and about a fifth, and strong: at its
 /// largest plausible size or so.
-const EVERY: [(Hidden, [f64; 3]); 23] = [
+const EVERY: [(Hidden, [f64; 3]); 22] = [
     (Hidden::CubicStiffness, [0.10, 0.35, 1.5]),
     (Hidden::QuadraticStiffness, [0.23, 0.78, 1.6]),
     (Hidden::CoulombFriction, [0.10, 0.32, 3.0]),
@@ -35,7 +35,6 @@ const EVERY: [(Hidden, [f64; 3]); 23] = [
     (Hidden::VoluntaryPush, [0.24, 0.74, 3.0]),
     (Hidden::CoContraction, [0.20, 0.58, 2.0]),
     (Hidden::TorqueDependentStiffness, [0.20, 0.67, 2.0]),
-    (Hidden::TorqueOffset, [1.0, 1.56, 3.0]),
     (Hidden::TorqueDelay, [0.05, 0.16, 1.0]),
     (Hidden::TorqueLag, [0.033, 0.10, 0.5]),
     (Hidden::AccelerationLag, [0.033, 0.11, 1.0]),
@@ -66,6 +65,10 @@ struct Campaign {
 }
 
 fn campaign(effects: &[Hidden], strength: f64, seed: u64) -> Campaign {
+    campaign_as(Preset::Snug, effects, strength, seed)
+}
+
+fn campaign_as(preset: Preset, effects: &[Hidden], strength: f64, seed: u64) -> Campaign {
     let mut plan = CampaignPlan::of_size(6, 4)
         .with_noise(NoiseKind::Coloured)
         .with_bias(0.02);
@@ -73,10 +76,7 @@ fn campaign(effects: &[Hidden], strength: f64, seed: u64) -> Campaign {
         plan = plan.hiding(effect, strength);
     }
     // What the quiet part shows is measured there and taken out; the climb has to find what it does not show.
-    if effects
-        .iter()
-        .any(|e| matches!(e, Hidden::AccelerationBias | Hidden::TorqueOffset))
-    {
+    if effects.contains(&Hidden::AccelerationBias) {
         plan.sensors.zero_errors = ZeroErrors::WindowOnly;
     }
     let simulated = simulate(&plan, seed).unwrap();
@@ -84,7 +84,8 @@ fn campaign(effects: &[Hidden], strength: f64, seed: u64) -> Campaign {
     simulated
         .write(&folder.path().join("data"), MatStyle::default())
         .unwrap();
-    let study = Study::on(folder.path().join("data"));
+    let mut study = Study::on(folder.path().join("data"));
+    study.set_preset(preset);
     let listing = snug_ingest::list(&study.source, &study.source.path).unwrap();
     let cases = snug_study::cases(&study, &listing.files, usize::MAX).unwrap();
     Campaign {
@@ -229,6 +230,26 @@ fn two_effects_at_once_are_named_and_the_floor_reached() {
     let asked_for = if snug_tests::blind() { PAIRS.len() } else { 1 };
     let pairs = PAIRS.into_iter().take(asked_for);
     hold(pairs.map(|(effects, strength)| (effects.to_vec(), strength)));
+}
+
+/// The torque reads 1 Nm too much all the time: seen in the quiet part and taken out, or, as the original program left
+/// it, to be found.
+#[test]
+fn an_offset_of_the_torque_is_named_whoever_finds_it() {
+    let offset = |preset| campaign_as(preset, &[Hidden::TorqueOffset], 1.0, 1).cases;
+    let measured = ask(&offset(Preset::Snug), Goal::Improve);
+    let corrected = (measured.corrected.iter()).find(|one| one.effect == "torque_offset");
+    let corrected = corrected.unwrap();
+    assert_eq!(corrected.share, 1.0, "{}", measured.headline);
+    assert!((corrected.size - 1.0).abs() < 0.01, "{}", corrected.size);
+    assert_eq!(measured.verdict, Verdict::Adequate);
+    assert!(measured.added.is_empty(), "{:?}", measured.added);
+    let found = ask(&offset(Preset::Thesis), Goal::Improve);
+    let is_named = found
+        .added
+        .iter()
+        .any(|one| names(one, Hidden::TorqueOffset));
+    assert!(is_named, "{}", found.headline);
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! How clearly a sum over units differs from zero, when a few loud units may carry most of it.
 
 use crate::dense::dot;
+use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
 
 /// Standard error of Σ x over independent units.
 pub(crate) fn spread_of_sum(values: &[f64]) -> f64 {
@@ -19,21 +20,37 @@ const CHANCE: f64 = 4.0;
 /// Standard deviations by which Σ x exceeds 0: the larger of the plain one and that of x bounded at `CHANCE` times
 /// `scale`, which one loud unit cannot hide. Vuong's statistic where x are differences between two models.
 pub(crate) fn clearness(values: &[f64], scale: f64) -> f64 {
+    let (plain, bounded) = statistics(values, scale);
+    plain.max(bounded)
+}
+
+/// Chance of a Σ x so clearly above 0 where each x is as likely to be below as above.
+pub(crate) fn chance(values: &[f64], scale: f64) -> f64 {
+    let (plain, bounded) = statistics(values, scale);
+    let freedom = values.len().saturating_sub(1).max(1) as f64;
+    let of_plain = StudentsT::new(0.0, 1.0, freedom).map_or(1.0, |t| t.sf(plain));
+    // A sum of bounded symmetric terms over its length is as a normal one at most (Efron 1969).
+    let of_bounded = Normal::standard().sf(bounded);
+    of_plain.min(of_bounded)
+}
+
+/// Σ x over its standard error, and Σ of the bounded x over their length; the second only where Σ x is positive.
+fn statistics(values: &[f64], scale: f64) -> (f64, f64) {
     let sum: f64 = values.iter().sum();
     if sum == 0.0 {
-        return 0.0;
+        return (0.0, 0.0);
     }
     let plain = sum / spread_of_sum(values);
-    let chance = CHANCE * scale;
+    let within_chance = CHANCE * scale;
     let bounded: Vec<f64> = values
         .iter()
-        .map(|x| x / (x * x + chance * chance).sqrt())
+        .map(|x| x / (x * x + within_chance * within_chance).sqrt())
         .collect();
     let length = dot(&bounded, &bounded).sqrt();
     if sum > 0.0 && length > 0.0 {
-        plain.max(bounded.iter().sum::<f64>() / length)
+        (plain, bounded.iter().sum::<f64>() / length)
     } else {
-        plain
+        (plain, plain)
     }
 }
 
@@ -59,5 +76,16 @@ mod tests {
             .collect();
         values[0] = 1e5;
         assert!(clearness(&values, 1.0) < 1.5);
+    }
+
+    /// 22 of 24 units gain much: a chance of 1.8e-5 for fair coins (300 / 2²⁴).
+    #[test]
+    fn the_chance_of_what_nearly_all_agree_on_is_that_of_coins() {
+        let mut values: Vec<f64> = (0..24).map(|i| 1e3 * f64::from(i * i)).collect();
+        values[0] = -500.0;
+        values[1] = -500.0;
+        let found = chance(&values, 1.0);
+        assert!((0.3e-5..4e-5).contains(&found), "{found:e}");
+        assert!(chance(&[-1.0, -2.0, -3.0], 1.0) > 0.5);
     }
 }

@@ -3,7 +3,7 @@
 use crate::DiagnoseError;
 use crate::cases::Cases;
 use crate::column::Column;
-use crate::evidence::{clearness, spread_of_sum};
+use crate::evidence::{chance, clearness, spread_of_sum};
 use crate::family::Family;
 use crate::fitted::Fitted;
 use crate::hypothesis::{Hypothesis, Start};
@@ -14,7 +14,6 @@ use crate::{Case, DiagnoseSettings, Watch};
 use rayon::prelude::*;
 use snug_identify::PooledSettings;
 use snug_model::{BASE_PARAMETERS, Effect, Law, Scope};
-use statrs::distribution::{ContinuousCDF, StudentsT};
 
 /// A candidate after its refit.
 #[derive(Debug, Clone)]
@@ -49,9 +48,7 @@ impl Candidate {
     /// Chance of so clear a gain in held-out units, among `family` candidates (Bonferroni): for effects that push
     /// elsewhere once the model follows them, so that no score against the model without them sees them.
     fn p_of_gain(&self, family: usize) -> f64 {
-        let freedom = self.gains.len().saturating_sub(1).max(1) as f64;
-        let tail = StudentsT::new(0.0, 1.0, freedom).map_or(1.0, |t| t.sf(self.clearness()));
-        (tail * family as f64).min(1.0)
+        (chance(&self.gains, self.fitted.scale()) * family as f64).min(1.0)
     }
 
     /// Standard error over units of the share of `misfit` (per unit) that it removes: that of the ratio of two sums.

@@ -48,7 +48,8 @@ fn tolerance(effect: Effect) -> f64 {
         Effect::CentripetalCrosstalk | Effect::GravityLeakage => 5e-8,
         // Their rates have a kink where the velocity changes its sign, in the middle of a step.
         Effect::BoucWen | Effect::DirectionalDamping => 5e-8,
-        // The table's damper sets in with a jump, here it takes half a sample: 0.05 ms of 1 N more or less is 1e-5 of ω.
+        // The table's damper sets in with a jump, here it takes a quarter of a sample: 0.025 ms of 1 N more or less is
+        // 5e-6 of ω.
         Effect::Backlash => 2e-5,
         _ => 1e-9,
     }

@@ -1,12 +1,12 @@
 //! Play in the grip: the hand's spring and damper act only beyond a gap g, on the deflection d(x) that is left.
 //!
 //! ```text
-//! d(x) = x + ½ (√((x − g)² + s²) − √((x + g)² + s²)),  F = k d + c v ∂d/∂x,  s² = (1 µm)² + (v · 0.05 ms)²
+//! d(x) = x + ½ (√((x − g)² + s²) − √((x + g)² + s²)),  F = k d + c v ∂d/∂x,  s² = (1 µm)² + (v · 0.025 ms)²
 //! ```
 //!
 //! This is x ∓ g beyond the gap and 0 within. The damper sets in with a jump there; its corner is rounded over what the
-//! tool moves in half a sample, so that the response can be differentiated and yet no sample sees the rounding. g = 0 is the
-//! base model exactly. F has the sign of the base model.
+//! tool moves in a quarter of a sample, so that the response can be differentiated and yet hardly a sample sees the
+//! rounding. g = 0 is the base model exactly. F has the sign of the base model.
 //! Parameter: gap_m \[m\], 0 to 0.005. Excited by any motion; relatively strongest in weak pulses. In the residual it shows
 //! at the first onset and at every passage through rest. Source: dead zone with contact damping.
 
@@ -16,7 +16,7 @@ use crate::effect::{Deflection, Description, Kind, Law, ParameterSpec, Scope};
 /// Least length over which contact sets in \[m\].
 const SKIN_M: f64 = 1e-6;
 /// Time over which contact sets in \[s\].
-const CONTACT_S: f64 = 5e-5;
+const CONTACT_S: f64 = 2.5e-5;
 
 pub struct Backlash;
 
