@@ -21,6 +21,25 @@ pub trait Residual {
     ) -> Result<(), EvaluationError>;
 }
 
+impl<R: Residual> Residual for &mut R {
+    fn residual_count(&self) -> usize {
+        R::residual_count(self)
+    }
+
+    fn parameter_count(&self) -> usize {
+        R::parameter_count(self)
+    }
+
+    fn evaluate(
+        &mut self,
+        parameters: &[f64],
+        residual: &mut [f64],
+        jacobian: Option<&mut [f64]>,
+    ) -> Result<(), EvaluationError> {
+        R::evaluate(self, parameters, residual, jacobian)
+    }
+}
+
 /// A [`Residual`] as a [`LeastSquares`] problem: J is stored and factored by Householder reflections.
 #[derive(Debug, Clone)]
 pub struct DenseResidual<R> {

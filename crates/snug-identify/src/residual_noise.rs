@@ -1,12 +1,13 @@
 //! What the noise does to an estimate: M = Jᵀ cov(r) J at the optimum, for the sandwich (JᵀJ)⁻¹ M (JᵀJ)⁻¹.
 
 use crate::agreement::error_over_noise;
-use crate::{Fit, Residual, ResidualNoise, TighteningResidual, Whitening};
-use snug_campaign::{Quantity, Tightening};
-use snug_model::Input;
+use crate::dense::inner_product;
+use crate::integrated_noise::{IntegratedNoise, drift, to_source};
+use crate::{Fit, Residual, ResidualNoise, Subject, TighteningResidual};
+use snug_campaign::Tightening;
 
 /// Number of stretches whose summed scores are taken as independent where the residual holds more than noise.
-const STRETCHES: usize = 30;
+pub(crate) const STRETCHES: usize = 30;
 /// Standard deviations by which the mean square residual must exceed the noise to count as misfit.
 const MISFIT: f64 = 4.0;
 
@@ -15,7 +16,7 @@ const MISFIT: f64 = 4.0;
 const BEYOND_PARAMETER_ERROR: f64 = 2.0;
 
 /// The noise in a residual, owned.
-pub enum OwnedNoise {
+pub(crate) enum OwnedNoise {
     /// White with unit variance.
     Unit,
     /// M, p × p, row-major.
@@ -32,80 +33,198 @@ impl OwnedNoise {
     }
 }
 
-/// The residual and its Jacobian at the optimum.
-struct Linearized {
-    residual: Vec<f64>,
-    /// Column-major.
-    jacobian: Vec<f64>,
-    parameters: usize,
-}
-
-/// What is known of the noise in this residual.
+/// What is asked about the noise in one residual, and what is known beforehand.
 ///
 /// Whitened residual: unit variance, plus the uncertainty of the bias taken out in the quiet part. Integrated noise
 /// (displacement or velocity fitted, acceleration measured): the measured noise, integrated as the signal was. Unknown
 /// noise: from the scores of the residual itself, summed over stretches so that their correlation in time counts. More
 /// residual than noise: those scores beside the noise, or the integrated noise times the excess.
-pub fn noise_of(
+pub(crate) struct Inquiry {
+    whitened: bool,
+    /// Mean square residual over noise where it exceeds 1 beyond chance; else 1.
+    excess: f64,
+    /// Variance of an error that is the same in every sample, weighed as the residual.
+    constant_variance: f64,
+    integrated: Option<IntegratedNoise>,
+}
+
+/// What answers an [`Inquiry`], as far as it asks; J is weighed as the residual.
+#[derive(Default)]
+pub(crate) struct Evidence {
+    /// JᵀJ, row-major.
+    pub matrix: Vec<f64>,
+    /// Jᵀ1.
+    pub sums: Vec<f64>,
+    /// Jᵀr of each of about [`STRETCHES`] stretches, one after the other.
+    pub scores: Vec<f64>,
+    /// Inner products of the sensitivities, taken back to the source of integrated noise, and their drift.
+    pub source: (Vec<f64>, Vec<f64>),
+}
+
+impl Inquiry {
+    /// `mean_square` is that of the whitened residual of the quantity whose noise is known.
+    pub fn new(
+        residual: &TighteningResidual<'_>,
+        subject: &Subject<'_>,
+        mean_square: Option<f64>,
+    ) -> Self {
+        let gain: f64 = residual
+            .whitening()
+            .map_or(0.0, |w| w.weights().iter().sum());
+        let chance = match residual.is_whitened() {
+            true => 1.0 + MISFIT * (2.0 / residual.residual_count() as f64).sqrt(),
+            false => BEYOND_PARAMETER_ERROR,
+        };
+        let (tightening, input) = (subject.tightening, subject.input);
+        Self {
+            whitened: residual.is_whitened(),
+            excess: mean_square.filter(|&square| square > chance).unwrap_or(1.0),
+            constant_variance: gain * gain * bias_variance(tightening),
+            integrated: match residual.is_whitened() {
+                true => None,
+                false => IntegratedNoise::of(tightening, input, residual.quantity()),
+            },
+        }
+    }
+
+    fn is_misfit(&self) -> bool {
+        self.excess > 1.0
+    }
+
+    /// Whether the answer is known beforehand: white noise of unit variance.
+    pub fn is_settled(&self) -> bool {
+        self.whitened && !self.is_misfit() && self.constant_variance == 0.0
+    }
+
+    /// Whether the scores are asked for.
+    pub fn asks_scores(&self) -> bool {
+        match self.whitened {
+            true => self.is_misfit(),
+            false => self.integrated.is_none(),
+        }
+    }
+
+    /// The noise for which the sensitivities at the source are asked for.
+    pub fn integrated(&self) -> Option<&IntegratedNoise> {
+        self.integrated.as_ref()
+    }
+
+    /// The noise, after the evidence.
+    pub fn conclude(&self, evidence: &Evidence) -> OwnedNoise {
+        if self.is_settled() {
+            return OwnedNoise::Unit;
+        }
+        let (products, drift) = &evidence.source;
+        let known = match &self.integrated {
+            Some(noise) => Some(noise.meat(products, drift)),
+            None => self.whitened.then(|| evidence.matrix.clone()),
+        };
+        let mut meat = match known {
+            Some(known) if self.whitened && self.is_misfit() => add(known, &evidence.scored()),
+            // Integrated noise leaves too few independent stretches to learn from.
+            Some(known) => known.iter().map(|value| self.excess * value).collect(),
+            None => evidence.scored(),
+        };
+        if self.constant_variance > 0.0 {
+            let sums = || evidence.sums.iter();
+            let products = sums().flat_map(|a| sums().map(move |b| a * b));
+            let bias: Vec<f64> = products.map(|ab| self.constant_variance * ab).collect();
+            meat = add(meat, &bias);
+        }
+        OwnedNoise::Sandwich(meat)
+    }
+}
+
+impl Evidence {
+    /// Σ over stretches of u uᵀ with u their scores, corrected for the parameters that were fitted.
+    fn scored(&self) -> Vec<f64> {
+        let parameters = self.sums.len();
+        let mut meat = vec![0.0; parameters * parameters];
+        for score in self.scores.chunks_exact(parameters.max(1)) {
+            for (row, a) in meat.chunks_exact_mut(parameters.max(1)).zip(score) {
+                row.iter_mut()
+                    .zip(score)
+                    .for_each(|(entry, b)| *entry += a * b);
+            }
+        }
+        let stretches = (self.scores.len() / parameters.max(1)) as f64;
+        let lost = (stretches - parameters as f64).max(1.0);
+        meat.iter_mut().for_each(|value| *value *= stretches / lost);
+        meat
+    }
+}
+
+/// What is known of the noise in this residual, from J itself.
+pub(crate) fn noise_of(
     residual: &mut TighteningResidual<'_>,
-    tightening: &Tightening,
-    input: &Input,
+    subject: &Subject<'_>,
     fit: &Fit,
 ) -> OwnedNoise {
-    let whitened = residual.is_whitened();
-    let excess = excess(residual, tightening, fit);
-    let misfit = excess > 1.0;
-    let bias_variance = bias_variance(tightening);
-    if whitened && !misfit && bias_variance == 0.0 {
+    let mean_square = match residual.is_whitened() {
+        true => Some(fit.sum_of_squares() / residual.residual_count() as f64),
+        false => mean_square_of_known(residual, subject.tightening, fit),
+    };
+    let inquiry = Inquiry::new(residual, subject, mean_square);
+    if inquiry.is_settled() {
         return OwnedNoise::Unit;
     }
-    let Some(at) = linearize(residual, fit) else {
-        return OwnedNoise::Unit;
-    };
-    let known = if whitened {
-        Some(products(&at.jacobian, at.parameters))
-    } else {
-        integrated_noise(residual, &at, tightening, input)
-    };
-    let mut meat = match known {
-        Some(known) if misfit && whitened => sum(known, &scores(&at)),
-        // Integrated noise leaves too few independent stretches to learn from.
-        Some(known) => known.iter().map(|value| excess * value).collect(),
-        None => scores(&at),
-    };
-    if whitened && bias_variance > 0.0 {
-        add_bias(&mut meat, residual, &at, bias_variance);
+    match evidence(residual, &inquiry, fit) {
+        Some(evidence) => inquiry.conclude(&evidence),
+        None => OwnedNoise::Unit,
     }
-    OwnedNoise::Sandwich(meat)
 }
 
-/// Mean square of the whitened residual of the quantity whose noise is known, where it exceeds 1 beyond chance; else 1.
-fn excess(residual: &mut TighteningResidual<'_>, tightening: &Tightening, fit: &Fit) -> f64 {
-    let count = residual.residual_count() as f64;
-    let mean_square = if residual.is_whitened() {
-        Some(fit.sum_of_squares() / count)
-    } else {
-        tightening.noise.as_ref().and_then(|noise| {
-            let measured = tightening.motion.get(noise.quantity)?;
-            let simulated = residual.simulate(&fit.values, noise.quantity);
-            Some(error_over_noise(measured, &simulated, noise)?.powi(2))
-        })
-    };
-    let chance = if residual.is_whitened() {
-        1.0 + MISFIT * (2.0 / count).sqrt()
-    } else {
-        BEYOND_PARAMETER_ERROR
-    };
-    mean_square
-        .filter(|&mean_square| mean_square > chance)
-        .unwrap_or(1.0)
+/// Mean square of the whitened residual of the quantity whose noise is known, where that is not the fitted one.
+fn mean_square_of_known(
+    residual: &mut TighteningResidual<'_>,
+    tightening: &Tightening,
+    fit: &Fit,
+) -> Option<f64> {
+    let noise = tightening.noise.as_ref()?;
+    let measured = tightening.motion.get(noise.quantity)?;
+    let simulated = residual.simulate(&fit.values, noise.quantity);
+    Some(error_over_noise(measured, &simulated, noise)?.powi(2))
 }
 
-fn sum(mut noise: Vec<f64>, misfit: &[f64]) -> Vec<f64> {
-    for (value, more) in noise.iter_mut().zip(misfit) {
-        *value += more;
+/// Everything at once: J is at hand.
+fn evidence(
+    residual: &mut TighteningResidual<'_>,
+    inquiry: &Inquiry,
+    fit: &Fit,
+) -> Option<Evidence> {
+    let (count, parameters) = (residual.residual_count(), residual.parameter_count());
+    let (mut r, mut jacobian) = (vec![0.0; count], vec![0.0; count * parameters]);
+    (residual.evaluate(&fit.values, &mut r, Some(&mut jacobian))).ok()?;
+    let columns = || jacobian.chunks_exact(count);
+    let stretch = count.div_ceil(STRETCHES).max(1);
+    let mut scores = Vec::new();
+    for begin in (0..count).step_by(stretch) {
+        let part = begin..(begin + stretch).min(count);
+        scores
+            .extend(columns().map(|column| inner_product(&column[part.clone()], &r[part.clone()])));
     }
-    noise
+    let source = inquiry.integrated().map(|noise| {
+        let unscored = residual.samples() - count;
+        let mut drifts = Vec::new();
+        let sources: Vec<f64> = columns()
+            .flat_map(|column| {
+                let mut source = vec![0.0; unscored];
+                source.extend(column);
+                let signal = source.as_chunks_mut::<1>().0;
+                drifts.extend(drift(signal, noise.interval_s, noise.integrations));
+                let autoregression = noise.whitening.coefficients();
+                to_source(signal, noise.interval_s, noise.integrations, autoregression);
+                source
+            })
+            .collect();
+        (products(&sources, parameters), drifts)
+    });
+    Some(Evidence {
+        matrix: products(&jacobian, parameters),
+        sums: columns().map(|column| column.iter().sum()).collect(),
+        scores,
+        source: source.unwrap_or_default(),
+    })
 }
 
 /// Variance of the acceleration bias that was estimated and taken out \[(rad/s²)²\].
@@ -118,17 +237,11 @@ fn bias_variance(tightening: &Tightening) -> f64 {
         .sum()
 }
 
-fn linearize(residual: &mut TighteningResidual<'_>, fit: &Fit) -> Option<Linearized> {
-    let (count, parameters) = (residual.residual_count(), residual.parameter_count());
-    let mut at = Linearized {
-        residual: vec![0.0; count],
-        jacobian: vec![0.0; count * parameters],
-        parameters,
-    };
-    residual
-        .evaluate(&fit.values, &mut at.residual, Some(&mut at.jacobian))
-        .ok()?;
-    Some(at)
+fn add(mut noise: Vec<f64>, more: &[f64]) -> Vec<f64> {
+    for (value, more) in noise.iter_mut().zip(more) {
+        *value += more;
+    }
+    noise
 }
 
 /// Aᵀ A for a column-major A of `columns` columns; row-major.
@@ -137,128 +250,10 @@ fn products(columns: &[f64], count: usize) -> Vec<f64> {
     let column = |index: usize| &columns[index * length..(index + 1) * length];
     let mut products = vec![0.0; count * count];
     for i in 0..count {
-        for j in 0..count {
-            products[i * count + j] = column(i).iter().zip(column(j)).map(|(a, b)| a * b).sum();
+        for j in i..count {
+            let product = inner_product(column(i), column(j));
+            (products[i * count + j], products[j * count + i]) = (product, product);
         }
     }
     products
-}
-
-/// Σ over stretches of u uᵀ with u = Σ_t J_t r_t, corrected for the parameters that were fitted.
-fn scores(at: &Linearized) -> Vec<f64> {
-    let count = at.residual.len();
-    let stretch = count.div_ceil(STRETCHES).max(1);
-    let stretches = count.div_ceil(stretch);
-    let mut sums = vec![0.0; at.parameters * stretches];
-    for parameter in 0..at.parameters {
-        let column = &at.jacobian[parameter * count..(parameter + 1) * count];
-        for (index, (j, r)) in column.iter().zip(&at.residual).enumerate() {
-            sums[parameter * stretches + index / stretch] += j * r;
-        }
-    }
-    let lost = (stretches as f64 - at.parameters as f64).max(1.0);
-    let mut meat = products(&sums, at.parameters);
-    for value in &mut meat {
-        *value *= stretches as f64 / lost;
-    }
-    meat
-}
-
-/// Adds var(b) g gᵀ, g = J_wᵀ d_w, where d is what a unit bias does to the fitted output.
-fn add_bias(meat: &mut [f64], residual: &TighteningResidual<'_>, at: &Linearized, variance: f64) {
-    let mut effect = vec![0.0; at.residual.len()];
-    residual.weigh(&vec![1.0; residual.samples()], &mut effect);
-    let along: Vec<f64> = at
-        .jacobian
-        .chunks_exact(effect.len())
-        .map(|column| column.iter().zip(&effect).map(|(j, e)| j * e).sum())
-        .collect();
-    for (i, a) in along.iter().enumerate() {
-        for (j, b) in along.iter().enumerate() {
-            meat[i * at.parameters + j] += variance * a * b;
-        }
-    }
-}
-
-/// M for acceleration noise that was integrated into the fitted velocity or displacement; `None` for other noise.
-fn integrated_noise(
-    residual: &TighteningResidual<'_>,
-    at: &Linearized,
-    tightening: &Tightening,
-    input: &Input,
-) -> Option<Vec<f64>> {
-    let noise = tightening.noise.as_ref()?;
-    let whitening = Whitening::new(noise)?;
-    let integrations = match (noise.quantity, residual.quantity()) {
-        (Quantity::Acceleration, Quantity::Displacement) => 2,
-        (Quantity::Acceleration, Quantity::Velocity) => 1,
-        _ => return None,
-    };
-    let interval_s = tightening.time_base.interval_s;
-    let unscored = residual.samples() - at.residual.len();
-    let mut sources = vec![0.0; residual.samples() * at.parameters];
-    let mut drift = vec![0.0; at.parameters];
-    for ((column, source), drift) in at
-        .jacobian
-        .chunks_exact(at.residual.len())
-        .zip(sources.chunks_exact_mut(residual.samples()))
-        .zip(&mut drift)
-    {
-        source[unscored..].copy_from_slice(column);
-        // What a velocity that was already wrong at the window's start adds: 1 to the velocity, t to the displacement.
-        *drift = source
-            .iter()
-            .enumerate()
-            .map(|(k, s)| s * (k as f64 * interval_s).powi(integrations - 1))
-            .sum();
-        for _ in 0..integrations {
-            integrate_transposed(source, interval_s);
-        }
-        whitening.colour_transposed(source);
-    }
-    let mut meat = products(&sources, at.parameters);
-    let velocity_variance =
-        whitening.long_run_variance() * interval_s * input.rest_before_s().max(0.0);
-    for (i, a) in drift.iter().enumerate() {
-        for (j, b) in drift.iter().enumerate() {
-            meat[i * at.parameters + j] += velocity_variance * a * b;
-        }
-    }
-    Some(meat)
-}
-
-/// Lᵀ s for the cumulative trapezoid L with step `interval_s` (L starts at zero).
-fn integrate_transposed(signal: &mut [f64], interval_s: f64) {
-    let mut later = 0.0;
-    for index in (0..signal.len()).rev() {
-        let own = if index == 0 { 0.0 } else { signal[index] };
-        let weight = if index == 0 {
-            0.5 * later
-        } else {
-            later + 0.5 * own
-        };
-        later += own;
-        signal[index] = interval_s * weight;
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// sᵀ L a = (Lᵀ s)ᵀ a with L the cumulative trapezoid.
-    #[test]
-    fn transposed_integration_is_the_adjoint() {
-        let (s, a, h) = ([0.3, -1.0, 2.0, 0.7], [1.0, 0.5, -2.0, 4.0], 0.1);
-        let mut integral = 0.0;
-        let mut forwards = 0.0;
-        for k in 1..4 {
-            integral += 0.5 * h * (a[k - 1] + a[k]);
-            forwards += s[k] * integral;
-        }
-        let mut transposed = s;
-        integrate_transposed(&mut transposed, h);
-        let backwards: f64 = transposed.iter().zip(&a).map(|(s, a)| s * a).sum();
-        assert!((forwards - backwards).abs() < 1e-15);
-    }
 }

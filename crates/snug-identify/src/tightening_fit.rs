@@ -1,6 +1,9 @@
-//! One tightening, identified: the glue between model, measurement and solver.
+//! Tightenings, identified: the glue between model, measurement and solver.
 
-use crate::residual_noise::noise_of;
+use crate::base_fits::{self, BaseFit};
+use crate::base_noise::{self, Settled};
+use crate::integral_start::integral_start;
+use crate::residual_noise::{OwnedNoise, noise_of};
 use crate::{
     ConstraintKind, Constraints, Covariance, DenseResidual, Fit, IdentifyError, Settings,
     Simulation, Status, TighteningResidual, Whitening, convex_set, solve_from_starts,
@@ -10,7 +13,7 @@ use snug_campaign::{
     Estimate, FitStatus, Identifiability, Interval, Parameter, ParameterEstimate, Quantity,
     Tightening,
 };
-use snug_model::{Input, Model};
+use snug_model::{Input, Model, NormalEquations};
 
 /// How tightenings are identified.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -41,6 +44,17 @@ impl Default for IdentifySettings {
     }
 }
 
+/// One tightening with the model and the input to identify it with.
+#[derive(Debug, Clone, Copy)]
+pub struct Subject<'a> {
+    /// Its free parameters are identified.
+    pub model: &'a Model,
+    /// The torque.
+    pub input: &'a Input,
+    /// The measurement.
+    pub tightening: &'a Tightening,
+}
+
 /// Identifies the free parameters of `model` from one tightening.
 ///
 /// The residual is measured − simulated of the fitted output. Where the noise floor is of that output, the residual is
@@ -58,33 +72,146 @@ pub fn identify(
     tightening: &Tightening,
     settings: &IdentifySettings,
 ) -> Result<Estimate, IdentifyError> {
-    let quantity = settings.fitted_output;
-    let measured = tightening
-        .motion
-        .get(quantity)
-        .ok_or(IdentifyError::MissingOutput { quantity })?;
-    let whitening = tightening
-        .noise
-        .as_ref()
-        .filter(|noise| noise.quantity == quantity)
-        .and_then(Whitening::new);
-    let residual = TighteningResidual::new(
+    let alone = Subject {
         model,
         input,
-        measured,
-        quantity,
-        whitening.as_ref(),
-        settings.unscored_samples,
-    );
-    residual.check_length()?;
-    let set = convex_set(model, &settings.constraints);
-    let mut problem = DenseResidual::new(residual);
-    let fit = solve_from_starts(&mut problem, &starts(model), &set, &settings.solver)?;
-    let mut residual = problem.into_inner();
-    let noise = noise_of(&mut residual, tightening, input, &fit);
-    let mut covariance = fit.covariance(noise.as_residual_noise());
-    residual.widen_by_fixed(&fit, &mut covariance);
-    Ok(estimate(model, &set, &fit, &covariance))
+        tightening,
+    };
+    let mut outcomes = identify_all(&[alone], settings);
+    outcomes.pop().expect("one outcome for one subject")
+}
+
+/// Identifies many tightenings, each as [`identify`] does and with the same bits; where the model is the base model, as
+/// many at a time as the processor's vector registers hold.
+pub fn identify_all(
+    subjects: &[Subject<'_>],
+    settings: &IdentifySettings,
+) -> Vec<Result<Estimate, IdentifyError>> {
+    let quantity = settings.fitted_output;
+    let whitenings: Vec<Option<Whitening>> = (subjects.iter())
+        .map(|subject| whitening(subject.tightening, quantity))
+        .collect();
+    let mut attempts: Vec<Result<Attempt<'_>, IdentifyError>> = (subjects.iter())
+        .zip(&whitenings)
+        .map(|(subject, whitening)| Attempt::new(subject, whitening.as_ref(), settings))
+        .collect();
+    let mut in_sweeps: Vec<BaseFit<'_, '_>> = (attempts.iter_mut().flatten())
+        .filter_map(Attempt::in_sweeps)
+        .collect();
+    base_fits::fit_all(&mut in_sweeps, quantity, &settings.solver);
+    drop(in_sweeps);
+    let mut settled: Vec<Settled<'_, '_>> = (attempts.iter_mut().zip(subjects))
+        .filter_map(|(attempt, subject)| attempt.as_mut().ok()?.settled(subject))
+        .collect();
+    base_noise::ask_all(&mut settled, quantity);
+    drop(settled);
+    (attempts.into_iter().zip(subjects))
+        .map(|(attempt, subject)| attempt?.estimate(subject, settings))
+        .collect()
+}
+
+/// The filter for this quantity, where its noise is known.
+fn whitening(tightening: &Tightening, quantity: Quantity) -> Option<Whitening> {
+    let noise = tightening.noise.as_ref();
+    noise
+        .filter(|noise| noise.quantity == quantity)
+        .and_then(Whitening::new)
+}
+
+/// A tightening on its way to an estimate.
+struct Attempt<'a> {
+    residual: TighteningResidual<'a>,
+    set: Constraints,
+    starts: Vec<Vec<f64>>,
+    /// A start near the optimum, for the base model.
+    near: Option<Vec<f64>>,
+    outcome: Option<Result<Fit, IdentifyError>>,
+    latest: Option<([f64; 3], NormalEquations)>,
+    noise: Option<OwnedNoise>,
+}
+
+impl<'a> Attempt<'a> {
+    fn new(
+        subject: &Subject<'a>,
+        whitening: Option<&'a Whitening>,
+        settings: &IdentifySettings,
+    ) -> Result<Self, IdentifyError> {
+        let quantity = settings.fitted_output;
+        let motion = &subject.tightening.motion;
+        let residual = TighteningResidual::new(
+            subject.model,
+            subject.input,
+            motion
+                .get(quantity)
+                .ok_or(IdentifyError::MissingOutput { quantity })?,
+            quantity,
+            whitening,
+            settings.unscored_samples,
+        );
+        residual.check_length()?;
+        Ok(Self {
+            residual,
+            set: convex_set(subject.model, &settings.constraints),
+            starts: starts(subject.model),
+            near: integral_start(subject.model, subject.input, subject.tightening),
+            outcome: None,
+            latest: None,
+            noise: None,
+        })
+    }
+
+    /// As sweeps fit it, if they can.
+    fn in_sweeps(&mut self) -> Option<BaseFit<'_, 'a>> {
+        match self.starts.as_slice() {
+            [usual] if self.residual.is_base() => Some(BaseFit {
+                residual: &mut self.residual,
+                start: self.near.as_deref().unwrap_or(usual),
+                usual_start: usual,
+                set: &self.set,
+                outcome: &mut self.outcome,
+                latest: &mut self.latest,
+            }),
+            _ => None,
+        }
+    }
+
+    /// As sweeps ask about its noise: if the last one of the fit was made at the estimate.
+    fn settled<'r>(&'r mut self, subject: &'r Subject<'a>) -> Option<Settled<'r, 'a>> {
+        let Some(Ok(fit)) = &self.outcome else {
+            return None;
+        };
+        let (values, found) = self.latest?;
+        let is_here = self.residual.all_values(&fit.values).starts_with(&values);
+        is_here.then_some(Settled {
+            residual: &mut self.residual,
+            subject,
+            fit,
+            found,
+            noise: &mut self.noise,
+        })
+    }
+
+    /// The estimate with its covariance, after a fit if that is still to be made.
+    fn estimate(
+        mut self,
+        subject: &Subject<'_>,
+        settings: &IdentifySettings,
+    ) -> Result<Estimate, IdentifyError> {
+        let fit = match self.outcome {
+            Some(outcome) => outcome?,
+            None => {
+                let mut problem = DenseResidual::new(&mut self.residual);
+                solve_from_starts(&mut problem, &self.starts, &self.set, &settings.solver)?
+            }
+        };
+        let noise = match self.noise {
+            Some(noise) => noise,
+            None => noise_of(&mut self.residual, subject, &fit),
+        };
+        let mut covariance = fit.covariance(noise.as_residual_noise());
+        self.residual.widen_by_fixed(&fit, &mut covariance);
+        Ok(estimate(subject.model, &self.set, &fit, &covariance))
+    }
 }
 
 /// Free values of the usual start, then of the further ones.
@@ -182,3 +309,6 @@ fn status(status: Status) -> FitStatus {
         Status::Failed => FitStatus::Failed,
     }
 }
+
+#[cfg(test)]
+mod tests;

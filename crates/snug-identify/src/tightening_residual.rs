@@ -1,6 +1,6 @@
 use crate::{EvaluationError, IdentifyError, Residual, Whitening};
 use snug_campaign::Quantity;
-use snug_model::{Input, Model};
+use snug_model::{Input, Model, ScoredRecord};
 
 /// Measured minus simulated output of one tightening over the model's free parameters, whitened where the noise is known.
 pub struct TighteningResidual<'a> {
@@ -27,17 +27,16 @@ impl<'a> TighteningResidual<'a> {
         unscored: usize,
     ) -> Self {
         let free = model.free();
-        let samples = measured.len();
         Self {
             model,
             input,
             measured,
             quantity,
             whitening,
-            unscored: unscored.min(samples),
+            unscored: unscored.min(measured.len()),
             values: model.parameters().iter().map(|p| p.value).collect(),
-            output: vec![0.0; samples],
-            sensitivity: vec![0.0; samples * free.len()],
+            output: Vec::new(),
+            sensitivity: Vec::new(),
             free,
         }
     }
@@ -54,13 +53,15 @@ impl<'a> TighteningResidual<'a> {
 
     /// Another quantity, simulated with these free values.
     pub fn simulate(&mut self, free_values: &[f64], quantity: Quantity) -> Vec<f64> {
-        for (&index, &value) in self.free.iter().zip(free_values) {
-            self.values[index] = value;
-        }
         let mut output = vec![0.0; self.samples()];
-        self.model
-            .output(&self.values, self.input, quantity, &mut output);
+        let (model, input) = (self.model, self.input);
+        model.output(self.all_values(free_values), input, quantity, &mut output);
         output
+    }
+
+    /// The filter that the residual is whitened with, where the noise is known.
+    pub(crate) fn whitening(&self) -> Option<&Whitening> {
+        self.whitening
     }
 
     /// Whether the residual is whitened with a known noise.
@@ -82,6 +83,56 @@ impl<'a> TighteningResidual<'a> {
                 parameters,
             })
         }
+    }
+
+    /// Whether sweeps of the base model fit it: they know no effects and no restarts.
+    pub(crate) fn is_base(&self) -> bool {
+        self.model.effects().next().is_none() && !self.input.is_restarted() && !self.free.is_empty()
+    }
+
+    /// Grid points of the input per sample.
+    pub(crate) fn substeps(&self) -> usize {
+        self.input.substeps()
+    }
+
+    /// What is scored, both sides weighed, for the sweeps that fit the base model.
+    pub(crate) fn scored(&self) -> ScoredRecord<'a> {
+        let (substeps, grid) = (self.input.substeps(), self.input.grid_nm());
+        let measured = &self.measured[self.unscored..];
+        let torque = &grid[(self.unscored * substeps).min(grid.len())..];
+        let scored = self.residual_count();
+        let order = measured.len() - scored;
+        let (filter, torque_nm, measured) = match self.whitening {
+            Some(whitening) => {
+                let mut white_torque = vec![0.0; torque.len().saturating_sub(order * substeps)];
+                let mut white = vec![0.0; scored];
+                whitening.apply_to_grid(torque, substeps, &mut white_torque);
+                whitening.apply(measured, &mut white);
+                (whitening.weights(), white_torque.into(), white.into())
+            }
+            None => (vec![1.0], torque.into(), measured.into()),
+        };
+        ScoredRecord {
+            rig: *self.model.rig(),
+            input: self.input,
+            filter,
+            first: self.unscored + order,
+            torque_nm,
+            measured,
+        }
+    }
+
+    /// All parameters of the model at these free values.
+    pub(crate) fn all_values(&mut self, free_values: &[f64]) -> &[f64] {
+        for (&index, &value) in self.free.iter().zip(free_values) {
+            self.values[index] = value;
+        }
+        &self.values
+    }
+
+    /// Indices of the free parameters in the model.
+    pub(crate) fn free(&self) -> &[usize] {
+        &self.free
     }
 
     /// Whitens (or copies) the scored part of `signal` into `scored`.
@@ -166,9 +217,7 @@ impl Residual for TighteningResidual<'_> {
         residual: &mut [f64],
         jacobian: Option<&mut [f64]>,
     ) -> Result<(), EvaluationError> {
-        for (&index, &value) in self.free.iter().zip(parameters) {
-            self.values[index] = value;
-        }
+        self.all_values(parameters);
         if self.whitening.is_none() && self.unscored == 0 {
             // Every sample counts, and counts the same: straight into the solver's buffers.
             self.subtract(residual, jacobian);
@@ -179,6 +228,8 @@ impl Residual for TighteningResidual<'_> {
             std::mem::take(&mut self.sensitivity),
         );
         let wanted = jacobian.is_some();
+        every.resize(self.samples(), 0.0);
+        sensitivity.resize(self.samples() * self.free.len(), 0.0);
         self.subtract(&mut every, wanted.then_some(&mut sensitivity[..]));
         self.weigh(&every, residual);
         if let Some(jacobian) = jacobian {

@@ -1,5 +1,5 @@
 use snug_campaign::NoiseFloor;
-use snug_model::on_this_processor;
+use snug_model::{Real, on_this_processor};
 
 /// Makes stationary noise white with unit variance: w_t = (r_t + a_1 r_{t−1} + … + a_p r_{t−p}) / σ_e.
 ///
@@ -32,30 +32,43 @@ impl Whitening {
         (self.innovation_sd / (1.0 + self.autoregression.iter().sum::<f64>())).powi(2)
     }
 
+    /// The weights of a sample and of those before it: (1, a_1, …, a_p) / σ_e.
+    pub fn weights(&self) -> Vec<f64> {
+        let scale = 1.0 / self.innovation_sd;
+        let past = self.autoregression.iter().map(|a| scale * a);
+        std::iter::once(scale).chain(past).collect()
+    }
+
     /// Whitens `signal` into `white`, which is shorter by [`Whitening::order`].
     pub fn apply(&self, signal: &[f64], white: &mut [f64]) {
+        self.apply_to_grid(signal, 1, white);
+    }
+
+    /// Whitens a signal with `substeps` grid points per sample at every one of them; `white` is shorter by as many per
+    /// sample of [`Whitening::order`].
+    pub fn apply_to_grid(&self, signal: &[f64], substeps: usize, white: &mut [f64]) {
         on_this_processor(
             #[inline(always)]
-            || self.filter(signal, white),
+            || self.filter(signal, substeps, white),
         );
     }
 
     #[inline(always)]
-    fn filter(&self, signal: &[f64], white: &mut [f64]) {
-        let order = self.order();
+    fn filter(&self, signal: &[f64], substeps: usize, white: &mut [f64]) {
+        let past = self.order() * substeps;
         let scale = 1.0 / self.innovation_sd;
-        let count = white.len().min(signal.len().saturating_sub(order));
+        let count = white.len().min(signal.len().saturating_sub(past));
         // Lag by lag over a block that stays in the cache: neighbouring samples then share vector registers, while a sum
         // over the lags of one sample would wait for each of its additions.
         for (block, white) in white[..count].chunks_mut(BLOCK).enumerate() {
             let signal = &signal[block * BLOCK..];
             white.fill(0.0);
             for (lag, a) in self.autoregression.iter().enumerate().rev() {
-                for (sum, past) in white.iter_mut().zip(&signal[order - 1 - lag..]) {
-                    *sum += a * past;
+                for (sum, earlier) in white.iter_mut().zip(&signal[past - (lag + 1) * substeps..]) {
+                    *sum += a * earlier;
                 }
             }
-            for (out, now) in white.iter_mut().zip(&signal[order..]) {
+            for (out, now) in white.iter_mut().zip(&signal[past..]) {
                 *out = (now + *out) * scale;
             }
         }
@@ -65,17 +78,38 @@ impl Whitening {
     ///
     /// ‖Cᵀ s‖² is the variance of the inner product of s with the noise.
     pub fn colour_transposed(&self, signal: &mut [f64]) {
-        for t in (0..signal.len()).rev() {
-            let mut value = signal[t];
-            for (lag, a) in self.autoregression.iter().enumerate() {
-                if let Some(later) = signal.get(t + lag + 1) {
-                    value -= a * later;
-                }
+        colour_transposed(self.coefficients(), signal.as_chunks_mut::<1>().0);
+        signal
+            .iter_mut()
+            .for_each(|value| *value *= self.innovation_sd);
+    }
+
+    /// a_1, …, a_p.
+    pub(crate) fn coefficients(&self) -> &[f64] {
+        &self.autoregression
+    }
+
+    /// σ_e.
+    pub(crate) fn innovation_sd(&self) -> f64 {
+        self.innovation_sd
+    }
+}
+
+/// Filters K signals backwards in time by 1/A.
+#[inline(always)]
+pub(crate) fn colour_transposed<R: Real, const K: usize>(
+    autoregression: &[R],
+    signals: &mut [[R; K]],
+) {
+    for t in (0..signals.len()).rev() {
+        let (now, later) = signals[t..]
+            .split_first_mut()
+            .expect("t is below the length");
+        // The farthest first: only the last of these sums has to wait for the sample just filtered.
+        for (a, later) in autoregression.iter().zip(later.iter()).rev() {
+            for (now, later) in now.iter_mut().zip(later) {
+                *now = *now - *a * *later;
             }
-            signal[t] = value;
-        }
-        for value in signal {
-            *value *= self.innovation_sd;
         }
     }
 }

@@ -35,7 +35,7 @@ impl<'a, R: Real> Bench<'a, R> {
     /// One assembly and input for each lane; of the inputs each must be [alike](Self::are_alike) the first.
     pub fn new(zero: R, of: impl Fn(usize) -> (&'a Assembly, &'a Input)) -> Self {
         let inputs: Vec<&Input> = (0..R::LANES).map(|lane| of(lane).1).collect();
-        let grids: Vec<&[f64]> = inputs.iter().map(|input| input.grid()).collect();
+        let grids: Vec<&[f64]> = inputs.iter().map(|input| input.grid_nm()).collect();
         Self {
             torque_nm: zero.interleave(&grids),
             lever_arm_m: zero.lane_by_lane(|lane| of(lane).0.rig().lever_arm_m),

@@ -235,17 +235,17 @@ impl Input {
     }
 
     /// Torque at the grid points \[Nm\].
-    pub(crate) fn grid(&self) -> &[f64] {
+    pub fn grid_nm(&self) -> &[f64] {
         &self.grid
     }
 
     /// Time between grid points \[s\].
-    pub(crate) fn grid_interval_s(&self) -> f64 {
+    pub fn grid_interval_s(&self) -> f64 {
         self.grid_interval_s
     }
 
     /// Grid points per sample.
-    pub(crate) fn substeps(&self) -> usize {
+    pub fn substeps(&self) -> usize {
         self.substeps
     }
 

@@ -182,16 +182,21 @@ impl<S: Simd, A: Alignment> Real for Lanes<S, A> {
 
     #[inline(always)]
     fn lane_by_lane(self, mut of: impl FnMut(usize) -> f64) -> Self {
-        let mut register = [S::f64s::zeroed()];
-        for (lane, value) in cast_slice_mut(&mut register).iter_mut().enumerate() {
+        let mut register = self.with(S::f64s::zeroed());
+        for (lane, value) in register.lanes_mut().iter_mut().enumerate() {
             *value = of(lane);
         }
-        self.with(register[0])
+        register
     }
 
     #[inline(always)]
     fn lanes(&self) -> &[f64] {
         cast_slice(std::slice::from_ref(&self.register))
+    }
+
+    #[inline(always)]
+    fn lanes_mut(&mut self) -> &mut [f64] {
+        cast_slice_mut(std::slice::from_mut(&mut self.register))
     }
 
     fn interleave<'a>(self, signals: &[&'a [f64]]) -> Cow<'a, [Self]> {
@@ -201,9 +206,7 @@ impl<S: Simd, A: Alignment> Real for Lanes<S, A> {
             let last = signal.last().copied().unwrap_or(0.0);
             let values = signal.iter().copied().chain(std::iter::repeat(last));
             for (point, value) in together.iter_mut().zip(values) {
-                let register: &mut [f64] =
-                    cast_slice_mut(std::slice::from_mut(&mut point.register));
-                register[lane] = value;
+                point.lanes_mut()[lane] = value;
             }
         }
         Cow::Owned(together)

@@ -24,6 +24,7 @@ mod invisible;
 mod lanes;
 mod linear;
 mod model;
+mod normal_equations;
 mod number;
 mod oscillation;
 mod plant;
@@ -35,6 +36,7 @@ mod scale;
 mod sensors;
 mod settings;
 mod side_by_side;
+mod sweep;
 mod zeroed;
 
 pub use assembly::Assembly;
@@ -53,6 +55,7 @@ pub use input::Input;
 pub use invisible::{INVISIBLE, Invisible};
 pub use lanes::{LaneTask, Lanes, in_lanes, on_this_processor};
 pub use model::{BASE_PARAMETERS, MAXIMUM_FREE, Model, THESIS_START};
+pub use normal_equations::NormalEquations;
 pub use number::Number;
 pub use oscillation::{
     damped_frequency_hz, damping_ratio, natural_frequency_hz, thesis_damping_ratio,
@@ -61,3 +64,4 @@ pub use real::{Real, Task};
 pub use scale::{PlausibleRange, Scale};
 pub use settings::{ModelSettings, ParameterSettings};
 pub use side_by_side::{Run, simulate_side_by_side};
+pub use sweep::{ScoredRecord, Sweep};

@@ -16,6 +16,8 @@ pub trait Real: Number<Real = Self> + std::fmt::Debug {
     fn lane_by_lane(self, of: impl FnMut(usize) -> f64) -> Self;
     /// The lanes' values.
     fn lanes(&self) -> &[f64];
+    /// The lanes' values, to change them.
+    fn lanes_mut(&mut self) -> &mut [f64];
     /// Signals, one for each lane, as one signal; a lane whose signal has ended keeps its last value.
     fn interleave<'a>(self, signals: &[&'a [f64]]) -> Cow<'a, [Self]>;
 
@@ -109,6 +111,10 @@ impl Real for f64 {
     #[inline(always)]
     fn lanes(&self) -> &[f64] {
         std::slice::from_ref(self)
+    }
+    #[inline(always)]
+    fn lanes_mut(&mut self) -> &mut [f64] {
+        std::slice::from_mut(self)
     }
     #[inline(always)]
     fn interleave<'a>(self, signals: &[&'a [f64]]) -> Cow<'a, [Self]> {

@@ -5,7 +5,7 @@ use snug_campaign::{
     Estimate, FitMeasures, FitStatus, Motion, Quantity, Recording, Rejection, Segment, Selection,
     Tightening, TighteningId, TighteningResult, Traces,
 };
-use snug_identify::{agreement, derived, identify};
+use snug_identify::{IdentifyError, Subject, agreement, derived, identify_all};
 use snug_model::{
     BASE_PARAMETERS, Input, Law, Model, euler_displacement, inverse_dynamics_force,
     spring_damper_force, thesis_damping_ratio,
@@ -20,34 +20,58 @@ pub struct Evaluated {
     pub onset: Option<usize>,
 }
 
-/// Identifies one tightening and simulates it with what was found.
-pub fn fitted(study: &Study, prepared: &Prepared) -> Result<Evaluated, StudyError> {
-    let tightening = &prepared.tightening;
-    let model = study.model.model(tightening.rig)?;
-    let input = input(study, prepared);
-    let estimate = identify(&model, &input, tightening, &study.identify)?;
+/// Identifies tightenings side by side and simulates each with what was found.
+pub fn fitted(
+    study: &Study,
+    prepared: &[&Prepared],
+) -> Result<Vec<Result<Evaluated, IdentifyError>>, StudyError> {
+    let models = (prepared.iter())
+        .map(|one| study.model.model(one.tightening.rig))
+        .collect::<Result<Vec<Model>, _>>()?;
+    let inputs: Vec<Input> = prepared.iter().map(|one| input(study, one)).collect();
+    let subjects: Vec<Subject<'_>> = (models.iter().zip(&inputs).zip(prepared))
+        .map(|((model, input), one)| Subject {
+            model,
+            input,
+            tightening: &one.tightening,
+        })
+        .collect();
+    let estimates = identify_all(&subjects, &study.identify);
+    Ok((estimates.into_iter().zip(&subjects).zip(prepared))
+        .map(|((estimate, subject), one)| Ok(identified(study, subject, one, estimate?)))
+        .collect())
+}
+
+/// A tightening simulated with its own estimate.
+fn identified(
+    study: &Study,
+    subject: &Subject<'_>,
+    prepared: &Prepared,
+    estimate: Estimate,
+) -> Evaluated {
+    let Subject { model, input, .. } = *subject;
     tracing::debug!(
-        tightening = tightening.id.number,
+        tightening = prepared.tightening.id.number,
         status = ?estimate.status,
         iterations = estimate.iterations,
         conic_solves = estimate.conic_solves,
         "identified"
     );
     let preset = study.preprocess.preset;
-    Ok(simulated(
+    simulated(
         study,
-        &model,
-        &input,
+        model,
+        input,
         prepared,
         estimate,
         study.identify.unscored_samples,
         |estimate, measures| {
             let values: Vec<f64> = estimate.parameters.iter().map(|p| p.value).collect();
-            let mut rejections = preparation_rejections(prepared, &model, &input, &values);
+            let mut rejections = preparation_rejections(prepared, model, input, &values);
             rejections.extend(study.selection.rejections(preset, estimate, measures));
             rejections
         },
-    ))
+    )
 }
 
 /// Simulates a tightening that is kept for validation with parameters found elsewhere, from its first sample to its last.

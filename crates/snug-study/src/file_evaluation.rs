@@ -113,6 +113,9 @@ pub fn outcomes(evaluated: &[Evaluated]) -> Vec<(TighteningId, Vec<Rejection>)> 
         .collect()
 }
 
+/// Tightenings that are fitted at a time: as many as the widest vector registers hold.
+const SIDE_BY_SIDE: usize = 8;
+
 /// Prepares and evaluates one recording: every segment gives a result, with an estimate or with the reason for none.
 fn evaluate(
     study: &Study,
@@ -126,18 +129,16 @@ fn evaluate(
         .tightenings
         .iter()
         .partition(|one| only_simulated.contains(&one.tightening.id.number));
-    let outcomes: Vec<_> = to_fit
-        .par_iter()
-        .map(|one| (&one.tightening.id, fitted(study, one)))
-        .collect();
+    let groups = (to_fit.par_chunks(SIDE_BY_SIDE))
+        .map(|group| fitted(study, group))
+        .collect::<Result<Vec<_>, StudyError>>()?;
     let mut evaluated = Vec::new();
-    for (id, outcome) in outcomes {
+    for (one, outcome) in to_fit.iter().zip(groups.into_iter().flatten()) {
         match outcome {
             Ok(done) => evaluated.push(done),
-            Err(StudyError::Identify(error)) => {
-                findings.push(not_identified(id, &error.to_string()));
+            Err(error) => {
+                findings.push(not_identified(&one.tightening.id, &error.to_string()));
             }
-            Err(error) => return Err(error),
         }
     }
     if let Some(mean) = mean_estimate(&evaluated) {

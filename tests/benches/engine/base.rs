@@ -6,7 +6,7 @@ use crate::table::{Reference, alone, section, times_the};
 use crate::{bare_lanes, bare_loop};
 use snug_campaign::{Estimate, FitStatus, Quantity};
 use snug_diagnose::Case;
-use snug_identify::{IdentifySettings, identify};
+use snug_identify::{IdentifySettings, Subject, identify, identify_all};
 use std::hint::black_box;
 
 /// Tightenings that every row fits.
@@ -96,7 +96,17 @@ pub fn fit(case: &Case, settings: &IdentifySettings) -> Estimate {
 
 /// Complete fits of many tightenings, as a study does them on one core.
 pub fn fit_all(cases: &[&Case], settings: &IdentifySettings) -> Vec<Estimate> {
-    cases.iter().map(|case| fit(case, settings)).collect()
+    let subjects: Vec<Subject<'_>> = (cases.iter())
+        .map(|case| Subject {
+            model: &case.model,
+            input: &case.input,
+            tightening: &case.tightening,
+        })
+        .collect();
+    let fitted = identify_all(&subjects, settings).into_iter();
+    fitted
+        .map(|estimate| estimate.expect("the benchmark's own data can be fitted"))
+        .collect()
 }
 
 /// The tightenings whose optimum of the displacement lies inside the constraints: no other program here knows them.

@@ -1,0 +1,134 @@
+//! The base model's normal equations, accumulated in one sweep over the samples without storing a sensitivity.
+//!
+//! With the derivatives of [`linear`](crate::linear) the residual is r = y − b1 g⁽ⁱ⁾ and, the factor b1² l² left out until
+//! the end, its derivatives by m, c, k are z⁽ⁱ⁺²⁾, z⁽ⁱ⁺¹⁾, z⁽ⁱ⁾, with i = 0 for the displacement, 1 for the velocity, 2 for the
+//! acceleration. Ten inner products of these four are all that a Gauss–Newton step needs; three plain sums more go
+//! almost for nothing through the adders beside them and spare the covariance a sweep of its own.
+
+use crate::real::Task;
+use crate::{Real, Sweep};
+use snug_campaign::Quantity;
+
+/// Cost, gradient and curvature of ½‖r‖² over m, c, k.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct NormalEquations {
+    /// ‖r‖².
+    pub squares: f64,
+    /// Jᵀr.
+    pub gradient: [f64; 3],
+    /// JᵀJ.
+    pub matrix: [[f64; 3]; 3],
+    /// Jᵀ1: what an error that is the same in every sample does to the gradient.
+    pub sums: [f64; 3],
+}
+
+/// One run over the samples of all lanes.
+pub(crate) struct Run<'a, R, F> {
+    pub sweep: &'a Sweep<R>,
+    /// m, c, k, lane by lane.
+    pub values: &'a [[f64; 3]],
+    /// Samples of one stretch, lane by lane.
+    pub stretches: Vec<usize>,
+    /// Gets a lane's number and what has been summed up to the end of each of its stretches.
+    pub read: F,
+}
+
+impl<R: Real, F: FnMut(usize, NormalEquations)> Task for Run<'_, R, F> {
+    type Output = ();
+    #[inline(always)]
+    fn run(self) {
+        match self.sweep.quantity {
+            Quantity::Displacement => self.sum::<0>(),
+            Quantity::Velocity => self.sum::<1>(),
+            Quantity::Acceleration => self.sum::<2>(),
+        }
+    }
+}
+
+impl<R: Real, F: FnMut(usize, NormalEquations)> Run<'_, R, F> {
+    #[inline(always)]
+    fn sum<const DOTS: usize>(mut self) {
+        let Sweep { zero, lanes, .. } = self.sweep;
+        let mut states = self.sweep.begin(self.values);
+        let mut sums = [*zero; 13];
+        let mut from = 0;
+        // The next sample at which the sums of a lane are read; the others go on.
+        let next = |lane: usize, from: usize| {
+            let stretch = self.stretches[lane];
+            ((from / stretch + 1) * stretch).min(lanes[lane].samples)
+        };
+        while let Some(end) = (0..R::LANES)
+            .map(|lane| next(lane, from))
+            .filter(|&end| end > from)
+            .min()
+        {
+            let mut block = [[*zero; 4]; BLOCK];
+            for begin in (from..end).step_by(BLOCK) {
+                let block = &mut block[..BLOCK.min(end - begin)];
+                let mut rows = block.iter_mut();
+                self.sweep.walk::<DOTS>(
+                    &mut states,
+                    begin..begin + rows.len(),
+                    #[inline(always)]
+                    |row| {
+                        if let Some(kept) = rows.next() {
+                            *kept = row;
+                        }
+                    },
+                );
+                add(&mut sums, block);
+            }
+            for lane in (0..R::LANES).filter(|&lane| next(lane, from) == end) {
+                let square = lanes[lane].square_m2;
+                (self.read)(
+                    lane,
+                    read(states.inverse_inertia(lane), &sums, lane, square),
+                );
+            }
+            from = end;
+        }
+    }
+}
+
+/// Samples that are simulated before their products are added. In one loop, the recursion's constants and the sums would
+/// not fit into the registers together, and every sum would go through memory for every sample.
+const BLOCK: usize = 32;
+
+/// Adds the products of some samples' r and its derivatives by m, c, k.
+#[inline(always)]
+fn add<R: Real>(sums: &mut [R; 13], block: &[[R; 4]]) {
+    let mut s = *sums;
+    for &[r, m, c, k] in block {
+        s[0] += r * r;
+        s[1] += m * r;
+        s[2] += c * r;
+        s[3] += k * r;
+        s[4] += m * m;
+        s[5] += m * c;
+        s[6] += m * k;
+        s[7] += c * c;
+        s[8] += c * k;
+        s[9] += k * k;
+        s[10] += m;
+        s[11] += c;
+        s[12] += k;
+    }
+    *sums = s;
+}
+
+/// One lane's sums with the factor b1² l² of every sensitivity, which was left out of them.
+fn read<R: Real>(inverse: f64, sums: &[R; 13], lane: usize, square: f64) -> NormalEquations {
+    let factor = inverse * inverse * square;
+    let once = |index: usize| factor * sums[index].lanes()[lane];
+    let twice = |index: usize| factor * once(index);
+    NormalEquations {
+        squares: sums[0].lanes()[lane],
+        gradient: [once(1), once(2), once(3)],
+        matrix: [
+            [twice(4), twice(5), twice(6)],
+            [twice(5), twice(7), twice(8)],
+            [twice(6), twice(8), twice(9)],
+        ],
+        sums: [once(10), once(11), once(12)],
+    }
+}
