@@ -109,8 +109,8 @@ fn a_diagnosis_takes_no_more_work_than_before_and_the_same_for_any_threads() {
         rankings: 1,
         signatures: 632,
         pooled_fits: 82,
-        steps: 769,
-        linearizations: 5924,
+        steps: 748,
+        linearizations: 5684,
         conic_solves: 66,
     };
     assert_eq!(counted, what_it_takes, "see the head of this file");
