@@ -113,7 +113,7 @@ fn distance(
     let mut hypothesis = Hypothesis::new(cases.others(&made), &effects).ok()?;
     let start = hypothesis.start_from(&base);
     let end = hypothesis.fit(&start, &PooledSettings::default()).ok()?;
-    Some(2.0 * end.fit.cost() / made.len() as f64)
+    Some(2.0 * end.cost() / made.len() as f64)
 }
 
 /// A tightening as `first` says it would go under changed conditions, without noise.

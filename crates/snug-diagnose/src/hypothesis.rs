@@ -7,8 +7,8 @@ use crate::fitted::Fitted;
 use crate::simulated::{Asked, Simulated};
 use crate::units::Units;
 use snug_identify::{
-    Constraints, EvaluationError, PooledResidual, PooledSettings, Trial, Whitening, convex_set,
-    solve_pooled,
+    Constraints, EvaluationError, PooledFit, PooledResidual, PooledSettings, Trial, Whitening,
+    convex_set, solve_pooled,
 };
 use snug_model::{BASE_PARAMETERS, Effect, Law, Model, Scope};
 
@@ -168,7 +168,7 @@ impl<'a> Hypothesis<'a> {
         &mut self,
         start: &Start,
         settings: &PooledSettings,
-    ) -> Result<PooledEnd, DiagnoseError> {
+    ) -> Result<PooledFit, DiagnoseError> {
         let (own_sets, shared_set) = (self.own_sets.clone(), self.shared_set.clone());
         let fit = solve_pooled(
             self,
@@ -179,7 +179,7 @@ impl<'a> Hypothesis<'a> {
             settings,
         )?;
         self.cases.tally().pooled_fit(&fit.work);
-        Ok(PooledEnd { fit })
+        Ok(fit)
     }
 
     /// Fits what is left of the residual once it is averaged over `BLUR` samples to either side.
@@ -190,7 +190,7 @@ impl<'a> Hypothesis<'a> {
         &mut self,
         start: &Start,
         settings: &PooledSettings,
-    ) -> Result<PooledEnd, DiagnoseError> {
+    ) -> Result<PooledFit, DiagnoseError> {
         self.blur = BLUR;
         let end = self.fit(start, settings);
         self.blur = 0;
@@ -198,8 +198,8 @@ impl<'a> Hypothesis<'a> {
     }
 
     /// The fit with what follows from it.
-    pub fn finish(&self, end: PooledEnd, units: &Units) -> Result<Fitted, DiagnoseError> {
-        Fitted::new(self, end.fit, units)
+    pub fn finish(&self, end: PooledFit, units: &Units) -> Result<Fitted, DiagnoseError> {
+        Fitted::new(self, end, units)
     }
 
     /// Weighted residual and, for the parameters in `order`, weighted Jacobian (column-major) of one member.
@@ -269,11 +269,6 @@ impl<'a> Hypothesis<'a> {
         weigh(whitening, &signal[case.unscored..], &mut weighted);
         weighted
     }
-}
-
-/// A pooled fit that nothing was worked out of yet.
-pub(crate) struct PooledEnd {
-    pub fit: snug_identify::PooledFit,
 }
 
 /// 2 ms at 10 kHz.

@@ -1,9 +1,9 @@
 //! A candidate's refit to a few long records, where mass, damping and stiffness are no matter of each tightening.
 
-use crate::hypothesis::{Hypothesis, PooledEnd, Start};
+use crate::hypothesis::{Hypothesis, Start};
 use crate::{Case, DiagnoseError, DiagnoseSettings};
 use snug_identify::{
-    DenseResidual, PooledSettings, Settings, TighteningResidual, convex_set, solve,
+    DenseResidual, PooledFit, PooledSettings, Settings, TighteningResidual, convex_set, solve,
 };
 
 /// Samples up to which a record is soon simulated.
@@ -33,12 +33,12 @@ pub(crate) fn best_of(
     hypothesis: &mut Hypothesis<'_>,
     starts: &[Start],
     settings: &PooledSettings,
-) -> Result<PooledEnd, DiagnoseError> {
-    let mut best: Option<PooledEnd> = None;
+) -> Result<PooledFit, DiagnoseError> {
+    let mut best: Option<PooledFit> = None;
     let mut refused = None;
     let mut attempt =
         |hypothesis: &mut Hypothesis<'_>, start: &Start| match hypothesis.fit(start, &ROUGH) {
-            Ok(end) if best.as_ref().is_none_or(|b| end.fit.cost() < b.fit.cost()) => {
+            Ok(end) if best.as_ref().is_none_or(|b| end.cost() < b.cost()) => {
                 best = Some(end);
                 true
             }
@@ -71,8 +71,8 @@ pub(crate) fn best_of(
         return Err(refused.unwrap_or_else(none));
     };
     let start = Start {
-        own: best.fit.own.clone(),
-        shared: best.fit.shared.clone(),
+        own: best.own.clone(),
+        shared: best.shared.clone(),
     };
     hypothesis.fit(&start, settings)
 }
@@ -82,17 +82,17 @@ pub(crate) fn best_of(
 pub(crate) fn to_the_end(
     hypothesis: &mut Hypothesis<'_>,
     start: &Start,
-) -> Result<PooledEnd, DiagnoseError> {
+) -> Result<PooledFit, DiagnoseError> {
     let end = hypothesis.fit(start, &PooledSettings::default())?;
     let from = Start {
-        own: end.fit.own.clone(),
-        shared: end.fit.shared.clone(),
+        own: end.own.clone(),
+        shared: end.shared.clone(),
     };
     let Some(further) = further(hypothesis, &from) else {
         return Ok(end);
     };
     match hypothesis.fit(&further, &PooledSettings::default()) {
-        Ok(other) if other.fit.cost() < end.fit.cost() => Ok(other),
+        Ok(other) if other.cost() < end.cost() => Ok(other),
         _ => Ok(end),
     }
 }

@@ -12,7 +12,7 @@ use crate::score::{Control, Scored, Scorer};
 use crate::units::Units;
 use crate::{Case, DiagnoseSettings, Watch};
 use rayon::prelude::*;
-use snug_identify::PooledSettings;
+use snug_identify::{PooledFit, PooledSettings};
 use snug_model::{BASE_PARAMETERS, Effect, Law, Scope};
 
 /// A candidate after its refit.
@@ -228,14 +228,14 @@ fn refit(
     let (best, shared) = rough(cases, current, effect, &effects, &starts)?;
     start.shared = shared;
     let afar = hypothesis.fit_blurred(&start, &CANDIDATE)?;
-    start.shared = afar.fit.shared;
-    start.own = afar.fit.own;
+    start.shared = afar.shared;
+    start.own = afar.own;
     let mut end = hypothesis.fit(&start, &CANDIDATE)?;
     if effect.description().parameters.len() == 1 {
         // The whole way from the start may lead each tightening's own parameters past where they would be caught.
         let whole = with_effect(&hypothesis, current, effect, starts[best]);
         if let Ok(other) = hypothesis.fit(&whole, &CANDIDATE)
-            && other.fit.cost() < end.fit.cost()
+            && other.cost() < end.cost()
         {
             end = other;
         }
@@ -268,18 +268,18 @@ fn rough(
         max_iterations: 20,
         cost_tolerance: 1e-4,
     };
-    let mut best: Option<(usize, snug_identify::PooledFit)> = None;
+    let there = current.only(&few);
+    let mut best: Option<(usize, PooledFit)> = None;
     for (index, values) in starts.iter().enumerate() {
-        let mut start = with_effect(&hypothesis, &current.only(&few), effect, values);
-        start.own.truncate(some.len());
+        let start = with_effect(&hypothesis, &there, effect, values);
         let Ok(end) = hypothesis.fit_blurred(&start, &settings) else {
             continue;
         };
         if best
             .as_ref()
-            .is_none_or(|(_, best)| end.fit.cost() < best.cost())
+            .is_none_or(|(_, best)| end.cost() < best.cost())
         {
-            best = Some((index, end.fit));
+            best = Some((index, end));
         }
     }
     best.map(|(index, best)| (index, best.shared))

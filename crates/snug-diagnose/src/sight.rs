@@ -3,6 +3,7 @@
 use crate::fitted::Fitted;
 use crate::sizes::held;
 use crate::{Case, DiagnoseError, Seen};
+use rayon::prelude::*;
 use snug_campaign::{Estimate, Motion};
 use snug_identify::{IdentifySettings, identify};
 
@@ -16,17 +17,11 @@ pub(crate) struct Sight<'a> {
 impl<'a> Sight<'a> {
     /// Identifies every tightening with the shared parameters held where all tightenings together put them.
     pub fn of(cases: &'a [Case], fitted: &Fitted) -> Result<Self, DiagnoseError> {
-        let estimates = estimates(cases, fitted)?;
-        let simulated = cases
-            .iter()
-            .zip(&estimates)
-            .map(|(case, estimate)| {
-                let values: Vec<f64> = estimate.parameters.iter().map(|p| p.value).collect();
-                held(case, fitted).map_or_else(Default::default, |model| {
-                    model.simulate(&values, &case.input)
-                })
-            })
-            .collect();
+        let seen: Vec<(Estimate, Motion)> = cases
+            .par_iter()
+            .map(|case| see(case, fitted))
+            .collect::<Result<_, _>>()?;
+        let (estimates, simulated) = seen.into_iter().unzip();
         Ok(Self {
             cases,
             simulated,
@@ -50,19 +45,17 @@ impl<'a> Sight<'a> {
     }
 }
 
-/// Each tightening's estimate with the shared parameters held where all tightenings together put them.
-fn estimates(cases: &[Case], fitted: &Fitted) -> Result<Vec<Estimate>, DiagnoseError> {
-    cases
-        .iter()
-        .map(|case| {
-            let model = held(case, fitted).unwrap_or_else(|| case.model.clone());
-            let settings = IdentifySettings {
-                fitted_output: case.quantity,
-                constraints: case.constraints.clone(),
-                unscored_samples: case.unscored,
-                ..IdentifySettings::default()
-            };
-            Ok(identify(&model, &case.input, &case.tightening, &settings)?)
-        })
-        .collect()
+/// A tightening's estimate and motion with the shared parameters held where all tightenings together put them.
+fn see(case: &Case, fitted: &Fitted) -> Result<(Estimate, Motion), DiagnoseError> {
+    let model = held(case, fitted).unwrap_or_else(|| case.model.clone());
+    let settings = IdentifySettings {
+        fitted_output: case.quantity,
+        constraints: case.constraints.clone(),
+        unscored_samples: case.unscored,
+        ..IdentifySettings::default()
+    };
+    let estimate = identify(&model, &case.input, &case.tightening, &settings)?;
+    let values: Vec<f64> = estimate.parameters.iter().map(|p| p.value).collect();
+    let motion = model.simulate(&values, &case.input);
+    Ok((estimate, motion))
 }

@@ -28,6 +28,7 @@ mod normal_equations;
 mod number;
 mod oscillation;
 mod plant;
+mod reaction;
 mod real;
 mod record;
 mod restart;

@@ -1,6 +1,6 @@
 //! The misfit over how far the tool has turned.
 
-use super::aspect::{Part, View, sums};
+use super::aspect::{View, sums};
 use super::grid::{Grid, round_up};
 use super::residual::{Residuals, White};
 use rayon::prelude::*;
@@ -26,16 +26,6 @@ pub fn view(residuals: &Residuals<'_>) -> Option<View> {
         .reduce(f64::max)
         .filter(|largest| *largest > 0.0)?;
     let grid = Grid::of_width(0.0, largest, round_up(largest / MOST_BINS));
-    let parts = (0..grid.bins)
-        .map(|bin| {
-            let (from, to) = grid.edges(bin);
-            Part {
-                name: format!("{from}..{to} rad"),
-                from: Some(from),
-                to: Some(to),
-            }
-        })
-        .collect();
     let sums = residuals
         .all
         .par_iter()
@@ -46,7 +36,7 @@ pub fn view(residuals: &Residuals<'_>) -> Option<View> {
         .collect();
     Some(View {
         aspect: "amplitude_rad",
-        parts,
+        parts: grid.parts("rad"),
         sums,
     })
 }

@@ -1,5 +1,7 @@
 //! Equal bins along one coordinate, and how their edges are written.
 
+use super::aspect::Part;
+
 /// `bins` bins of `width` from `origin` on.
 #[derive(Debug, Clone, Copy)]
 pub struct Grid {
@@ -43,6 +45,19 @@ impl Grid {
     pub fn edges(&self, bin: usize) -> (f64, f64) {
         let from = self.origin + bin as f64 * self.width;
         (tidy(from), tidy(from + self.width))
+    }
+
+    /// Every bin as a part of the campaign, named by its edges.
+    pub fn parts(&self, unit: &str) -> Vec<Part> {
+        let part = |bin| {
+            let (from, to) = self.edges(bin);
+            Part {
+                name: format!("{from}..{to} {unit}"),
+                from: Some(from),
+                to: Some(to),
+            }
+        };
+        (0..self.bins).map(part).collect()
     }
 
     /// Middle of every bin.

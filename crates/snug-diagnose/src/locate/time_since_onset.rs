@@ -1,6 +1,6 @@
 //! The misfit over the time since the pulse began.
 
-use super::aspect::{Part, View, sums};
+use super::aspect::{View, sums};
 use super::grid::{Grid, round_up};
 use super::residual::Residuals;
 use rayon::prelude::*;
@@ -32,16 +32,6 @@ pub fn view(residuals: &Residuals<'_>) -> Option<View> {
         round_up((high - low) / MOST_BINS)
     };
     let grid = Grid::of_width(low, high, width);
-    let parts = (0..grid.bins)
-        .map(|bin| {
-            let (from, to) = grid.edges(bin);
-            Part {
-                name: format!("{from}..{to} s"),
-                from: Some(from),
-                to: Some(to),
-            }
-        })
-        .collect();
     let sums = residuals
         .all
         .par_iter()
@@ -54,7 +44,7 @@ pub fn view(residuals: &Residuals<'_>) -> Option<View> {
         .collect();
     Some(View {
         aspect: "time_since_onset_s",
-        parts,
+        parts: grid.parts("s"),
         sums,
     })
 }

@@ -5,7 +5,7 @@
 //! displacement after t_on. In the residual the second half of the motion is quicker than the first.
 //! Source: antagonist co-activation raises joint stiffness (Hogan 1984).
 
-use crate::Number;
+use crate::{Number, reaction};
 use crate::effect::{Description, Instant, Kind, Law, ParameterSpec, Scope};
 
 pub struct CoContraction;
@@ -25,23 +25,7 @@ impl Law for CoContraction {
                 minimum: -0.9,
                 maximum: 4.0,
                 scope: Scope::Shared,
-            }, ParameterSpec {
-                name: "onset_s",
-                meaning: "begin after the pulse",
-                unit: "s",
-                starts: &[0.08, 0.04, 0.15, 0.22],
-                minimum: 0.0,
-                maximum: 0.3,
-                scope: Scope::Shared,
-            }, ParameterSpec {
-                name: "rise_s",
-                meaning: "duration of the rise",
-                unit: "s",
-                starts: &[0.05, 0.15],
-                minimum: 0.01,
-                maximum: 0.3,
-                scope: Scope::Shared,
-            }],
+            }, reaction::ONSET, reaction::RISE],
             states: &[],
             twins: &["cubic_stiffness", "grip_slip"],
             excited_by: "displacement that lasts beyond the reaction time",
@@ -53,6 +37,6 @@ impl Law for CoContraction {
 
     #[inline(always)]
     fn stiffening<N: Number>(&self, p: &[N], at: &Instant<N>) -> Option<N> {
-        Some(p[0] * ((-p[1]).plus(at.since_onset_s) / p[2]).smooth_step())
+        Some(p[0] * reaction::rise(p[1], p[2], at))
     }
 }

@@ -4,7 +4,7 @@
 //! displacement), onset_s 0 to 0.3 s, rise_s 0.01 to 0.3 s; F_v = 0 is the base model. Excited by itself. In the residual a
 //! slow, one-sided shift that comes late and stays. Source: voluntary reaction, 100 ms and more after the stimulus.
 
-use crate::Number;
+use crate::{Number, reaction};
 use crate::effect::{Description, Instant, Kind, Law, ParameterSpec, Scope};
 
 pub struct VoluntaryPush;
@@ -24,23 +24,7 @@ impl Law for VoluntaryPush {
                 minimum: -50.0,
                 maximum: 50.0,
                 scope: Scope::Shared,
-            }, ParameterSpec {
-                name: "onset_s",
-                meaning: "begin after the pulse",
-                unit: "s",
-                starts: &[0.08, 0.04, 0.15, 0.22],
-                minimum: 0.0,
-                maximum: 0.3,
-                scope: Scope::Shared,
-            }, ParameterSpec {
-                name: "rise_s",
-                meaning: "duration of the rise",
-                unit: "s",
-                starts: &[0.05, 0.15],
-                minimum: 0.01,
-                maximum: 0.3,
-                scope: Scope::Shared,
-            }],
+            }, reaction::ONSET, reaction::RISE],
             states: &[],
             twins: &["torque_offset"],
             excited_by: "nothing: it comes with the person",
@@ -52,6 +36,6 @@ impl Law for VoluntaryPush {
 
     #[inline(always)]
     fn force<N: Number>(&self, p: &[N], at: &Instant<N>, _own: &[N]) -> Option<N> {
-        Some(p[0] * ((-p[1]).plus(at.since_onset_s) / p[2]).smooth_step())
+        Some(p[0] * reaction::rise(p[1], p[2], at))
     }
 }
