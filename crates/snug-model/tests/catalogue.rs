@@ -48,9 +48,9 @@ fn tolerance(effect: Effect) -> f64 {
         Effect::CentripetalCrosstalk | Effect::GravityLeakage => 5e-8,
         // Their rates have a kink where the velocity changes its sign, in the middle of a step.
         Effect::BoucWen | Effect::DirectionalDamping => 5e-8,
-        // The table's damper sets in with a jump, here it takes a quarter of a sample: 0.025 ms of 1 N more or less is
-        // 5e-6 of ω.
-        Effect::Backlash => 2e-5,
+        // The damper sets in with a jump of c v (10 N at the first contact) in the middle of a step. What Runge and Kutta's
+        // weights make of it is up to a third of the step off, h c v l / 3 I = 2e-4 rad/s, as is ω from then on.
+        Effect::Backlash => 5e-5,
         _ => 1e-9,
     }
 }
