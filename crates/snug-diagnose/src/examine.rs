@@ -3,7 +3,7 @@
 use crate::cases::{Cases, Tally};
 use crate::climb::{Addition, Attempt, Climb, misfit, misfits};
 use crate::experiment::separating_experiment;
-use crate::fitted::Fitted;
+use crate::fitted::{AT_FLOOR, Fitted};
 use crate::ranking::{Candidate, Ranking};
 use crate::search::Search;
 use crate::sight::Sight;
@@ -397,8 +397,6 @@ impl Examination<'_> {
     }
 }
 
-/// Error over noise below which nothing but noise is left to look for.
-pub(crate) const AT_FLOOR: f64 = 1.02;
 /// Share of the misfit that must repeat before it is called an effect.
 const REPEATS: f64 = 0.2;
 

@@ -111,7 +111,7 @@ fn distance(
     let base = fit_effects(cases.others(&made), &effects, None, Units { per_case: 1 }).ok()?;
     effects.push(second);
     let mut hypothesis = Hypothesis::new(cases.others(&made), &effects).ok()?;
-    let start = hypothesis.start_from(&base);
+    let start = base.start(&hypothesis);
     let end = hypothesis.fit(&start, &PooledSettings::default()).ok()?;
     Some(2.0 * end.cost() / made.len() as f64)
 }

@@ -1,12 +1,11 @@
 //! A hypothesis after its fit: sizes, errors, and what it is worth in data that took no part.
 
-use crate::DiagnoseError;
 use crate::dense::{Square, dot};
-use crate::hypothesis::{Hypothesis, Room};
+use crate::hypothesis::{Hypothesis, Room, Start};
 use crate::torque_noise::passed_on;
 use crate::units::Units;
 use snug_identify::PooledFit;
-use snug_model::Effect;
+use snug_model::{BASE_PARAMETERS, Effect};
 
 /// What a unit says about the parameters around the optimum: squared residual, gradient and curvature.
 #[derive(Debug, Clone)]
@@ -48,11 +47,8 @@ pub(crate) struct Fitted {
 }
 
 impl Fitted {
-    pub fn new(
-        hypothesis: &Hypothesis<'_>,
-        fit: PooledFit,
-        units: &Units,
-    ) -> Result<Self, DiagnoseError> {
+    /// A fit with what follows from it.
+    pub fn new(hypothesis: &Hypothesis<'_>, fit: PooledFit, units: &Units) -> Self {
         let p = hypothesis.shared.len();
         let profiles = fit
             .profiles
@@ -76,12 +72,33 @@ impl Fitted {
             is_weighted: hypothesis.is_weighted(),
             member_curvature: Vec::new(),
             profiles,
-            own_effect_count: hypothesis.own.iter().filter(|&&index| index >= 3).count(),
+            own_effect_count: hypothesis
+                .own
+                .iter()
+                .filter(|&&index| index >= BASE_PARAMETERS.len())
+                .count(),
             own: fit.own,
             shared: fit.shared,
         };
         fitted.work_out_blocks(hypothesis, &fit.profiles);
-        Ok(fitted)
+        fitted
+    }
+
+    /// Where this fit ended as a start for `hypothesis`, which may hold other effects; those begin as usual.
+    pub fn start(&self, hypothesis: &Hypothesis<'_>) -> Start {
+        let mut start = hypothesis.usual_start();
+        let take = |indices: &[usize], values: &mut [f64], from: &[(String, f64)]| {
+            for (name, value) in hypothesis.names(indices).iter().zip(values) {
+                if let Some((_, found)) = from.iter().find(|(known, _)| known == name) {
+                    *value = *found;
+                }
+            }
+        };
+        for (member, values) in start.own.iter_mut().enumerate() {
+            take(&hypothesis.own, values, &self.own_named(member));
+        }
+        take(&hypothesis.shared, &mut start.shared, &self.shared_named());
+        start
     }
 
     fn work_out_blocks(
@@ -326,3 +343,6 @@ impl Fitted {
         }
     }
 }
+
+/// Error over noise below which nothing but noise is left to look for.
+pub(crate) const AT_FLOOR: f64 = 1.02;

@@ -3,9 +3,7 @@
 use crate::DiagnoseError;
 use crate::case::Case;
 use crate::cases::Cases;
-use crate::fitted::Fitted;
 use crate::simulated::{Asked, Simulated};
-use crate::units::Units;
 use snug_identify::{
     Constraints, EvaluationError, PooledFit, PooledResidual, PooledSettings, Trial, Whitening,
     convex_set, solve_pooled,
@@ -120,24 +118,6 @@ impl<'a> Hypothesis<'a> {
         }
     }
 
-    /// Where `fitted`, a fit of some of these effects, ended; the others begin by themselves.
-    pub fn start_from(&self, fitted: &Fitted) -> Start {
-        let mut start = self.usual_start();
-        let take = |indices: &[usize], values: &mut [f64], from: &[(String, f64)]| {
-            for (&index, value) in indices.iter().zip(values) {
-                let name = &self.models[0].parameters()[index].name;
-                if let Some((_, found)) = from.iter().find(|(known, _)| known == name) {
-                    *value = *found;
-                }
-            }
-        };
-        for (member, values) in start.own.iter_mut().enumerate() {
-            take(&self.own, values, &fitted.own_named(member));
-        }
-        take(&self.shared, &mut start.shared, &fitted.shared_named());
-        start
-    }
-
     /// Names of parameters by index.
     pub fn names(&self, indices: &[usize]) -> Vec<String> {
         let parameters = self.models[0].parameters();
@@ -195,11 +175,6 @@ impl<'a> Hypothesis<'a> {
         let end = self.fit(start, settings);
         self.blur = 0;
         end
-    }
-
-    /// The fit with what follows from it.
-    pub fn finish(&self, end: PooledFit, units: &Units) -> Result<Fitted, DiagnoseError> {
-        Fitted::new(self, end, units)
     }
 
     /// Weighted residual and, for the parameters in `order`, weighted Jacobian (column-major) of one member.

@@ -88,14 +88,14 @@ pub(crate) fn fit_effects(
 ) -> Result<Fitted, DiagnoseError> {
     let mut hypothesis = Hypothesis::new(cases, effects)?;
     let start = match from {
-        Some(fitted) => hypothesis.start_from(fitted),
+        Some(fitted) => fitted.start(&hypothesis),
         None => hypothesis.usual_start(),
     };
     let end = match units.are_whole() {
         true => hypothesis.fit(&start, &PooledSettings::default())?,
         false => long_record::to_the_end(&mut hypothesis, &start)?,
     };
-    hypothesis.finish(end, &units)
+    Ok(Fitted::new(&hypothesis, end, &units))
 }
 
 /// Scores and refits every effect of `candidates` beside those of `current`.
@@ -219,11 +219,11 @@ fn refit(
         let begin = |values: &[f64]| with_effect(&hypothesis, current, effect, values);
         let starts: Vec<Start> = starts.iter().map(|values| begin(values)).collect();
         let end = long_record::best_of(&mut hypothesis, &starts, &CANDIDATE)?;
-        return hypothesis.finish(end, &units);
+        return Ok(Fitted::new(&hypothesis, end, &units));
     }
     if rest.is_empty() {
         let end = hypothesis.fit(&start, &CANDIDATE)?;
-        return hypothesis.finish(end, &units);
+        return Ok(Fitted::new(&hypothesis, end, &units));
     }
     let (best, shared) = rough(cases, current, effect, &effects, &starts)?;
     start.shared = shared;
@@ -240,7 +240,7 @@ fn refit(
             end = other;
         }
     }
-    hypothesis.finish(end, &units)
+    Ok(Fitted::new(&hypothesis, end, &units))
 }
 
 /// When the refit of a candidate stops: its gain is then known to a fraction of what chance does. An effect that is not
@@ -293,7 +293,7 @@ fn with_effect(
     effect: Effect,
     values: &[f64],
 ) -> Start {
-    let mut start = hypothesis.start_from(current);
+    let mut start = current.start(hypothesis);
     let before: usize = current
         .effects
         .iter()

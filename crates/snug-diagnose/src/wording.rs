@@ -2,8 +2,7 @@
 
 use crate::DiagnoseSettings;
 use crate::climb::{Addition, Attempt, Stop};
-use crate::examine::AT_FLOOR;
-use crate::fitted::Fitted;
+use crate::fitted::{AT_FLOOR, Fitted};
 use crate::ranking::Candidate;
 use crate::units::Units;
 use crate::unlisted::{declaration, is_unlisted};
