@@ -29,10 +29,7 @@ impl Case {
 
     /// The filter that whitens the measured noise, where it is of the compared output.
     pub(crate) fn whitening(&self) -> Option<Whitening> {
-        let noise = self.tightening.noise.as_ref()?;
-        (noise.quantity == self.quantity)
-            .then(|| Whitening::new(noise))
-            .flatten()
+        Whitening::of(&self.tightening, self.quantity)
     }
 
     /// Whether anything can be compared.

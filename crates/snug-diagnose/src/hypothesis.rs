@@ -42,6 +42,16 @@ pub(crate) struct Start {
     pub shared: Vec<f64>,
 }
 
+impl Start {
+    /// Where `fit` ended.
+    pub fn at(fit: &PooledFit) -> Self {
+        Self {
+            own: fit.own.clone(),
+            shared: fit.shared.clone(),
+        }
+    }
+}
+
 impl<'a> Hypothesis<'a> {
     /// The study's base model with exactly these effects.
     pub fn new(cases: Cases<'a>, effects: &[Effect]) -> Result<Self, DiagnoseError> {

@@ -70,11 +70,7 @@ pub(crate) fn best_of(
         let none = || snug_identify::IdentifyError::NoStart.into();
         return Err(refused.unwrap_or_else(none));
     };
-    let start = Start {
-        own: best.own.clone(),
-        shared: best.shared.clone(),
-    };
-    hypothesis.fit(&start, settings)
+    hypothesis.fit(&Start::at(&best), settings)
 }
 
 /// Fits from one start until nothing more is to be had: with little noise the way along a valley is long. One record
@@ -84,11 +80,7 @@ pub(crate) fn to_the_end(
     start: &Start,
 ) -> Result<PooledFit, DiagnoseError> {
     let end = hypothesis.fit(start, &PooledSettings::default())?;
-    let from = Start {
-        own: end.own.clone(),
-        shared: end.shared.clone(),
-    };
-    let Some(further) = further(hypothesis, &from) else {
+    let Some(further) = further(hypothesis, &Start::at(&end)) else {
         return Ok(end);
     };
     match hypothesis.fit(&further, &PooledSettings::default()) {

@@ -228,9 +228,7 @@ fn refit(
     let (best, shared) = rough(cases, current, effect, &effects, &starts)?;
     start.shared = shared;
     let afar = hypothesis.fit_blurred(&start, &CANDIDATE)?;
-    start.shared = afar.shared;
-    start.own = afar.own;
-    let mut end = hypothesis.fit(&start, &CANDIDATE)?;
+    let mut end = hypothesis.fit(&Start::at(&afar), &CANDIDATE)?;
     if effect.description().parameters.len() == 1 {
         // The whole way from the start may lead each tightening's own parameters past where they would be caught.
         let whole = with_effect(&hypothesis, current, effect, starts[best]);

@@ -4,6 +4,7 @@
 //! vector registers ask. A search that has ended gives its lane to the next tightening at once, so a hard fit does not hold
 //! the others up. No lane knows its neighbours: a fit has the same bits alone and in any company.
 
+use crate::dense::{chosen, chosen_square};
 use crate::search::{Ask, Search};
 use crate::{
     Constraints, DenseResidual, EvaluationError, Fit, IdentifyError, Residual, Settings,
@@ -126,9 +127,8 @@ impl<'r> BaseFit<'r, '_> {
         match search.ask() {
             Ask::Linearization { into, .. } => {
                 let free = self.residual.free();
-                let gradient: Vec<f64> = free.iter().map(|&i| found.gradient[i]).collect();
-                let entries = free.iter().flat_map(|&j| free.iter().map(move |&i| (i, j)));
-                let matrix: Vec<f64> = entries.map(|(i, j)| found.matrix[i][j]).collect();
+                let gradient = chosen(&found.gradient, free);
+                let matrix = chosen_square(&found.matrix, free);
                 let outcome = into.set_normal_equations(cost, &gradient, &matrix);
                 search.linearized(outcome);
                 if self

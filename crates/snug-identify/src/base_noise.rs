@@ -1,5 +1,6 @@
 //! The noise in base-model fits, asked about for as many tightenings side by side as vector registers hold.
 
+use crate::dense::{chosen, chosen_square};
 use crate::integrated_noise::{drift, to_source};
 use crate::residual_noise::{Evidence, Inquiry, OwnedNoise, STRETCHES};
 use crate::{Fit, Residual, Subject, TighteningResidual, Whitening};
@@ -62,12 +63,9 @@ impl Settled<'_, '_> {
     /// What the last sweep of the fit tells already.
     fn at_hand(&self) -> Evidence {
         let free = self.residual.free();
-        let rows = free.iter().map(|&i| self.found.matrix[i]);
         Evidence {
-            matrix: rows
-                .flat_map(|row| free.iter().map(move |&j| row[j]))
-                .collect(),
-            sums: free.iter().map(|&i| self.found.sums[i]).collect(),
+            matrix: chosen_square(&self.found.matrix, free),
+            sums: chosen(&self.found.sums, free),
             ..Evidence::default()
         }
     }
@@ -89,9 +87,7 @@ fn mean_squares(fits: &[Settled<'_, '_>], values: &[[f64; 3]]) -> Vec<Option<f64
         let others: Vec<(usize, Whitening)> = (fits.iter().enumerate())
             .filter(|(_, fit)| !fit.residual.is_whitened())
             .filter_map(|(place, fit)| {
-                let noise = fit.subject.tightening.noise.as_ref();
-                let noise = noise.filter(|noise| noise.quantity == quantity)?;
-                Some((place, Whitening::new(noise)?))
+                Some((place, Whitening::of(fit.subject.tightening, quantity)?))
             })
             .collect();
         let residuals: Vec<(usize, TighteningResidual<'_>)> = (others.iter())
@@ -143,13 +139,14 @@ enum Answer {
 
 impl Answer {
     fn add_to(&self, evidence: &mut Evidence, free: &[usize]) {
-        let chosen = |values: &[f64; 3]| -> Vec<f64> { free.iter().map(|&i| values[i]).collect() };
         match self {
             Self::Squares(_) => {}
-            Self::Scores(scores) => evidence.scores = scores.iter().flat_map(chosen).collect(),
+            Self::Scores(scores) => {
+                let scores = scores.iter().flat_map(|score| chosen(score, free));
+                evidence.scores = scores.collect();
+            }
             Self::Source(products, drift) => {
-                let rows = free.iter().map(|&i| &products[i]);
-                evidence.source = (rows.flat_map(chosen).collect(), chosen(drift));
+                evidence.source = (chosen_square(products, free), chosen(drift, free));
             }
         }
     }

@@ -1,4 +1,4 @@
-//! Dense kernels on column-major arrays, without allocation.
+//! Dense kernels on column-major arrays.
 
 use snug_model::on_this_processor;
 
@@ -15,6 +15,17 @@ pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
         }
     }
     (sums[0] + sums[1]) + (sums[2] + sums[3]) + tail
+}
+
+/// The entries of `values` at `indices`.
+pub(crate) fn chosen<const N: usize>(values: &[f64; N], indices: &[usize]) -> Vec<f64> {
+    indices.iter().map(|&index| values[index]).collect()
+}
+
+/// The rows and columns of a symmetric `matrix` at `indices`.
+pub(crate) fn chosen_square<const N: usize>(matrix: &[[f64; N]; N], indices: &[usize]) -> Vec<f64> {
+    let rows = indices.iter().map(|&index| &matrix[index]);
+    rows.flat_map(|row| chosen(row, indices)).collect()
 }
 
 /// Σ aᵢ bᵢ of long signals, in the same order on every processor.

@@ -9,18 +9,19 @@
 //! One regression over the samples is off by a per cent or so, because the noise is in θ on the left as well. A fit from
 //! there takes about half the sweeps of one from anywhere.
 
-use crate::Linearization;
-use crate::dense::solve_upper;
-use snug_campaign::{Parameter, ParameterSource, Quantity, Tightening};
-use snug_model::{Input, Model};
+use crate::dense::{chosen, chosen_square, solve_upper};
+use crate::{Linearization, Subject};
+use snug_campaign::{Parameter, ParameterSource, Quantity};
+use snug_model::Input;
 
 /// Values of the free parameters among m, c, k; `None` when a start was stated, without a measured displacement, or when
 /// the regression has no sensible answer.
-pub(crate) fn integral_start(
-    model: &Model,
-    input: &Input,
-    tightening: &Tightening,
-) -> Option<Vec<f64>> {
+pub(crate) fn integral_start(subject: &Subject<'_>) -> Option<Vec<f64>> {
+    let Subject {
+        model,
+        input,
+        tightening,
+    } = *subject;
     let parameters = model.parameters();
     let is_default = |p: &Parameter| p.fixed || p.source == ParameterSource::Default;
     let angle_rad = tightening.motion.get(Quantity::Displacement)?;
@@ -38,11 +39,9 @@ pub(crate) fn integral_start(
         torque - rig.known_inertia_kg_m2 * angle - square * (m * angle + c * once + k * twice)
     });
     let mut regression = Linearization::new(free.len());
-    let gradient: Vec<f64> = free.iter().map(|&i| -square * sums.right[i]).collect();
-    let entries = free.iter().flat_map(|&j| free.iter().map(move |&i| (i, j)));
-    let matrix: Vec<f64> = entries
-        .map(|(i, j)| square * square * sums.products[i][j])
-        .collect();
+    let gradient = sums.right.map(|right| -square * right);
+    let matrix = (sums.products).map(|row| row.map(|product| square * square * product));
+    let (gradient, matrix) = (chosen(&gradient, &free), chosen_square(&matrix, &free));
     (regression.set_normal_equations(0.0, &gradient, &matrix)).ok()?;
     let mut values: Vec<f64> = regression.reachable.iter().map(|q| -q).collect();
     solve_upper(&regression.factor, free.len(), &mut values);

@@ -89,7 +89,7 @@ pub fn identify_all(
 ) -> Vec<Result<Estimate, IdentifyError>> {
     let quantity = settings.fitted_output;
     let whitenings: Vec<Option<Whitening>> = (subjects.iter())
-        .map(|subject| whitening(subject.tightening, quantity))
+        .map(|subject| Whitening::of(subject.tightening, quantity))
         .collect();
     let mut attempts: Vec<Result<Attempt<'_>, IdentifyError>> = (subjects.iter())
         .zip(&whitenings)
@@ -108,14 +108,6 @@ pub fn identify_all(
     (attempts.into_iter().zip(subjects))
         .map(|(attempt, subject)| attempt?.estimate(subject, settings))
         .collect()
-}
-
-/// The filter for this quantity, where its noise is known.
-fn whitening(tightening: &Tightening, quantity: Quantity) -> Option<Whitening> {
-    let noise = tightening.noise.as_ref();
-    noise
-        .filter(|noise| noise.quantity == quantity)
-        .and_then(Whitening::new)
 }
 
 /// A tightening on its way to an estimate.
@@ -149,11 +141,12 @@ impl<'a> Attempt<'a> {
             settings.unscored_samples,
         );
         residual.check_length()?;
+        let near = residual.is_base().then(|| integral_start(subject));
         Ok(Self {
             residual,
             set: convex_set(subject.model, &settings.constraints),
             starts: starts(subject.model),
-            near: integral_start(subject.model, subject.input, subject.tightening),
+            near: near.flatten(),
             outcome: None,
             latest: None,
             noise: None,

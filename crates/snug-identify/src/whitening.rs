@@ -1,4 +1,4 @@
-use snug_campaign::NoiseFloor;
+use snug_campaign::{NoiseFloor, Quantity, Tightening};
 use snug_model::{Real, on_this_processor};
 
 /// Makes stationary noise white with unit variance: w_t = (r_t + a_1 r_{t−1} + … + a_p r_{t−p}) / σ_e.
@@ -20,6 +20,14 @@ impl Whitening {
             autoregression: noise.autoregression.clone(),
             innovation_sd: noise.innovation_sd,
         })
+    }
+
+    /// The filter for `quantity` of a tightening; `None` where its noise is not known.
+    pub fn of(tightening: &Tightening, quantity: Quantity) -> Option<Self> {
+        let noise = tightening.noise.as_ref();
+        noise
+            .filter(|noise| noise.quantity == quantity)
+            .and_then(Self::new)
     }
 
     /// Number of samples that are left out at the start.
@@ -117,7 +125,7 @@ pub(crate) fn colour_transposed<R: Real, const K: usize>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use snug_campaign::{NoiseSource, Quantity};
+    use snug_campaign::NoiseSource;
 
     fn second_order() -> Whitening {
         Whitening::new(&NoiseFloor {

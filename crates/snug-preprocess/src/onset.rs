@@ -186,8 +186,8 @@ pub(crate) fn onset(
 /// Where the rise that passes the threshold at `crossing` left the baseline: a slow rise passes it long after it began.
 ///
 /// T = baseline + s (t − t_0)^p with s > 0 is fitted to the `10 hold` samples before and the `2 hold` after the crossing,
-/// and t_0 is where the squares are least. p is 1, or 0 (a step) or 2 (a smooth beginning) where
-/// that fits beyond chance better.
+/// and t_0 is where the squares are least. p is 1, or 0 (a step) or 2 (a smooth
+/// beginning) where that fits better beyond chance.
 fn back_to_rest(torque_nm: &[f64], baseline: Baseline, crossing: usize, hold: usize) -> usize {
     let first = crossing.saturating_sub(10 * hold);
     let after = (crossing + 2 * hold).min(torque_nm.len());
@@ -261,38 +261,37 @@ mod tests {
         }
     }
 
-    /// A ramp of 0.01 Nm a sample in noise of 0.02 Nm passes a threshold of five standard deviations 10 samples late.
-    #[test]
-    fn a_slow_ramp_is_followed_back_to_where_it_began() {
-        let torque: Vec<f64> = white_noise(1000, 0.02, 3)
-            .iter()
-            .enumerate()
-            .map(|(index, noise)| noise + 0.01 * index.saturating_sub(500) as f64)
-            .collect();
+    /// Where a torque is said to begin that rises as given, so many samples after the 500th, in noise of 0.02 Nm.
+    fn begun(rise_nm: impl Fn(usize) -> f64, crossing: usize, seed: u64) -> usize {
+        let noise = white_noise(1000, 0.02, seed);
+        let rising = |(index, noise): (usize, &f64)| match index.checked_sub(500) {
+            Some(past) => noise + rise_nm(past),
+            None => *noise,
+        };
+        let torque: Vec<f64> = noise.iter().enumerate().map(rising).collect();
         let baseline = Baseline {
             level_nm: 0.0,
             sd_nm: 0.02,
         };
-        let began = back_to_rest(&torque, baseline, 515, 10);
+        back_to_rest(&torque, baseline, crossing, 10)
+    }
+
+    /// A ramp of 0.01 Nm a sample passes a threshold of five standard deviations 10 samples late.
+    #[test]
+    fn a_slow_ramp_is_followed_back_to_where_it_began() {
+        let began = begun(|past| 0.01 * past as f64, 515, 3);
         assert!(began.abs_diff(500) <= 5, "{began}");
     }
 
     /// 1.2 Nm (3u² − 2u³) over 11 ms passes 0.1 Nm 1.9 ms after it began.
     #[test]
     fn a_smooth_rise_is_followed_back_to_where_it_began() {
+        let rise_nm = |past: usize| {
+            let u = (past as f64 / 110.0).min(1.0);
+            1.2 * u * u * (3.0 - 2.0 * u)
+        };
         let began: Vec<f64> = (0..20)
-            .map(|seed| {
-                let noise = white_noise(1000, 0.02, seed);
-                let rise = noise.iter().enumerate().map(|(index, noise)| {
-                    let u = (index.saturating_sub(500) as f64 / 110.0).min(1.0);
-                    noise + 1.2 * u * u * (3.0 - 2.0 * u)
-                });
-                let baseline = Baseline {
-                    level_nm: 0.0,
-                    sd_nm: 0.02,
-                };
-                back_to_rest(&rise.collect::<Vec<_>>(), baseline, 519, 10) as f64
-            })
+            .map(|seed| begun(rise_nm, 519, seed) as f64)
             .collect();
         let mean = began.iter().sum::<f64>() / began.len() as f64;
         assert!((mean - 500.0).abs() < 3.0, "{began:?}");
@@ -301,19 +300,7 @@ mod tests {
     /// A sensor that jumps by 0.5 Nm when it is switched on, on top of a rise.
     #[test]
     fn a_step_begins_where_it_is() {
-        let torque: Vec<f64> = white_noise(1000, 0.02, 4)
-            .iter()
-            .enumerate()
-            .map(|(index, noise)| match index.checked_sub(500) {
-                Some(past) => noise + 0.5 + 0.01 * past as f64,
-                None => *noise,
-            })
-            .collect();
-        let baseline = Baseline {
-            level_nm: 0.0,
-            sd_nm: 0.02,
-        };
-        let began = back_to_rest(&torque, baseline, 500, 10);
+        let began = begun(|past| 0.5 + 0.01 * past as f64, 500, 4);
         assert!(began.abs_diff(500) <= 3, "{began}");
     }
 

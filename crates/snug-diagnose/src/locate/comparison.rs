@@ -78,11 +78,7 @@ fn of_quantity(seen: &Seen<'_>, quantity: Option<Quantity>) -> Option<Sums> {
     }
     if quantity.is_some() {
         let mut sums = unweighted(measured, simulated);
-        let noise = tightening.noise.as_ref();
-        if let Some(whitening) = noise
-            .filter(|noise| noise.quantity == kinematic)
-            .and_then(Whitening::new)
-        {
+        if let Some(whitening) = Whitening::of(tightening, kinematic) {
             let residual: Vec<f64> = measured.iter().zip(simulated).map(|(y, s)| y - s).collect();
             let mut white = vec![0.0; residual.len().saturating_sub(whitening.order())];
             whitening.apply(&residual, &mut white);

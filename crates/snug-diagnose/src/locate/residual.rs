@@ -123,10 +123,9 @@ pub fn difference(seen: &Seen<'_>, quantity: Quantity) -> Option<Vec<f64>> {
 fn white<'a>(seen: &Seen<'a>, quantity: Quantity, noise_known: bool) -> Option<White<'a>> {
     let residual = difference(seen, quantity)?;
     let scored = residual.get(seen.unscored..)?;
-    let whitening = match &seen.tightening.noise {
-        Some(noise) if noise_known && noise.quantity == quantity => Some(Whitening::new(noise)?),
-        _ if noise_known => return None,
-        _ => None,
+    let whitening = match noise_known {
+        true => Some(Whitening::of(seen.tightening, quantity)?),
+        false => None,
     };
     let order = whitening.as_ref().map_or(0, Whitening::order);
     let count = scored.len().checked_sub(order).filter(|&count| count > 0)?;

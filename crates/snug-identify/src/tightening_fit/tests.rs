@@ -226,7 +226,7 @@ fn on_the_general_road(
     settings: &IdentifySettings,
     from_the_same_start: bool,
 ) -> Estimate {
-    let whitening = whitening(subject.tightening, settings.fitted_output);
+    let whitening = Whitening::of(subject.tightening, settings.fitted_output);
     let mut attempt = Attempt::new(subject, whitening.as_ref(), settings).unwrap();
     if let Some(near) = attempt.near.take().filter(|_| from_the_same_start) {
         attempt.starts = vec![near];
