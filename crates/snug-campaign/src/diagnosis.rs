@@ -85,7 +85,7 @@ pub struct RankedEffect {
     pub behind_first: f64,
     /// Effects that these data cannot tell from it.
     pub twins: Vec<String>,
-    /// Whether its size is physically plausible: no estimate lies on a bound of its range.
+    /// Whether its size is physically plausible: every estimate within its range, none on a bound.
     pub plausible: bool,
     /// What it is, how it shows, what to check at the bench: sentences for a tool engineer.
     pub explanation: Vec<String>,

@@ -172,7 +172,7 @@ impl<'a> Hypothesis<'a> {
         Ok(fit)
     }
 
-    /// Fits what is left of the residual once it is averaged over `BLUR` samples to either side.
+    /// Fits what is left of the residual once it is averaged over `reach` samples to either side.
     ///
     /// Where a law sets in with a jump, the residual of a slightly wrong parameter is a spike at the wrong instant, and no
     /// slope leads from one instant to the other. Averaged, they overlap.
@@ -180,8 +180,9 @@ impl<'a> Hypothesis<'a> {
         &mut self,
         start: &Start,
         settings: &PooledSettings,
+        reach: usize,
     ) -> Result<PooledFit, DiagnoseError> {
-        self.blur = BLUR;
+        self.blur = reach;
         let end = self.fit(start, settings);
         self.blur = 0;
         end
@@ -255,9 +256,6 @@ impl<'a> Hypothesis<'a> {
         weighted
     }
 }
-
-/// 2 ms at 10 kHz.
-const BLUR: usize = 20;
 
 /// Averages over `reach` samples to either side, fewer at the ends.
 fn blur(signal: &mut [f64], reach: usize) {

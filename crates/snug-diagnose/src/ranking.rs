@@ -221,23 +221,18 @@ fn refit(
         let end = long_record::best_of(&mut hypothesis, &starts, &CANDIDATE)?;
         return Ok(Fitted::new(&hypothesis, end, &units));
     }
-    if rest.is_empty() {
-        let end = hypothesis.fit(&start, &CANDIDATE)?;
-        return Ok(Fitted::new(&hypothesis, end, &units));
-    }
-    let (best, shared) = rough(cases, current, effect, &effects, &starts)?;
-    start.shared = shared;
-    let afar = hypothesis.fit_blurred(&start, &CANDIDATE)?;
-    let mut end = hypothesis.fit(&Start::at(&afar), &CANDIDATE)?;
-    if effect.description().parameters.len() == 1 {
-        // The whole way from the start may lead each tightening's own parameters past where they would be caught.
-        let whole = with_effect(&hypothesis, current, effect, starts[best]);
-        if let Ok(other) = hypothesis.fit(&whole, &CANDIDATE)
-            && other.cost() < end.cost()
-        {
-            end = other;
+    if !rest.is_empty() {
+        let rough = rough(cases, current, effect, &effects, &starts)?;
+        start.shared = rough.shared;
+        for own in &mut start.own {
+            let factors = own.iter_mut().zip(&rough.astray);
+            factors.for_each(|(own, factor)| *own *= factor);
+        }
+        for reach in [AFAR, NEARBY] {
+            start = Start::at(&hypothesis.fit_blurred(&start, &CANDIDATE, reach)?);
         }
     }
+    let end = hypothesis.fit(&start, &CANDIDATE)?;
     Ok(Fitted::new(&hypothesis, end, &units))
 }
 
@@ -248,17 +243,29 @@ const CANDIDATE: PooledSettings = PooledSettings {
     cost_tolerance: 1e-6,
 };
 
+/// Samples to either side over which residuals are averaged where starts are tried, and on the way from there to the end:
+/// 8 and 2 ms at 10 kHz.
+const AFAR: usize = 80;
+const NEARBY: usize = 20;
+
 /// Tightenings on which starts are tried.
 const FEW: usize = 8;
 
-/// Which of several starts is best on a few tightenings, and the shared parameters to which it leads there.
+/// What a few tightenings say of an effect.
+struct Rough {
+    /// Where the start that led to the lowest cost led the shared parameters.
+    shared: Vec<f64>,
+    /// By how much m, c and k are larger there than without the effect, which led them astray; 1 for other parameters.
+    astray: Vec<f64>,
+}
+
 fn rough(
     cases: Cases<'_>,
     current: &Fitted,
     effect: Effect,
     effects: &[Effect],
     starts: &[&[f64]],
-) -> Result<(usize, Vec<f64>), DiagnoseError> {
+) -> Result<Rough, DiagnoseError> {
     let few = current.spread(FEW);
     let some: Vec<Case> = few.iter().map(|&index| cases[index].clone()).collect();
     let mut hypothesis = Hypothesis::new(cases.others(&some), effects)?;
@@ -267,21 +274,35 @@ fn rough(
         cost_tolerance: 1e-4,
     };
     let there = current.only(&few);
-    let mut best: Option<(usize, PooledFit)> = None;
-    for (index, values) in starts.iter().enumerate() {
+    let mut best: Option<PooledFit> = None;
+    for values in starts {
         let start = with_effect(&hypothesis, &there, effect, values);
-        let Ok(end) = hypothesis.fit_blurred(&start, &settings) else {
+        let Ok(end) = hypothesis.fit_blurred(&start, &settings, AFAR) else {
             continue;
         };
-        if best
-            .as_ref()
-            .is_none_or(|(_, best)| end.cost() < best.cost())
-        {
-            best = Some((index, end));
+        if best.as_ref().is_none_or(|best| end.cost() < best.cost()) {
+            best = Some(end);
         }
     }
-    best.map(|(index, best)| (index, best.shared))
-        .ok_or_else(|| snug_identify::IdentifyError::NoStart.into())
+    let end = best.ok_or(snug_identify::IdentifyError::NoStart)?;
+    let without = there.start(&hypothesis).own;
+    let median_factor = |column: usize| {
+        let pairs = end.own.iter().zip(&without);
+        let mut factors: Vec<f64> = pairs
+            .map(|(with, without)| with[column] / without[column])
+            .collect();
+        factors.sort_by(f64::total_cmp);
+        factors[factors.len() / 2]
+    };
+    let columns = hypothesis.own.iter().enumerate();
+    let factors = columns.map(|(column, &index)| match index < BASE_PARAMETERS.len() {
+        true => median_factor(column),
+        false => 1.0,
+    });
+    Ok(Rough {
+        astray: factors.collect(),
+        shared: end.shared,
+    })
 }
 
 /// The current fit with one effect's parameters at `values`.

@@ -17,26 +17,27 @@ pub(crate) fn parameters(cases: &[Case], fitted: &Fitted, effect: Effect) -> Vec
     };
     let errors = fitted.shared_errors();
     let first = first_parameter(&fitted.effects, effect);
-    let specs = effect.description().parameters;
-    (specs.iter().enumerate())
-        .map(|(offset, spec)| {
+    let specs = effect.description().parameters.iter();
+    (specs.zip(model.ranges(effect)).enumerate())
+        .map(|(offset, (spec, range))| {
             let parameter = &model.parameters()[first + offset];
+            let limits = (parameter.minimum, parameter.maximum);
             let mut size = EffectParameter {
                 name: parameter.name.clone(),
                 value: parameter.value,
-                minimum: parameter.minimum,
-                maximum: parameter.maximum,
+                minimum: range.minimum.max(limits.0),
+                maximum: range.maximum.min(limits.1),
                 ..described(spec)
             };
             if let Some(column) = fitted.shared_names().iter().position(|n| *n == size.name) {
                 size.value = fitted.shared[column];
-                let inside = size.value > size.minimum && size.value < size.maximum;
+                let inside = size.value > limits.0 && size.value < limits.1;
                 size.standard_error = errors.as_ref().map(|e| e[column]).filter(|_| inside);
                 let quantile = student(fitted.blocks.len());
-                size.widen(quantile);
+                size.widen(quantile, limits);
             } else if let Some(column) = fitted.own_names().iter().position(|n| *n == size.name) {
                 let values: Vec<f64> = fitted.own.iter().map(|own| own[column]).collect();
-                size.summarise(&values);
+                size.summarise(&values, limits);
             }
             size
         })
@@ -75,19 +76,19 @@ fn student(units: usize) -> f64 {
 }
 
 trait Summary {
-    fn widen(&mut self, quantile: f64);
-    fn summarise(&mut self, values: &[f64]);
+    fn widen(&mut self, quantile: f64, limits: (f64, f64));
+    fn summarise(&mut self, values: &[f64], limits: (f64, f64));
 }
 
 impl Summary for EffectParameter {
-    fn widen(&mut self, quantile: f64) {
+    fn widen(&mut self, quantile: f64, limits: (f64, f64)) {
         if let Some(error) = self.standard_error {
-            self.low = Some((self.value - quantile * error).max(self.minimum));
-            self.high = Some((self.value + quantile * error).min(self.maximum));
+            self.low = Some((self.value - quantile * error).max(limits.0));
+            self.high = Some((self.value + quantile * error).min(limits.1));
         }
     }
 
-    fn summarise(&mut self, values: &[f64]) {
+    fn summarise(&mut self, values: &[f64], limits: (f64, f64)) {
         let n = values.len() as f64;
         self.value = values.iter().sum::<f64>() / n;
         if n < 2.0 {
@@ -97,7 +98,7 @@ impl Summary for EffectParameter {
         let spread = (squares / (n - 1.0)).sqrt();
         self.spread = Some(spread);
         self.standard_error = Some(spread / n.sqrt());
-        self.widen(student(values.len()));
+        self.widen(student(values.len()), limits);
     }
 }
 

@@ -76,7 +76,16 @@ fn size(parameter: &EffectParameter) -> String {
     );
     let range = match (parameter.low, parameter.high) {
         (Some(low), Some(high)) => format!(" ({} to {})", number(low), number(high)),
-        _ => " (at the edge of its plausible range)".to_owned(),
+        _ => " (no interval)".to_owned(),
+    };
+    let (minimum, maximum) = (parameter.minimum, parameter.maximum);
+    let beyond = match (minimum..=maximum).contains(&parameter.value) {
+        true => String::new(),
+        false => format!(
+            ", beyond the plausible {} to {}",
+            number(minimum),
+            amount(maximum, &parameter.unit)
+        ),
     };
     let own = match parameter.spread {
         Some(spread) => format!(
@@ -85,7 +94,7 @@ fn size(parameter: &EffectParameter) -> String {
         ),
         None => String::new(),
     };
-    value + &range + &own
+    value + &range + &beyond + &own
 }
 
 /// What each parameter of an effect is, with its range, one after the other.

@@ -1,10 +1,10 @@
 //! Many least-squares problems that share some parameters: minimise Σ_i ½‖r_i(β_i, α)‖² over every β_i and the one α.
 //!
-//! The Jacobian is a block arrow. With R_i the triangular factor of [∂r_i/∂β_i, ∂r_i/∂α], its last rows are the
-//! sensitivity to α that β_i cannot imitate; stacked over i they give the step in α, and back-substitution gives every
-//! β_i's. Work and memory grow linearly with the number of members.
+//! The Jacobian is a block arrow. With R_i the triangular factor of [∂r_i/∂β_i, ∂r_i/∂α] in the directions that β_i may
+//! take, its last rows are the sensitivity to α that β_i cannot imitate; stacked over i they give the step in α, and
+//! back-substitution gives every β_i's. Work and memory grow linearly with the number of members.
 
-use crate::dense::{dot, triangularize, upper_transposed_times};
+use crate::dense::{add_scaled, dot, triangularize, upper_times, upper_transposed_times};
 use crate::step::{Stepper, project};
 use crate::{Constraints, EvaluationError, IdentifyError, Linearization, Work};
 
@@ -111,6 +111,16 @@ struct Member {
     there: Linearization,
     stepper: Stepper,
     conditional: Linearization,
+    /// Faces that its last step presses on.
+    pressed: Vec<usize>,
+    rest: Rest,
+}
+
+/// What a member says of α once β_i has done what it may: ½‖right + rows · dα‖², p rows.
+#[derive(Default)]
+struct Rest {
+    rows: Vec<f64>,
+    right: Vec<f64>,
 }
 
 /// Step promises below this share of the cost cannot be told from rounding.
@@ -120,6 +130,10 @@ const MOST_DAMPING: f64 = 1e12;
 /// Steps in a row that hardly lower the cost after which a fit has arrived. Where the residual bends sharply, as at the
 /// edge of a gap, every step promises more than it keeps, and a fit would creep on for hundreds of simulations.
 const MOST_IDLE_STEPS: usize = 3;
+
+/// Steps of α after which the faces that members press on are taken as they are: which they are shapes that step, which in
+/// turn may press members on others.
+const MOST_PASSES: usize = 4;
 
 /// Fits all members together from one start.
 ///
@@ -142,8 +156,8 @@ pub fn solve_pooled(
         fit.work.iterations += 1;
         let promised = fit.find_step();
         let cost = fit.cost;
-        if promised <= (settings.cost_tolerance * cost).max(RESOLUTION * cost) && fit.damping < 1.0
-        {
+        let little = settings.cost_tolerance.max(RESOLUTION) * cost;
+        if (-RESOLUTION * cost..=little).contains(&promised) && fit.damping < 1.0 {
             converged = true;
         }
         if promised > 0.0 && fit.try_step(promised) {
@@ -201,6 +215,8 @@ impl<'a> PooledSolver<'a> {
                 there: Linearization::new(n + p),
                 stepper: Stepper::new(n),
                 conditional: Linearization::new(n),
+                pressed: Vec::new(),
+                rest: Rest::default(),
             });
         }
         let mut solver = Self {
@@ -235,29 +251,40 @@ impl<'a> PooledSolver<'a> {
 
     /// Computes the damped step of α and of every β_i; returns the decrease it promises.
     fn find_step(&mut self) -> f64 {
-        let p = self.shared.len();
-        let mut promised = 0.0;
-        let mut shift = vec![0.0; p];
-        if p > 0 {
-            let reduced = reduce(&self.members, p);
-            self.shared_stepper.rescale(&reduced, 0.0);
-            let found = self.shared_stepper.find(
-                &self.shared,
-                &reduced,
-                self.damping,
-                self.shared_set,
-                &mut self.work,
-            );
-            if !found {
+        let mut shift = vec![0.0; self.shared.len()];
+        for pass in 0..=MOST_PASSES {
+            let mut press_elsewhere = false;
+            for (member, set) in self.members.iter_mut().zip(self.own_sets) {
+                press_elsewhere |= member.follow(&shift, self.damping, set, &mut self.work);
+            }
+            let is_settled = pass > 0 && !press_elsewhere;
+            if is_settled || shift.is_empty() || pass == MOST_PASSES {
+                break;
+            }
+            if !self.find_shift(&mut shift) {
                 return 0.0;
             }
-            promised += self.shared_stepper.step.predicted;
-            shift.copy_from_slice(self.shared_stepper.displacement());
         }
+        let promises = self.members.iter().map(|member| member.promise(&shift));
+        promises.sum()
+    }
+
+    /// The damped step of α, every β_i following along the faces that it presses on; false when none was found.
+    fn find_shift(&mut self, shift: &mut [f64]) -> bool {
         for (member, set) in self.members.iter_mut().zip(self.own_sets) {
-            promised += member.follow(&shift, self.damping, set, &mut self.work);
+            member.eliminate(shift.len(), self.damping, set);
         }
-        promised
+        let reduced = reduce(&self.members, shift.len());
+        self.shared_stepper.rescale(&reduced, 0.0);
+        let found = self.shared_stepper.find(
+            &self.shared,
+            &reduced,
+            self.damping,
+            self.shared_set,
+            &mut self.work,
+        );
+        shift.copy_from_slice(self.shared_stepper.displacement());
+        found
     }
 
     /// Evaluates the trial point; true when the cost falls by a part of what was promised.
@@ -326,20 +353,17 @@ impl<'a> PooledSolver<'a> {
 }
 
 impl Member {
-    /// Steps β_i after α has moved by `shift`; returns the promised decrease of the part of r_i that β_i reaches.
-    fn follow(&mut self, shift: &[f64], damping: f64, set: &Constraints, work: &mut Work) -> f64 {
+    /// Steps β_i after α has moved by `shift`; true when it presses on other faces than before.
+    fn follow(&mut self, shift: &[f64], damping: f64, set: &Constraints, work: &mut Work) -> bool {
         let n = self.own.len();
         let size = n + shift.len();
-        let before = 0.5 * dot(&self.here.reachable[..n], &self.here.reachable[..n]);
         let conditional = &mut self.conditional;
         conditional
             .reachable
             .copy_from_slice(&self.here.reachable[..n]);
         for (column, step) in shift.iter().enumerate() {
             let factor = &self.here.factor[(n + column) * size..][..n];
-            for (reached, f) in conditional.reachable.iter_mut().zip(factor) {
-                *reached += f * step;
-            }
+            add_scaled(&mut conditional.reachable, *step, factor);
         }
         for column in 0..n {
             conditional.factor[column * n..(column + 1) * n]
@@ -352,15 +376,54 @@ impl Member {
             &mut conditional.gradient,
         );
         self.stepper.rescale(conditional, 0.0);
-        let moved = 0.5 * dot(&conditional.reachable, &conditional.reachable);
-        if self
-            .stepper
-            .find(&self.own, conditional, damping, set, work)
-        {
-            before - moved + self.stepper.step.predicted
-        } else {
-            self.stepper.step.target.copy_from_slice(&self.own);
-            before - moved
+        if !(self.stepper).find(&self.own, conditional, damping, set, work) {
+            self.stepper.stay(&self.own);
+        }
+        let active = self.stepper.step.active.iter().map(|active| active.face);
+        let press_elsewhere = !active.clone().eq(self.pressed.iter().copied());
+        self.pressed.clear();
+        self.pressed.extend(active);
+        press_elsewhere
+    }
+
+    /// The decrease of ½‖r_i‖² that the step of β_i and `shift` promise together.
+    fn promise(&self, shift: &[f64]) -> f64 {
+        let step = [self.stepper.displacement(), shift].concat();
+        let mut reached = vec![0.0; step.len()];
+        upper_times(&self.here.factor, step.len(), &step, &mut reached);
+        -dot(&reached, &self.here.reachable) - 0.5 * dot(&reached, &reached)
+    }
+
+    /// Works out what is left to α once β_i follows as damping and constraints let it: along a face that its own step
+    /// presses on, never through it.
+    fn eliminate(&mut self, p: usize, damping: f64, set: &Constraints) {
+        let directions = self.stepper.free_directions(&self.own, set);
+        let (n, free) = (self.own.len(), directions.len());
+        let size = n + p;
+        let (rows, columns) = (size + free, free + p);
+        let mut stacked = vec![0.0; rows * columns];
+        let mut right = vec![0.0; rows];
+        right[..size].copy_from_slice(&self.here.reachable);
+        for (column, direction) in directions.iter().enumerate() {
+            let target = &mut stacked[column * rows..][..rows];
+            for (factor, along) in self.here.factor.chunks_exact(size).zip(direction) {
+                add_scaled(&mut target[..n], *along, &factor[..n]);
+            }
+            target[size + column] = damping.sqrt();
+        }
+        for column in 0..p {
+            stacked[(free + column) * rows..][..size]
+                .copy_from_slice(&self.here.factor[(n + column) * size..][..size]);
+        }
+        triangularize(&mut stacked, &mut right, rows, columns);
+        let rest = &mut self.rest;
+        rest.right.clear();
+        rest.right.extend_from_slice(&right[free..columns]);
+        rest.rows.clear();
+        rest.rows.resize(p * p, 0.0);
+        for column in 0..p {
+            rest.rows[column * p..][..=column]
+                .copy_from_slice(&stacked[(free + column) * rows + free..][..=column]);
         }
     }
 
@@ -384,19 +447,17 @@ impl Member {
     }
 }
 
-/// The least-squares problem in α alone, every β_i following: the last rows of all factors, stacked and triangularised.
+/// The least-squares problem in α alone, every β_i following: what all leave to it, stacked and triangularised.
 fn reduce(members: &[Member], p: usize) -> Linearization {
     let rows = members.len() * p;
     let mut stacked = vec![0.0; rows * p];
     let mut right = vec![0.0; rows];
     for (index, member) in members.iter().enumerate() {
-        let n = member.own.len();
-        let size = n + p;
         for column in 0..p {
-            let factor = &member.here.factor[(n + column) * size + n..][..p];
-            stacked[column * rows + index * p..][..p].copy_from_slice(factor);
+            stacked[column * rows + index * p..][..p]
+                .copy_from_slice(&member.rest.rows[column * p..][..p]);
         }
-        right[index * p..][..p].copy_from_slice(&member.here.reachable[n..]);
+        right[index * p..][..p].copy_from_slice(&member.rest.right);
     }
     let mut reduced = Linearization::new(p);
     triangularize(&mut stacked, &mut right, rows, p);

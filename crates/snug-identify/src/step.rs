@@ -12,6 +12,9 @@ use crate::{Constraints, Linearization};
 /// Damping below this cannot be told from none.
 pub(crate) const NO_DAMPING: f64 = 1e-22;
 
+/// Share of a vector's length below which what is orthogonal to others is rounding.
+const DEPENDENT: f64 = 1e-9;
+
 /// Largest acceleration a step may have, relative to its length (Transtrum & Sethna: 2‖a‖ ≤ 0.75 ‖d‖).
 const MOST_BENDING: f64 = 0.375;
 
@@ -140,6 +143,36 @@ impl Stepper {
         }
     }
 
+    /// A step that changes nothing.
+    pub fn stay(&mut self, parameters: &[f64]) {
+        self.displacement.fill(0.0);
+        self.step.target.copy_from_slice(parameters);
+        self.step.predicted = 0.0;
+        self.step.active.clear();
+    }
+
+    /// Directions d, orthonormal in D d, along the faces that the last step presses on; all where it presses on none.
+    pub fn free_directions(&self, parameters: &[f64], constraints: &Constraints) -> Vec<Vec<f64>> {
+        let n = parameters.len();
+        let mut normals: Vec<Vec<f64>> = Vec::new();
+        for entry in &self.step.active {
+            let normal = constraints.face_normal(entry.face, parameters);
+            let scaled = (0..n).map(|i| normal[i] * self.unit(i)).collect();
+            normals.extend(orthonormal(scaled, &normals));
+        }
+        let mut directions: Vec<Vec<f64>> = Vec::new();
+        for index in 0..n {
+            let mut axis = vec![0.0; n];
+            axis[index] = 1.0;
+            let known = [normals.as_slice(), &directions].concat();
+            directions.extend(orthonormal(axis, &known));
+        }
+        for direction in &mut directions {
+            (direction.iter_mut().enumerate()).for_each(|(i, d)| *d *= self.unit(i));
+        }
+        directions
+    }
+
     /// What the last step would change in each parameter.
     pub fn displacement(&self) -> &[f64] {
         &self.displacement
@@ -243,6 +276,20 @@ impl Stepper {
             self.step.decrement = (2.0 * self.step.predicted.max(0.0)).sqrt();
         }
     }
+}
+
+/// What of `vector` is orthogonal to the orthonormal `known`, of length 1; nothing where that is rounding.
+fn orthonormal(mut vector: Vec<f64>, known: &[Vec<f64>]) -> Option<Vec<f64>> {
+    let whole = norm(&vector);
+    for _ in 0..2 {
+        for other in known {
+            let along = dot(&vector, other);
+            add_scaled(&mut vector, -along, other);
+        }
+    }
+    let rest = norm(&vector);
+    vector.iter_mut().for_each(|value| *value /= rest);
+    (rest > DEPENDENT * whole).then_some(vector)
 }
 
 /// The nearest point of the set, distances relative to each parameter's size.

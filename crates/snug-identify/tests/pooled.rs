@@ -198,3 +198,54 @@ fn the_projected_curvature_is_the_information_on_the_shared_parameters() {
     let error = covariance.standard_errors[2 * MEMBERS].unwrap();
     assert!(((s[3] / determinant).sqrt() / error - 1.0).abs() < 1e-5);
 }
+
+/// r_i = (β + α, (α − 1)/10, (β + 5)/100): a β that is free follows α with −α, and α goes to 1.
+struct Coupled;
+
+impl PooledResidual for Coupled {
+    fn member_count(&self) -> usize {
+        3
+    }
+
+    fn own_count(&self) -> usize {
+        1
+    }
+
+    fn shared_count(&self) -> usize {
+        1
+    }
+
+    fn linearize(&mut self, trials: &mut [Trial<'_>]) -> Result<(), EvaluationError> {
+        for trial in trials {
+            let [own, shared] = trial.parameters[..] else {
+                unreachable!("one of each")
+            };
+            let mut residual = [own + shared, 0.1 * (shared - 1.0), 0.01 * (own + 5.0)];
+            let mut jacobian = [1.0, 0.0, 0.01, 1.0, 0.1, 0.0];
+            (trial.linearization).set_jacobian(&mut residual, &mut jacobian)?;
+        }
+        Ok(())
+    }
+}
+
+#[test]
+fn shared_parameters_know_that_own_ones_stand_at_a_wall() {
+    let mut at_least_one = Constraints::new(1);
+    at_least_one.bound(0, 1.0, f64::INFINITY, "own");
+    // With β held at 1, α solves (1 + α) + 0.01 (α − 1) = 0.
+    let expected = -0.99 / 1.01;
+    for start in [3.0, 0.5, -1.5] {
+        let fit = solve_pooled(
+            &mut Coupled,
+            &vec![vec![1.0]; 3],
+            &vec![at_least_one.clone(); 3],
+            &[start],
+            &Constraints::new(1),
+            &PooledSettings::default(),
+        )
+        .unwrap();
+        assert!(fit.converged);
+        assert!((fit.shared[0] - expected).abs() < 1e-6, "{:?}", fit.shared);
+        assert_eq!(fit.own, vec![vec![1.0]; 3]);
+    }
+}

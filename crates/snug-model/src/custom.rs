@@ -187,6 +187,7 @@ fn describe(settings: &CustomEffectSettings, program: &Program) -> &'static Desc
             starts: Box::leak(Box::new([parameter.start])),
             minimum: parameter.minimum,
             maximum: parameter.maximum,
+            limits: (parameter.minimum, parameter.maximum),
             scope: if parameter.shared {
                 Scope::Shared
             } else {

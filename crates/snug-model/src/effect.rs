@@ -54,6 +54,9 @@ pub struct ParameterSpec {
     pub minimum: f64,
     /// Largest plausible value.
     pub maximum: f64,
+    /// What a fit may reach: beyond what is plausible, where the law still means something. An estimate there says that
+    /// something is wrong, and how much; one held at the edge of the plausible would hide it.
+    pub limits: (f64, f64),
     /// Over what it is constant.
     pub scope: Scope,
 }

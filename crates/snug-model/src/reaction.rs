@@ -11,6 +11,7 @@ pub(crate) const ONSET: ParameterSpec = ParameterSpec {
     starts: &[0.08, 0.04, 0.15, 0.22],
     minimum: 0.0,
     maximum: 0.3,
+    limits: (0.0, 0.5),
     scope: Scope::Shared,
 };
 
@@ -22,6 +23,7 @@ pub(crate) const RISE: ParameterSpec = ParameterSpec {
     starts: &[0.05, 0.15],
     minimum: 0.01,
     maximum: 0.3,
+    limits: (0.005, 0.5),
     scope: Scope::Shared,
 };
 

@@ -44,6 +44,8 @@ pub struct PlausibleRange {
     pub minimum: f64,
     /// Largest plausible value.
     pub maximum: f64,
+    /// What a fit may reach.
+    pub limits: (f64, f64),
 }
 
 impl PlausibleRange {
@@ -56,21 +58,31 @@ impl PlausibleRange {
 impl Scale {
     /// Starts and bounds of a catalogue effect's parameter on `rig`.
     pub fn range(&self, spec: &ParameterSpec, rig: &Rig) -> PlausibleRange {
-        let (factor, wider) = match self {
-            Self::Automatic | Self::HandOnTool => (1.0, 1.0),
-            Self::Rig { .. } => match self.factor(spec.unit, rig.lever_arm_m) {
-                Some(factor) if spec.unit != "1" => (factor, WIDER),
-                _ => (1.0, 1.0),
-            },
+        let factor = match self {
+            Self::Automatic | Self::HandOnTool => None,
+            Self::Rig { .. } => self
+                .factor(spec.unit, rig.lever_arm_m)
+                .filter(|_| spec.unit != "1"),
+        };
+        let Some(factor) = factor else {
+            return PlausibleRange {
+                starts: spec.starts.to_vec(),
+                minimum: spec.minimum,
+                maximum: spec.maximum,
+                limits: spec.limits,
+            };
         };
         // A bound on the far side of 0 moves outwards, one between 0 and the starts towards 0.
         let outwards = |bound: f64, is_outer: bool| {
-            bound * factor * if is_outer { wider } else { 1.0 / wider }
+            bound * factor * if is_outer { WIDER } else { 1.0 / WIDER }
         };
+        let minimum = outwards(spec.minimum, spec.minimum < 0.0);
+        let maximum = outwards(spec.maximum, spec.maximum > 0.0);
         PlausibleRange {
             starts: spec.starts.iter().map(|start| start * factor).collect(),
-            minimum: outwards(spec.minimum, spec.minimum < 0.0),
-            maximum: outwards(spec.maximum, spec.maximum > 0.0),
+            minimum,
+            maximum,
+            limits: (minimum, maximum),
         }
     }
 
@@ -147,6 +159,7 @@ mod tests {
                     let range = scale.range(spec, &RIG);
                     assert_eq!(range.starts, spec.starts);
                     assert_eq!((range.minimum, range.maximum), (spec.minimum, spec.maximum));
+                    assert_eq!(range.limits, spec.limits);
                 }
             }
         }
@@ -183,6 +196,12 @@ mod tests {
                 let range = SCALE.range(spec, &RIG);
                 let inside = |start: &f64| (range.minimum..=range.maximum).contains(start);
                 assert!(range.starts.iter().all(inside), "{}", effect.name());
+                let (lowest, highest) = spec.limits;
+                assert!(
+                    lowest <= spec.minimum && spec.maximum <= highest,
+                    "{}",
+                    effect.name()
+                );
             }
         }
     }

@@ -22,6 +22,7 @@ impl Law for AccelerationBias {
                 starts: &[0.0],
                 minimum: -2.0,
                 maximum: 2.0,
+                limits: (-50.0, 50.0),
                 scope: Scope::PerTightening,
             }],
             states: &[],

@@ -23,6 +23,7 @@ impl Law for AccelerationLag {
                 starts: &[0.0, 0.004],
                 minimum: 0.0,
                 maximum: 0.02,
+                limits: (0.0, 0.05),
                 scope: Scope::Shared,
             }],
             states: &[],

@@ -34,6 +34,7 @@ impl Law for Backlash {
                 starts: &[0.0005, 4e-5, 0.00012, 0.0015, 0.004],
                 minimum: 0.0,
                 maximum: 0.005,
+                limits: (0.0, 0.05),
                 scope: Scope::Shared,
             }],
             states: &[],

@@ -27,6 +27,7 @@ impl Law for BoucWen {
                 starts: &[200.0],
                 minimum: 0.0,
                 maximum: 2e4,
+                limits: (0.0, 2e5),
                 scope: Scope::Shared,
             }, ParameterSpec {
                 name: "z_max_m",
@@ -35,6 +36,7 @@ impl Law for BoucWen {
                 starts: &[0.0025, 0.0008, 0.008],
                 minimum: 1e-4,
                 maximum: 0.02,
+                limits: (1e-4, 0.05),
                 scope: Scope::Shared,
             }],
             states: &["hysteresis_m"],

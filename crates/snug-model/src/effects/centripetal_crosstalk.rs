@@ -23,6 +23,7 @@ impl Law for CentripetalCrosstalk {
                 starts: &[0.0],
                 minimum: -1.0,
                 maximum: 1.0,
+                limits: (-10.0, 10.0),
                 scope: Scope::Shared,
             }],
             states: &[],

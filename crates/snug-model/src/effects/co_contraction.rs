@@ -24,6 +24,7 @@ impl Law for CoContraction {
                 starts: &[0.1],
                 minimum: -0.9,
                 maximum: 4.0,
+                limits: (-0.99, 40.0),
                 scope: Scope::Shared,
             }, reaction::ONSET, reaction::RISE],
             states: &[],

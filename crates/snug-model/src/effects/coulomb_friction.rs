@@ -25,6 +25,7 @@ impl Law for CoulombFriction {
                 starts: &[1.0],
                 minimum: 0.0,
                 maximum: 30.0,
+                limits: (0.0, 300.0),
                 scope: Scope::Shared,
             }],
             states: &[],

@@ -23,6 +23,7 @@ impl Law for CubicStiffness {
                 starts: &[0.0],
                 minimum: -5e6,
                 maximum: 5e6,
+                limits: (-1e8, 1e8),
                 scope: Scope::Shared,
             }],
             states: &[],

@@ -23,6 +23,7 @@ impl Law for DirectionalDamping {
                 starts: &[0.0],
                 minimum: -200.0,
                 maximum: 300.0,
+                limits: (-500.0, 3000.0),
                 scope: Scope::Shared,
             }],
             states: &[],

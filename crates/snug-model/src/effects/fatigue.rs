@@ -14,6 +14,7 @@ const fn slope(name: &'static str, meaning: &'static str) -> ParameterSpec {
         starts: &[0.0],
         minimum: -0.1,
         maximum: 0.1,
+        limits: (-0.1, 0.1),
         scope: Scope::Shared,
     }
 }

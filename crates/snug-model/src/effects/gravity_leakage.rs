@@ -23,6 +23,7 @@ impl Law for GravityLeakage {
                 starts: &[0.0],
                 minimum: -30.0,
                 maximum: 30.0,
+                limits: (-300.0, 300.0),
                 scope: Scope::Shared,
             }],
             states: &[],

@@ -23,6 +23,7 @@ impl Law for GripSlip {
                 starts: &[150.0, 60.0, 280.0],
                 minimum: 10.0,
                 maximum: 300.0,
+                limits: (3.0, 1000.0),
                 scope: Scope::Shared,
             }],
             states: &[],

@@ -22,6 +22,7 @@ impl Law for InitialMotion {
                     starts: &[0.0],
                     minimum: -0.2,
                     maximum: 0.2,
+                    limits: (-1.0, 1.0),
                     scope: Scope::PerTightening,
                 },
                 ParameterSpec {
@@ -31,6 +32,7 @@ impl Law for InitialMotion {
                     starts: &[0.0],
                     minimum: -5.0,
                     maximum: 5.0,
+                    limits: (-50.0, 50.0),
                     scope: Scope::PerTightening,
                 },
             ],

@@ -23,6 +23,7 @@ impl Law for MaxwellBranch {
                     starts: &[200.0],
                     minimum: 0.0,
                     maximum: 2e4,
+                    limits: (0.0, 2e5),
                     scope: Scope::Shared,
                 },
                 ParameterSpec {
@@ -32,6 +33,7 @@ impl Law for MaxwellBranch {
                     starts: &[0.03, 0.01, 0.1],
                     minimum: 0.005,
                     maximum: 0.2,
+                    limits: (0.002, 0.5),
                     scope: Scope::Shared,
                 },
             ],

@@ -21,6 +21,7 @@ impl Law for OutputOffset {
                 starts: &[0.0],
                 minimum: -10.0,
                 maximum: 10.0,
+                limits: (-1000.0, 1000.0),
                 scope: Scope::PerTightening,
             }],
             states: &[],

@@ -23,6 +23,7 @@ impl Law for QuadraticDamping {
                 starts: &[0.0],
                 minimum: 0.0,
                 maximum: 1000.0,
+                limits: (0.0, 1e4),
                 scope: Scope::Shared,
             }],
             states: &[],

@@ -23,6 +23,7 @@ impl Law for QuadraticStiffness {
                 starts: &[0.0],
                 minimum: -1e5,
                 maximum: 1e5,
+                limits: (-2e6, 2e6),
                 scope: Scope::Shared,
             }],
             states: &[],

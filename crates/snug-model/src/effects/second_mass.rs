@@ -27,6 +27,7 @@ impl Law for SecondMass {
                 starts: &[2.0, 0.7, 6.0],
                 minimum: 0.2,
                 maximum: 20.0,
+                limits: (0.05, 100.0),
                 scope: Scope::Shared,
             }, ParameterSpec {
                 name: "k2_n_per_m",
@@ -35,6 +36,7 @@ impl Law for SecondMass {
                 starts: &[1e4, 2e3, 4e4],
                 minimum: 100.0,
                 maximum: 1e5,
+                limits: (50.0, 1e6),
                 scope: Scope::Shared,
             }, ParameterSpec {
                 name: "c2_kg_per_s",
@@ -43,6 +45,7 @@ impl Law for SecondMass {
                 starts: &[100.0, 20.0],
                 minimum: 0.0,
                 maximum: 500.0,
+                limits: (0.0, 5000.0),
                 scope: Scope::Shared,
             }],
             states: &["support_x_m", "support_v_m_per_s"],

@@ -24,6 +24,7 @@ impl Law for StretchReflex {
                 starts: &[100.0],
                 minimum: -5000.0,
                 maximum: 5000.0,
+                limits: (-2e4, 2e4),
                 scope: Scope::Shared,
             }, ParameterSpec {
                 name: "tau_s",
@@ -32,6 +33,7 @@ impl Law for StretchReflex {
                 starts: &[0.06, 0.03, 0.1],
                 minimum: 0.02,
                 maximum: 0.12,
+                limits: (0.01, 0.2),
                 scope: Scope::Shared,
             }],
             states: &[],

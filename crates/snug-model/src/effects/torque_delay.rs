@@ -22,6 +22,7 @@ impl Law for TorqueDelay {
                 starts: &[0.0],
                 minimum: -0.01,
                 maximum: 0.01,
+                limits: (-0.03, 0.03),
                 scope: Scope::Shared,
             }],
             states: &[],

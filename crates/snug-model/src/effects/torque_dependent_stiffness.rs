@@ -23,6 +23,7 @@ impl Law for TorqueDependentStiffness {
                 starts: &[0.0],
                 minimum: -0.02,
                 maximum: 0.2,
+                limits: (-0.05, 2.0),
                 scope: Scope::Shared,
             }],
             states: &[],

@@ -22,6 +22,7 @@ impl Law for TorqueOffset {
                 starts: &[0.0],
                 minimum: -2.0,
                 maximum: 2.0,
+                limits: (-50.0, 50.0),
                 scope: Scope::Shared,
             }],
             states: &[],

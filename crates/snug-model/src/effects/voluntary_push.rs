@@ -23,6 +23,7 @@ impl Law for VoluntaryPush {
                 starts: &[2.0],
                 minimum: -50.0,
                 maximum: 50.0,
+                limits: (-500.0, 500.0),
                 scope: Scope::Shared,
             }, reaction::ONSET, reaction::RISE],
             states: &[],

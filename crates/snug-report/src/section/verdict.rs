@@ -125,7 +125,7 @@ fn candidate(one: &RankedEffect, result: &CampaignResult) -> Markup {
             p { "It removes " strong { (share_with_error(one.heldout_gain, one.heldout_gain_error)) }
                 " of the misfit in tightenings that its size was not fitted to." }
             p { "How sure: " (by_chance(one.p_family)) "." }
-            @if !one.plausible { p.attention { "Its size lies on the edge of what is plausible." } }
+            @if !one.plausible { p.attention { "Its size is not within what is plausible for a hand on a tool." } }
             @if !one.explanation.is_empty() {
                 ul { @for line in &one.explanation { li { (sentence(line)) } } }
             }
