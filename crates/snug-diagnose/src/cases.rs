@@ -27,6 +27,14 @@ impl<'a> Cases<'a> {
         Cases { all, tally }
     }
 
+    /// Some of them.
+    pub fn some(self, members: &[usize]) -> Vec<Case> {
+        members
+            .iter()
+            .map(|&member| self.all[member].clone())
+            .collect()
+    }
+
     pub fn tally(self) -> &'a Tally {
         self.tally
     }

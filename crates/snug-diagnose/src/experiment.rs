@@ -4,7 +4,7 @@ use crate::Case;
 use crate::cases::Cases;
 use crate::fitted::Fitted;
 use crate::hypothesis::Hypothesis;
-use crate::ranking::fit_effects;
+use crate::refit::fit_effects;
 use crate::sizes::held;
 use crate::units::Units;
 use crate::wording::spoken;

@@ -168,17 +168,6 @@ impl Fitted {
         order.into_iter().step_by(step).collect()
     }
 
-    /// The same sizes for some of the tightenings only, as a place to begin.
-    pub fn only(&self, members: &[usize]) -> Self {
-        Self {
-            own: members
-                .iter()
-                .map(|&member| self.own[member].clone())
-                .collect(),
-            ..self.clone()
-        }
-    }
-
     /// Σ r² over everything.
     pub fn squares(&self) -> f64 {
         self.blocks.iter().map(|block| block.squares).sum()

@@ -50,6 +50,17 @@ impl Start {
             shared: fit.shared.clone(),
         }
     }
+
+    /// The same for some of the members only.
+    pub fn of_members(&self, members: &[usize]) -> Self {
+        Self {
+            own: members
+                .iter()
+                .map(|&member| self.own[member].clone())
+                .collect(),
+            shared: self.shared.clone(),
+        }
+    }
 }
 
 impl<'a> Hypothesis<'a> {

@@ -20,6 +20,7 @@ mod long_record;
 mod nuisance;
 mod preparation;
 mod ranking;
+mod refit;
 mod score;
 mod search;
 mod settings;

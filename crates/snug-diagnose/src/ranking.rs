@@ -6,14 +6,13 @@ use crate::column::Column;
 use crate::evidence::{chance, clearness, spread_of_sum};
 use crate::family::Family;
 use crate::fitted::Fitted;
-use crate::hypothesis::{Hypothesis, Start};
-use crate::long_record;
+use crate::hypothesis::Hypothesis;
+use crate::refit::refit;
 use crate::score::{Control, Scored, Scorer};
 use crate::units::Units;
-use crate::{Case, DiagnoseSettings, Watch};
+use crate::{DiagnoseSettings, Watch};
 use rayon::prelude::*;
-use snug_identify::{PooledFit, PooledSettings};
-use snug_model::{BASE_PARAMETERS, Effect, Law, Scope};
+use snug_model::Effect;
 
 /// A candidate after its refit.
 #[derive(Debug, Clone)]
@@ -78,25 +77,6 @@ const STRICTER: usize = 10;
 
 /// Sign flips behind a p in the negative control.
 const CONTROL_FLIPS: usize = 199;
-
-/// Fits exactly these effects, from where `from` ended where it is given.
-pub(crate) fn fit_effects(
-    cases: Cases<'_>,
-    effects: &[Effect],
-    from: Option<&Fitted>,
-    units: Units,
-) -> Result<Fitted, DiagnoseError> {
-    let mut hypothesis = Hypothesis::new(cases, effects)?;
-    let start = match from {
-        Some(fitted) => fitted.start(&hypothesis),
-        None => hypothesis.usual_start(),
-    };
-    let end = match units.are_whole() {
-        true => hypothesis.fit(&start, &PooledSettings::default())?,
-        false => long_record::to_the_end(&mut hypothesis, &start)?,
-    };
-    Ok(Fitted::new(&hypothesis, end, &units))
-}
 
 /// Scores and refits every effect of `candidates` beside those of `current`.
 pub(crate) fn rank(
@@ -182,161 +162,4 @@ pub(crate) fn gains(heldout: &[f64], fitted: &Fitted) -> Vec<f64> {
         .zip(with)
         .map(|(before, after)| before - after)
         .collect()
-}
-
-/// Refits one effect from its most promising starts, first roughly on a few tightenings; the lowest cost wins.
-fn refit(
-    cases: Cases<'_>,
-    current: &Fitted,
-    effect: Effect,
-    columns: &[Column],
-    units: Units,
-    settings: &DiagnoseSettings,
-) -> Result<Fitted, DiagnoseError> {
-    let mut effects = current.effects.clone();
-    effects.push(effect);
-    let mut own: Vec<&Column> = columns
-        .iter()
-        .filter(|column| column.effect == effect)
-        .collect();
-    own.sort_by(|a, b| b.predicted_gain().total_cmp(&a.predicted_gain()));
-    let most = match units.are_whole() {
-        true => settings.starts,
-        false => long_record::most_starts(&cases, settings),
-    };
-    let mut starts: Vec<&[f64]> = Vec::new();
-    for column in own {
-        if !starts.contains(&column.start.as_slice()) && starts.len() < most {
-            starts.push(&column.start);
-        }
-    }
-    let mut hypothesis = Hypothesis::new(cases, &effects)?;
-    let [first, rest @ ..] = starts.as_slice() else {
-        return fit_effects(cases, &effects, Some(current), units);
-    };
-    let mut start = with_effect(&hypothesis, current, effect, first);
-    if !units.are_whole() {
-        let begin = |values: &[f64]| with_effect(&hypothesis, current, effect, values);
-        let starts: Vec<Start> = starts.iter().map(|values| begin(values)).collect();
-        let end = long_record::best_of(&mut hypothesis, &starts, &CANDIDATE)?;
-        return Ok(Fitted::new(&hypothesis, end, &units));
-    }
-    if !rest.is_empty() {
-        let rough = rough(cases, current, effect, &effects, &starts)?;
-        start.shared = rough.shared;
-        for own in &mut start.own {
-            let factors = own.iter_mut().zip(&rough.astray);
-            factors.for_each(|(own, factor)| *own *= factor);
-        }
-        for reach in [AFAR, NEARBY] {
-            start = Start::at(&hypothesis.fit_blurred(&start, &CANDIDATE, reach)?);
-        }
-    }
-    let end = hypothesis.fit(&start, &CANDIDATE)?;
-    Ok(Fitted::new(&hypothesis, end, &units))
-}
-
-/// When the refit of a candidate stops: its gain is then known to a fraction of what chance does. An effect that is not
-/// there leaves its timing undetermined, and a strict fit would follow that for long.
-const CANDIDATE: PooledSettings = PooledSettings {
-    max_iterations: 40,
-    cost_tolerance: 1e-6,
-};
-
-/// Samples to either side over which residuals are averaged where starts are tried, and on the way from there to the end:
-/// 8 and 2 ms at 10 kHz.
-const AFAR: usize = 80;
-const NEARBY: usize = 20;
-
-/// Tightenings on which starts are tried.
-const FEW: usize = 8;
-
-/// What a few tightenings say of an effect.
-struct Rough {
-    /// Where the start that led to the lowest cost led the shared parameters.
-    shared: Vec<f64>,
-    /// By how much m, c and k are larger there than without the effect, which led them astray; 1 for other parameters.
-    astray: Vec<f64>,
-}
-
-fn rough(
-    cases: Cases<'_>,
-    current: &Fitted,
-    effect: Effect,
-    effects: &[Effect],
-    starts: &[&[f64]],
-) -> Result<Rough, DiagnoseError> {
-    let few = current.spread(FEW);
-    let some: Vec<Case> = few.iter().map(|&index| cases[index].clone()).collect();
-    let mut hypothesis = Hypothesis::new(cases.others(&some), effects)?;
-    let settings = PooledSettings {
-        max_iterations: 20,
-        cost_tolerance: 1e-4,
-    };
-    let there = current.only(&few);
-    let mut best: Option<PooledFit> = None;
-    for values in starts {
-        let start = with_effect(&hypothesis, &there, effect, values);
-        let Ok(end) = hypothesis.fit_blurred(&start, &settings, AFAR) else {
-            continue;
-        };
-        if best.as_ref().is_none_or(|best| end.cost() < best.cost()) {
-            best = Some(end);
-        }
-    }
-    let end = best.ok_or(snug_identify::IdentifyError::NoStart)?;
-    let without = there.start(&hypothesis).own;
-    let median_factor = |column: usize| {
-        let pairs = end.own.iter().zip(&without);
-        let mut factors: Vec<f64> = pairs
-            .map(|(with, without)| with[column] / without[column])
-            .collect();
-        factors.sort_by(f64::total_cmp);
-        factors[factors.len() / 2]
-    };
-    let columns = hypothesis.own.iter().enumerate();
-    let factors = columns.map(|(column, &index)| match index < BASE_PARAMETERS.len() {
-        true => median_factor(column),
-        false => 1.0,
-    });
-    Ok(Rough {
-        astray: factors.collect(),
-        shared: end.shared,
-    })
-}
-
-/// The current fit with one effect's parameters at `values`.
-fn with_effect(
-    hypothesis: &Hypothesis<'_>,
-    current: &Fitted,
-    effect: Effect,
-    values: &[f64],
-) -> Start {
-    let mut start = current.start(hypothesis);
-    let before: usize = current
-        .effects
-        .iter()
-        .map(|effect| effect.description().parameters.len())
-        .sum();
-    let first = BASE_PARAMETERS.len() + before;
-    for (offset, (&value, spec)) in values
-        .iter()
-        .zip(effect.description().parameters)
-        .enumerate()
-    {
-        let index = first + offset;
-        match spec.scope {
-            Scope::Shared => {
-                if let Some(column) = hypothesis.shared.iter().position(|&i| i == index) {
-                    start.shared[column] = value;
-                }
-            }
-            Scope::PerTightening => {
-                if let Some(column) = hypothesis.own.iter().position(|&i| i == index) {
-                    start.own.iter_mut().for_each(|own| own[column] = value);
-                }
-            }
-        }
-    }
-    start
 }

@@ -4,7 +4,8 @@ use crate::DiagnoseError;
 use crate::climb::{Attempt, Climb, EQUAL};
 use crate::evidence::clearness;
 use crate::fitted::Fitted;
-use crate::ranking::{fit_effects, gains};
+use crate::ranking::gains;
+use crate::refit::fit_effects;
 use crate::search::Search;
 use snug_model::Effect;
 

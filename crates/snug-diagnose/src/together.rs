@@ -1,7 +1,7 @@
 //! Effects fitted to many tightenings together, nothing judged: what a person sees who tries an effect by hand.
 
 use crate::cases::{Cases, Tally};
-use crate::ranking::fit_effects;
+use crate::refit::fit_effects;
 use crate::units::Units;
 use crate::{Case, DiagnoseError};
 use snug_campaign::WorkDone;

@@ -1,0 +1,243 @@
+//! A candidate's refit: from its most promising starts, found on a few tightenings, to all of them.
+
+use crate::cases::Cases;
+use crate::column::Column;
+use crate::fitted::Fitted;
+use crate::hypothesis::{Hypothesis, Start};
+use crate::long_record;
+use crate::units::Units;
+use crate::{Case, DiagnoseError, DiagnoseSettings};
+use snug_identify::{IdentifyError, PooledFit, PooledSettings};
+use snug_model::{BASE_PARAMETERS, Effect, Law, Scope};
+
+/// When the refit of a candidate stops: its gain is then known to a fraction of what chance does. An effect that is not
+/// there leaves its timing undetermined, and a strict fit would follow that for long.
+const CANDIDATE: PooledSettings = PooledSettings {
+    max_iterations: 40,
+    cost_tolerance: 1e-6,
+};
+
+/// When a fit to a few tightenings stops.
+const ROUGH: PooledSettings = PooledSettings {
+    max_iterations: 20,
+    cost_tolerance: 1e-4,
+};
+
+/// Samples to either side over which residuals are averaged where starts are tried, and on the way from there to the end:
+/// 8 and 2 ms at 10 kHz.
+const AFAR: usize = 80;
+const NEARBY: usize = 20;
+
+/// Tightenings on which starts are tried.
+const FEW: usize = 8;
+
+/// Root mean square of a tightening's residual over the median of all from which it is left behind: it ended in a minimum
+/// of its own, where the others found theirs.
+const LEFT_BEHIND: f64 = 1.15;
+
+/// Fits exactly these effects, from where `from` ended where it is given.
+pub(crate) fn fit_effects(
+    cases: Cases<'_>,
+    effects: &[Effect],
+    from: Option<&Fitted>,
+    units: Units,
+) -> Result<Fitted, DiagnoseError> {
+    let mut hypothesis = Hypothesis::new(cases, effects)?;
+    let start = match from {
+        Some(fitted) => fitted.start(&hypothesis),
+        None => hypothesis.usual_start(),
+    };
+    let end = match units.are_whole() {
+        true => hypothesis.fit(&start, &PooledSettings::default())?,
+        false => long_record::to_the_end(&mut hypothesis, &start)?,
+    };
+    Ok(Fitted::new(&hypothesis, end, &units))
+}
+
+/// Refits one effect from its most promising starts, first roughly on a few tightenings; the lowest cost wins.
+pub(crate) fn refit(
+    cases: Cases<'_>,
+    current: &Fitted,
+    effect: Effect,
+    columns: &[Column],
+    units: Units,
+    settings: &DiagnoseSettings,
+) -> Result<Fitted, DiagnoseError> {
+    let mut effects = current.effects.clone();
+    effects.push(effect);
+    let starts = promising(effect, columns, most_starts(&cases, &units, settings));
+    let mut hypothesis = Hypothesis::new(cases, &effects)?;
+    let starts: Vec<Start> = (starts.iter())
+        .map(|values| with_effect(&hypothesis, current, effect, values))
+        .collect();
+    let end = match starts.as_slice() {
+        [] => return fit_effects(cases, &effects, Some(current), units),
+        starts if !units.are_whole() => long_record::best_of(&mut hypothesis, starts, &CANDIDATE)?,
+        [only] => hypothesis.fit(only, &CANDIDATE)?,
+        several => {
+            let start = rough(&hypothesis, current, several)?;
+            let end = from_afar(&mut hypothesis, &start, &CANDIDATE)?;
+            catch_up(&mut hypothesis, current, end)?
+        }
+    };
+    Ok(Fitted::new(&hypothesis, end, &units))
+}
+
+fn most_starts(cases: &[Case], units: &Units, settings: &DiagnoseSettings) -> usize {
+    match units.are_whole() {
+        true => settings.starts,
+        false => long_record::most_starts(cases, settings),
+    }
+}
+
+/// At most `most` different starts of an effect, those whose columns promise most.
+fn promising(effect: Effect, columns: &[Column], most: usize) -> Vec<&[f64]> {
+    let own = columns.iter().filter(|column| column.effect == effect);
+    let mut own: Vec<&Column> = own.collect();
+    own.sort_by(|a, b| b.predicted_gain().total_cmp(&a.predicted_gain()));
+    let mut starts: Vec<&[f64]> = Vec::new();
+    for column in own {
+        if !starts.contains(&column.start.as_slice()) && starts.len() < most {
+            starts.push(&column.start);
+        }
+    }
+    starts
+}
+
+/// Fits what is seen from ever nearer.
+fn from_afar(
+    hypothesis: &mut Hypothesis<'_>,
+    start: &Start,
+    settings: &PooledSettings,
+) -> Result<PooledFit, DiagnoseError> {
+    let afar = hypothesis.fit_blurred(start, settings, AFAR)?;
+    let nearby = hypothesis.fit_blurred(&Start::at(&afar), settings, NEARBY)?;
+    hypothesis.fit(&Start::at(&nearby), settings)
+}
+
+/// The start that leads lowest on a few tightenings, as seen from afar: their shared sizes, and every tightening's own
+/// parameters corrected by what the few had to correct theirs.
+fn rough(
+    hypothesis: &Hypothesis<'_>,
+    current: &Fitted,
+    starts: &[Start],
+) -> Result<Start, DiagnoseError> {
+    let few = current.spread(FEW);
+    let some = hypothesis.cases.some(&few);
+    let mut there = Hypothesis::new(hypothesis.cases.others(&some), &hypothesis.effects)?;
+    let ends = starts.iter().filter_map(|start| {
+        let end = there.fit_blurred(&start.of_members(&few), &ROUGH, AFAR);
+        end.ok().map(|end| (start, end))
+    });
+    let lowest = ends.min_by(|(_, a), (_, b)| a.cost().total_cmp(&b.cost()));
+    let (start, end) = lowest.ok_or(IdentifyError::NoStart)?;
+    let factors = astray(hypothesis, &end.own, &start.of_members(&few).own);
+    let mut start = start.clone();
+    start.own.iter_mut().for_each(|own| times(own, &factors));
+    start.shared = end.shared;
+    Ok(start)
+}
+
+/// The tightenings that were left behind, begun again from where the others' way leads and, where that is lower, all on
+/// from there.
+fn catch_up(
+    hypothesis: &mut Hypothesis<'_>,
+    current: &Fitted,
+    end: PooledFit,
+) -> Result<PooledFit, DiagnoseError> {
+    let errors: Vec<f64> = (end.profiles.iter().enumerate())
+        .map(|(member, one)| (2.0 * one.cost / hypothesis.residual_count(member) as f64).sqrt())
+        .collect();
+    let limit = LEFT_BEHIND * median(errors.clone());
+    let (behind, ahead): (Vec<usize>, Vec<usize>) =
+        (0..errors.len()).partition(|&member| errors[member] > limit);
+    if behind.is_empty() {
+        return Ok(end);
+    }
+    let begun = current.start(hypothesis);
+    let pick = |own: &[Vec<f64>]| -> Vec<Vec<f64>> {
+        ahead.iter().map(|&member| own[member].clone()).collect()
+    };
+    let factors = astray(hypothesis, &pick(&end.own), &pick(&begun.own));
+    let mut again = begun.of_members(&behind);
+    again.own.iter_mut().for_each(|own| times(own, &factors));
+    again.shared = end.shared.clone();
+    let some = hypothesis.cases.some(&behind);
+    let mut alone = Hypothesis::new(hypothesis.cases.others(&some), &hypothesis.effects)?;
+    let Ok(caught) = from_afar(&mut alone, &again, &ROUGH) else {
+        return Ok(end);
+    };
+    let before: f64 = behind.iter().map(|&member| end.profiles[member].cost).sum();
+    if caught.cost() >= before {
+        return Ok(end);
+    }
+    let mut start = Start::at(&end);
+    for (&member, own) in behind.iter().zip(caught.own) {
+        start.own[member] = own;
+    }
+    let other = hypothesis.fit(&start, &CANDIDATE)?;
+    Ok(match other.cost() < end.cost() {
+        true => other,
+        false => end,
+    })
+}
+
+/// By how much m, c and k are larger in `with` than in `without`, the median over tightenings; 1 for other parameters.
+fn astray(hypothesis: &Hypothesis<'_>, with: &[Vec<f64>], without: &[Vec<f64>]) -> Vec<f64> {
+    let columns = hypothesis.own.iter().enumerate();
+    columns
+        .map(|(column, &index)| match index < BASE_PARAMETERS.len() {
+            true => {
+                let pairs = with.iter().zip(without);
+                median(pairs.map(|(a, b)| a[column] / b[column]).collect())
+            }
+            false => 1.0,
+        })
+        .collect()
+}
+
+fn times(own: &mut [f64], factors: &[f64]) {
+    let pairs = own.iter_mut().zip(factors);
+    pairs.for_each(|(own, factor)| *own *= factor);
+}
+
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values[values.len() / 2]
+}
+
+/// The current fit with one effect's parameters at `values`.
+fn with_effect(
+    hypothesis: &Hypothesis<'_>,
+    current: &Fitted,
+    effect: Effect,
+    values: &[f64],
+) -> Start {
+    let mut start = current.start(hypothesis);
+    let before: usize = current
+        .effects
+        .iter()
+        .map(|effect| effect.description().parameters.len())
+        .sum();
+    let first = BASE_PARAMETERS.len() + before;
+    for (offset, (&value, spec)) in values
+        .iter()
+        .zip(effect.description().parameters)
+        .enumerate()
+    {
+        let index = first + offset;
+        match spec.scope {
+            Scope::Shared => {
+                if let Some(column) = hypothesis.shared.iter().position(|&i| i == index) {
+                    start.shared[column] = value;
+                }
+            }
+            Scope::PerTightening => {
+                if let Some(column) = hypothesis.own.iter().position(|&i| i == index) {
+                    start.own.iter_mut().for_each(|own| own[column] = value);
+                }
+            }
+        }
+    }
+    start
+}
