@@ -63,7 +63,7 @@ pub fn size(parameter: &EffectParameter) -> Markup {
         span.amount { (shown.value) @if !unit.is_empty() { "\u{a0}" (unit) } }
         @match shown.interval {
             Some(interval) => { " " span.interval { (interval) @if !unit.is_empty() { "\u{a0}" (unit) } } }
-            None => { " " span.interval title="on the edge of its range, or not determined by the data" { "no interval" } }
+            None => { " " span.interval title="at the end of what a fit may reach, or not determined by the data" { "no interval" } }
         }
         @if parameter.per_tightening {
             " " span.own {

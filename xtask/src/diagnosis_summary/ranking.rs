@@ -79,8 +79,8 @@ fn row(page: &mut Page, candidate: &RankedEffect, with_twins: bool) {
         size::p_value(candidate.p_family)
     );
     let mut sizes: Vec<String> = candidate.parameters.iter().map(sized).collect();
-    if !candidate.plausible {
-        sizes.push("not plausible: on the edge of its range".into());
+    if !candidate.plausible && candidate.parameters.iter().all(size::is_plausible) {
+        sizes.push("these data do not determine it".into());
     }
     page.paragraph(&lead, &sizes.join("; "));
     if with_twins && !candidate.twins.is_empty() {

@@ -38,7 +38,31 @@ pub fn sized(parameter: &EffectParameter) -> String {
         "" => &parameter.name,
         meaning => meaning,
     };
-    format!("{called} {}{range}{own}", alike(parameter.value, parameter))
+    let beyond = match is_plausible(parameter) {
+        true => String::new(),
+        false => format!(
+            ", beyond the plausible {} to {}",
+            limit(parameter.minimum),
+            limit(parameter.maximum)
+        ),
+    };
+    format!(
+        "{called} {}{range}{own}{beyond}",
+        alike(parameter.value, parameter)
+    )
+}
+
+/// A round number as people write it.
+fn limit(value: f64) -> String {
+    match value == 0.0 || (1e-3..1e5).contains(&value.abs()) {
+        true => format!("{value}"),
+        false => format!("{value:e}"),
+    }
+}
+
+/// Whether it lies where one expects it on a hand and a tool.
+pub fn is_plausible(parameter: &EffectParameter) -> bool {
+    (parameter.minimum..=parameter.maximum).contains(&parameter.value)
 }
 
 /// As many decimals as half the interval supports with two digits; a power of ten where the value needs one.
