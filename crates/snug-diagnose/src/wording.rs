@@ -201,96 +201,97 @@ pub(crate) fn headline(situation: &Situation<'_>) -> String {
 
 /// Why, in plain words.
 pub(crate) fn reasons(situation: &Situation<'_>) -> Vec<String> {
-    let mut reasons = Vec::new();
-    let floor = situation.after.is_weighted;
-    if floor {
-        let error = situation.after.error();
-        reasons.push(match error < AT_FLOOR {
-            true => format!(
-                "Over {} tightenings the model's error is {error:.3} times the sensor noise measured in the quiet part before each pulse; 1 means that only noise is left.",
-                situation.tightenings
-            ),
-            false => format!(
-                "Over {} tightenings the model's error is {error:.2} times the sensor noise measured in the quiet part before each pulse; with a complete model it would be 1.",
-                situation.tightenings
-            ),
-        });
-    } else {
-        reasons.push(format!(
-            "The noise of this signal is not known, so the error ({}) is judged by whether candidates predict stretches that took no part in fitting them.",
-            self::error(situation.after)
-        ));
-    }
-    for one in situation.additions {
-        reasons.push(evidence(
-            &spoken(one.effect),
-            one.heldout_gain,
-            one.p_family,
-            situation,
-        ));
-    }
-    if let (Some(chosen), Some(first)) = (situation.chosen, situation.ranking.first()) {
-        reasons.push(evidence(
-            &spoken(chosen.effect),
-            first.heldout_gain,
-            first.p_family,
-            situation,
-        ));
-        reasons.push(format!("Its size: {}.", sizes(&first.parameters)));
-        let twins = twins(situation);
-        if !twins.is_empty() {
-            reasons.push(format!(
-                "These data cannot tell it from {}; they are named together.",
-                joined(&twins)
-            ));
-        }
-    }
-    for trend in TRENDS {
-        let supported = |one: &&RankedEffect| {
-            one.effect == trend.name && one.p_family <= situation.settings.level
-        };
-        if let Some(found) = situation.ranking.iter().find(supported) {
-            reasons.push(format!(
-                "Beside the misfit, mass, damping or stiffness drift with the tightening's number ({}): {}.",
-                trend.name,
-                sizes(&found.parameters)
-            ));
-        }
-    }
+    let mut reasons = vec![what_is_left(situation)];
+    reasons.extend(situation.additions.iter().map(|one| {
+        let name = spoken(one.effect);
+        evidence(&name, one.heldout_gain, one.p_family, situation)
+    }));
+    reasons.extend(what_speaks_for_the_chosen(situation));
+    reasons.extend(trends(situation));
     reasons.extend(situation.corrected.iter().map(correction));
     if !situation.impossible.is_empty() {
-        let names: Vec<String> = situation
-            .impossible
-            .iter()
-            .map(|&effect| spoken(effect))
-            .collect();
+        let names = situation.impossible.iter().map(|&effect| spoken(effect));
         reasons.push(format!(
             "Not tried, because this rig cannot be simulated with sizes meant for a hand on a tool: {}.",
-            joined(&names)
+            joined(&names.collect::<Vec<_>>())
         ));
     }
-    if situation.verdict == Verdict::Undecided
-        && situation.verb != "compare"
-        && let Some(first) = situation.ranking.first()
-    {
-        let times = (4.0 / first.score.max(0.5)).powi(2);
-        let decided_by = match situation.units.are_whole() {
-            true => format!(
-                "About {} tightenings like these would decide.",
-                (times * situation.tightenings as f64 / 4.0).ceil() * 4.0
-            ),
-            false => format!(
-                "A record about {:.0} times as long, or several of them, would decide.",
-                times.ceil().max(2.0)
-            ),
-        };
+    reasons.extend(what_would_decide(situation));
+    reasons
+}
+
+fn what_is_left(situation: &Situation<'_>) -> String {
+    let (tightenings, error) = (situation.tightenings, situation.after.error());
+    if !situation.after.is_weighted {
+        return format!(
+            "The noise of this signal is not known, so the error ({}) is judged by whether candidates predict stretches that took no part in fitting them.",
+            self::error(situation.after)
+        );
+    }
+    match error < AT_FLOOR {
+        true => format!(
+            "Over {tightenings} tightenings the model's error is {error:.3} times the sensor noise measured in the quiet part before each pulse; 1 means that only noise is left."
+        ),
+        false => format!(
+            "Over {tightenings} tightenings the model's error is {error:.2} times the sensor noise measured in the quiet part before each pulse; with a complete model it would be 1."
+        ),
+    }
+}
+
+fn what_speaks_for_the_chosen(situation: &Situation<'_>) -> Vec<String> {
+    let (Some(chosen), Some(first)) = (situation.chosen, situation.ranking.first()) else {
+        return Vec::new();
+    };
+    let name = spoken(chosen.effect);
+    let mut reasons = vec![
+        evidence(&name, first.heldout_gain, first.p_family, situation),
+        format!("Its size: {}.", sizes(&first.parameters)),
+    ];
+    let twins = twins(situation);
+    if !twins.is_empty() {
         reasons.push(format!(
-            "The best candidate is {} (chance alone does as well in {} of 100 campaigns). {decided_by}",
-            first.effect.replace('_', " "),
-            (first.p_family * 100.0).ceil(),
+            "These data cannot tell it from {}; they are named together.",
+            joined(&twins)
         ));
     }
     reasons
+}
+
+fn trends(situation: &Situation<'_>) -> impl Iterator<Item = String> {
+    let supported = |name: &str| {
+        let mut ranking = situation.ranking.iter();
+        ranking.find(|one| one.effect == name && one.p_family <= situation.settings.level)
+    };
+    TRENDS.iter().filter_map(move |trend| {
+        Some(format!(
+            "Beside the misfit, mass, damping or stiffness drift with the tightening's number ({}): {}.",
+            trend.name,
+            sizes(&supported(trend.name)?.parameters)
+        ))
+    })
+}
+
+fn what_would_decide(situation: &Situation<'_>) -> Option<String> {
+    if situation.verdict != Verdict::Undecided || situation.verb == "compare" {
+        return None;
+    }
+    let first = situation.ranking.first()?;
+    let times = (4.0 / first.score.max(0.5)).powi(2);
+    let decided_by = match situation.units.are_whole() {
+        true => format!(
+            "About {} tightenings like these would decide.",
+            (times * situation.tightenings as f64 / 4.0).ceil() * 4.0
+        ),
+        false => format!(
+            "A record about {:.0} times as long, or several of them, would decide.",
+            times.ceil().max(2.0)
+        ),
+    };
+    Some(format!(
+        "The best candidate is {} (chance alone does as well in {} of 100 campaigns). {decided_by}",
+        first.effect.replace('_', " "),
+        (first.p_family * 100.0).ceil(),
+    ))
 }
 
 /// What preparation took out; where that is the rule and not the exception, with what to check.
