@@ -57,6 +57,13 @@ pub struct EffectParameter {
     pub maximum: f64,
 }
 
+impl EffectParameter {
+    /// Whether its value lies where one expects it.
+    pub fn is_plausible(&self) -> bool {
+        (self.minimum..=self.maximum).contains(&self.value)
+    }
+}
+
 /// An effect as a candidate for what the model lacks.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RankedEffect {
@@ -85,7 +92,7 @@ pub struct RankedEffect {
     pub behind_first: f64,
     /// Effects that these data cannot tell from it.
     pub twins: Vec<String>,
-    /// Whether its size is physically plausible: every estimate within its range, none on a bound.
+    /// Whether its size is physically plausible: the fit settled, every estimate within its range.
     pub plausible: bool,
     /// What it is, how it shows, what to check at the bench: sentences for a tool engineer.
     pub explanation: Vec<String>,

@@ -303,9 +303,7 @@ impl Examination<'_> {
             behind_first: first.map_or(0.0, |first| first.ahead_of(candidate)),
             twins: twins.iter().map(|twin| twin.name().to_owned()).collect(),
             plausible: candidate.fitted.converged
-                && sizes
-                    .iter()
-                    .all(|s| s.value > s.minimum && s.value < s.maximum),
+                && sizes.iter().all(EffectParameter::is_plausible),
             explanation: wording::explanation(candidate.effect),
             parameters: sizes,
         }

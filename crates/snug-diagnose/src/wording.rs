@@ -78,13 +78,12 @@ fn size(parameter: &EffectParameter) -> String {
         (Some(low), Some(high)) => format!(" ({} to {})", number(low), number(high)),
         _ => " (no interval)".to_owned(),
     };
-    let (minimum, maximum) = (parameter.minimum, parameter.maximum);
-    let beyond = match (minimum..=maximum).contains(&parameter.value) {
+    let beyond = match parameter.is_plausible() {
         true => String::new(),
         false => format!(
             ", beyond the plausible {} to {}",
-            number(minimum),
-            amount(maximum, &parameter.unit)
+            number(parameter.minimum),
+            amount(parameter.maximum, &parameter.unit)
         ),
     };
     let own = match parameter.spread {

@@ -1,6 +1,6 @@
 use super::size::{self, sized};
 use super::{Page, called, shortened};
-use snug_campaign::{Diagnosis, RankedEffect, Verdict};
+use snug_campaign::{Diagnosis, EffectParameter, RankedEffect, Verdict};
 
 /// Candidates shown; the report lists all. Behind the very first, neither terms in no catalogue nor what could be chance.
 const CANDIDATES: usize = 8;
@@ -79,8 +79,13 @@ fn row(page: &mut Page, candidate: &RankedEffect, with_twins: bool) {
         size::p_value(candidate.p_family)
     );
     let mut sizes: Vec<String> = candidate.parameters.iter().map(sized).collect();
-    if !candidate.plausible && candidate.parameters.iter().all(size::is_plausible) {
-        sizes.push("these data do not determine it".into());
+    if !candidate.plausible
+        && candidate
+            .parameters
+            .iter()
+            .all(EffectParameter::is_plausible)
+    {
+        sizes.push("the fit did not settle".into());
     }
     page.paragraph(&lead, &sizes.join("; "));
     if with_twins && !candidate.twins.is_empty() {

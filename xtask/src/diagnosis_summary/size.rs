@@ -38,7 +38,7 @@ pub fn sized(parameter: &EffectParameter) -> String {
         "" => &parameter.name,
         meaning => meaning,
     };
-    let beyond = match is_plausible(parameter) {
+    let beyond = match parameter.is_plausible() {
         true => String::new(),
         false => format!(
             ", beyond the plausible {} to {}",
@@ -58,11 +58,6 @@ fn limit(value: f64) -> String {
         true => format!("{value}"),
         false => format!("{value:e}"),
     }
-}
-
-/// Whether it lies where one expects it on a hand and a tool.
-pub fn is_plausible(parameter: &EffectParameter) -> bool {
-    (parameter.minimum..=parameter.maximum).contains(&parameter.value)
 }
 
 /// As many decimals as half the interval supports with two digits; a power of ten where the value needs one.

@@ -212,7 +212,7 @@ fn evidence(candidate: &RankedEffect, with_twins: bool, result: &CampaignResult)
                 li { "These data cannot tell it from " (effect_names(&candidate.twins)) "." }
             }
             @if !candidate.plausible {
-                li { "Its size is not within the plausible range, which speaks against it." }
+                li { "Its size is beyond what is plausible, or its fit did not settle: that speaks against it." }
             }
             @for parameter in &candidate.parameters {
                 li { (parameter_name(&parameter.meaning, &parameter.name, result)) ": plausible from " (significant(parameter.minimum, 3)) " to " (significant(parameter.maximum, 3)) " " (crate::effect_words::unit_text(&parameter.unit)) "." }

@@ -5,7 +5,7 @@ use crate::effect_words::{
 use crate::number::{fixed, percent, significant};
 use maud::{Markup, html};
 use snug_campaign::{
-    AddedEffect, CampaignResult, CorrectedEffect, Diagnosis, RankedEffect, Verdict,
+    AddedEffect, CampaignResult, CorrectedEffect, Diagnosis, EffectParameter, RankedEffect, Verdict,
 };
 
 /// What is missing in the model, in one sentence, and why.
@@ -74,9 +74,20 @@ fn added(effect: &AddedEffect, result: &CampaignResult) -> Markup {
             @if !effect.twins.is_empty() {
                 p.attention { "These data cannot tell it from " strong { (effect_names(&effect.twins)) } "." }
             }
+            (implausible(&effect.parameters))
             @if !effect.explanation.is_empty() {
                 ul { @for line in &effect.explanation { li { (sentence(line)) } } }
             }
+        }
+    }
+}
+
+/// What to make of sizes that one would not expect.
+fn implausible(parameters: &[EffectParameter]) -> Markup {
+    html! {
+        @for one in parameters.iter().filter(|one| !one.is_plausible()) {
+            p.attention { "Plausible is " (significant(one.minimum, 3)) " to " (significant(one.maximum, 3)) " " (unit_text(&one.unit))
+                ": something else that acts alike may hide behind a size beyond it." }
         }
     }
 }
@@ -125,7 +136,7 @@ fn candidate(one: &RankedEffect, result: &CampaignResult) -> Markup {
             p { "It removes " strong { (share_with_error(one.heldout_gain, one.heldout_gain_error)) }
                 " of the misfit in tightenings that its size was not fitted to." }
             p { "How sure: " (by_chance(one.p_family)) "." }
-            @if !one.plausible { p.attention { "Its size is not within what is plausible for a hand on a tool." } }
+            (implausible(&one.parameters))
             @if !one.explanation.is_empty() {
                 ul { @for line in &one.explanation { li { (sentence(line)) } } }
             }
