@@ -5,10 +5,12 @@ use crate::column::Column;
 use crate::fitted::Fitted;
 use crate::hypothesis::{Hypothesis, Start};
 use crate::long_record;
+use crate::sizes::first_parameter;
 use crate::units::Units;
 use crate::{Case, DiagnoseError, DiagnoseSettings};
 use snug_identify::{IdentifyError, PooledFit, PooledSettings};
 use snug_model::{BASE_PARAMETERS, Effect, Law, Scope};
+use snug_statistics::descriptive::median;
 
 /// When the refit of a candidate stops: its gain is then known to a fraction of what chance does. An effect that is not
 /// there leaves its timing undetermined, and a strict fit would follow that for long.
@@ -148,7 +150,10 @@ fn catch_up(
     let errors: Vec<f64> = (end.profiles.iter().enumerate())
         .map(|(member, one)| (2.0 * one.cost / hypothesis.residual_count(member) as f64).sqrt())
         .collect();
-    let limit = LEFT_BEHIND * median(errors.clone());
+    let Ok(usual) = median(&errors) else {
+        return Ok(end);
+    };
+    let limit = LEFT_BEHIND * usual;
     let (behind, ahead): (Vec<usize>, Vec<usize>) =
         (0..errors.len()).partition(|&member| errors[member] > limit);
     if behind.is_empty() {
@@ -189,7 +194,8 @@ fn astray(hypothesis: &Hypothesis<'_>, with: &[Vec<f64>], without: &[Vec<f64>]) 
         .map(|(column, &index)| match index < BASE_PARAMETERS.len() {
             true => {
                 let pairs = with.iter().zip(without);
-                median(pairs.map(|(a, b)| a[column] / b[column]).collect())
+                let factors: Vec<f64> = pairs.map(|(a, b)| a[column] / b[column]).collect();
+                median(&factors).unwrap_or(1.0)
             }
             false => 1.0,
         })
@@ -201,11 +207,6 @@ fn times(own: &mut [f64], factors: &[f64]) {
     pairs.for_each(|(own, factor)| *own *= factor);
 }
 
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values[values.len() / 2]
-}
-
 /// The current fit with one effect's parameters at `values`.
 fn with_effect(
     hypothesis: &Hypothesis<'_>,
@@ -214,12 +215,7 @@ fn with_effect(
     values: &[f64],
 ) -> Start {
     let mut start = current.start(hypothesis);
-    let before: usize = current
-        .effects
-        .iter()
-        .map(|effect| effect.description().parameters.len())
-        .sum();
-    let first = BASE_PARAMETERS.len() + before;
+    let first = first_parameter(&hypothesis.effects, effect);
     for (offset, (&value, spec)) in values
         .iter()
         .zip(effect.description().parameters)

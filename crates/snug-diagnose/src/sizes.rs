@@ -4,7 +4,7 @@ use crate::Case;
 use crate::dense::dot;
 use crate::fitted::Fitted;
 use snug_campaign::EffectParameter;
-use snug_model::{Effect, Law, Model, ParameterSpec, Scope};
+use snug_model::{BASE_PARAMETERS, Effect, Law, Model, ParameterSpec, Scope};
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
 /// Every parameter of one of the model's effects.
@@ -62,11 +62,12 @@ pub(crate) fn described(spec: &ParameterSpec) -> EffectParameter {
 }
 
 /// Index of an effect's first parameter in a model that has `effects`.
-fn first_parameter(effects: &[Effect], effect: Effect) -> usize {
+pub(crate) fn first_parameter(effects: &[Effect], effect: Effect) -> usize {
     let before = effects.iter().take_while(|known| **known != effect);
-    3 + before
-        .map(|known| known.description().parameters.len())
-        .sum::<usize>()
+    BASE_PARAMETERS.len()
+        + before
+            .map(|known| known.description().parameters.len())
+            .sum::<usize>()
 }
 
 /// 97.5 % quantile of Student's t with one degree of freedom less than there are units.

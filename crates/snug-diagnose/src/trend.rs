@@ -54,9 +54,7 @@ pub(crate) fn fatigue(drifts: &[Drift], cases: &[Case]) -> Option<RankedEffect> 
         error_over_noise: None,
         behind_first: 0.0,
         twins: Vec::new(),
-        plausible: parameters
-            .iter()
-            .all(|slope| slope.value > slope.minimum && slope.value < slope.maximum),
+        plausible: parameters.iter().all(EffectParameter::is_plausible),
         explanation: wording::described(description),
         parameters,
     })
