@@ -3,8 +3,10 @@
 use crate::campaign::{embedded, run_study, study_file, study_on};
 use snug_campaign::{Finding, Severity};
 use snug_model::ParameterSettings;
-use snug_study::{Outcome, Preset, Study, StudyError};
+use snug_study::{Outcome, Preset, RunSettings, Study, StudyError, Verb, diagnose};
+use snug_synthetic::{CampaignPlan, Fault, MatStyle, PlannedFault, simulate};
 use std::path::Path;
+use std::sync::atomic::AtomicBool;
 use tempfile::TempDir;
 
 const GOOD: &str = "TP1_QS_Soft_5_01.mat";
@@ -98,6 +100,40 @@ fn zero_torque_and_nan_are_named() {
     ] {
         assert_eq!(left_out(&outcome, file).len(), 1, "{file}");
     }
+}
+
+/// Where the acceleration at rest was not logged, its noise is unknown: the other tightenings are still judged by theirs.
+#[test]
+fn a_tightening_without_a_measured_noise_does_not_take_the_others_theirs() {
+    let mut plan = CampaignPlan::of_size(2, 4);
+    plan.faults.push(PlannedFault {
+        file: 1,
+        tightening: 2,
+        fault: Fault::SilentRest,
+    });
+    let folder = tempfile::tempdir().unwrap();
+    let data = folder.path().join("data");
+    let campaign = simulate(&plan, 5).unwrap();
+    campaign.write(&data, MatStyle::default()).unwrap();
+    let settings = RunSettings {
+        out: folder.path().join("out"),
+        threads: None,
+    };
+    let study = Study::on(data);
+    let never = AtomicBool::new(false);
+    let outcome = diagnose(&study, &Verb::Compare, &settings, &|_| (), &never).unwrap();
+    assert_eq!(outcome.result.tightenings.len(), 8, "nothing is lost");
+    let diagnosis = outcome.result.diagnosis.unwrap();
+    assert_eq!(diagnosis.tightenings, 7);
+    assert!(diagnosis.ladder[0].error_over_noise.is_some());
+    let said = diagnosis
+        .reasons
+        .iter()
+        .find(|r| r.contains("took no part"));
+    let said = said.expect("the diagnosis says that one is missing");
+    assert!(said.contains("1 of 8"), "{said}");
+    let mut findings = outcome.result.findings.iter();
+    assert!(findings.any(|finding| finding.code == "silent_quiet_part"));
 }
 
 #[test]

@@ -32,6 +32,11 @@ impl Case {
         Whitening::of(&self.tightening, self.quantity)
     }
 
+    /// Whether residuals of the compared output can be told in multiples of its measured noise.
+    pub fn has_noise(&self) -> bool {
+        self.whitening().is_some()
+    }
+
     /// Whether anything can be compared.
     pub fn is_comparable(&self) -> bool {
         self.measured().len() > self.unscored + 100

@@ -1,5 +1,6 @@
 //! Tightenings as the diagnosis takes them.
 
+use crate::comparable::{Comparable, comparable};
 use crate::evaluation::input;
 use crate::{Study, StudyError};
 use rayon::prelude::*;
@@ -9,8 +10,17 @@ use snug_preprocess::preprocess;
 use std::path::{Path, PathBuf};
 
 /// Reads and prepares at most `most` tightenings, evenly spread over the files and within each; tightenings with faulty
-/// data and those kept for validation take no part.
+/// data, those kept for validation and those that cannot be judged by the same measure as the others take no part.
 pub fn cases(study: &Study, files: &[PathBuf], most: usize) -> Result<Vec<Case>, StudyError> {
+    Ok(chosen(study, files, most)?.cases)
+}
+
+/// The same, with what is to be said of those that take no part.
+pub(crate) fn chosen(
+    study: &Study,
+    files: &[PathBuf],
+    most: usize,
+) -> Result<Comparable, StudyError> {
     let stride = files.len().div_ceil(most.max(1)).max(1);
     let some: Vec<&PathBuf> = files.iter().step_by(stride).collect();
     let most_each = (most / some.len().max(1)).max(1);
@@ -28,7 +38,7 @@ pub fn cases(study: &Study, files: &[PathBuf], most: usize) -> Result<Vec<Case>,
         })
         .collect::<Vec<Result<_, StudyError>>>();
     let read = read.into_iter().collect::<Result<Vec<_>, _>>()?;
-    Ok(read.into_iter().flatten().collect())
+    Ok(comparable(read.into_iter().flatten().collect()))
 }
 
 fn cases_of_file(study: &Study, path: &Path) -> Result<Vec<Case>, StudyError> {

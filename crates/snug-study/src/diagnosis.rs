@@ -1,6 +1,7 @@
 //! A study diagnosed: tightenings to the diagnosis, its models back into the study, every rung of the ladder evaluated.
 
-use crate::cases::cases;
+use crate::cases::chosen;
+use crate::comparable::Comparable;
 use crate::evaluation::Evaluated;
 use crate::file_evaluation::evaluate_alone;
 use crate::run::{Outcome, RunSettings, pool, run_with};
@@ -146,7 +147,8 @@ pub fn diagnose(
         what: "reading tightenings",
     });
     let pool = pool(settings.threads)?;
-    let cases = pool.install(|| cases(study, &listing.files, study.diagnosis.most_tightenings))?;
+    let most = study.diagnosis.most_tightenings;
+    let Comparable { cases, remark } = pool.install(|| chosen(study, &listing.files, most))?;
     if interrupted.load(Ordering::Relaxed) {
         return Err(StudyError::Interrupted);
     }
@@ -156,9 +158,8 @@ pub fn diagnose(
     let settled = pool.install(|| settle(study, &cases));
     let (study, cases, remarks) = match &settled {
         Some(Settled { study, remarks }) => {
-            let most = study.diagnosis.most_tightenings;
-            let cases = pool.install(|| self::cases(study, &listing.files, most))?;
-            (study, cases, remarks.as_slice())
+            let again = pool.install(|| chosen(study, &listing.files, most))?;
+            (study, again.cases, remarks.as_slice())
         }
         None => (study, cases, [].as_slice()),
     };
@@ -182,6 +183,7 @@ pub fn diagnose(
         answer => answer?,
     };
     answer.diagnosis.reasons.extend_from_slice(remarks);
+    answer.diagnosis.reasons.extend(remark);
     drop(cases);
     let (last, diagnosis) =
         pool.install(|| climb(study, answer, &listing.files, progress, interrupted))?;

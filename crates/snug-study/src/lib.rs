@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 mod cases;
+mod comparable;
 mod diagnosis;
 mod error;
 mod evaluation;

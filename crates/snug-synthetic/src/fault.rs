@@ -21,6 +21,8 @@ pub enum Fault {
     SaturatedTorque,
     /// 5 ms of acceleration are missing (NaN) 50 ms into the window.
     Gap,
+    /// The acceleration before the window was not logged, but filled up with zeros.
+    SilentRest,
 }
 
 impl Fault {
@@ -32,6 +34,7 @@ impl Fault {
             Self::DoubleHit => "double_hit",
             Self::SaturatedTorque => "saturated_torque",
             Self::Gap => "gap",
+            Self::SilentRest => "silent_rest",
         }
     }
 
@@ -40,7 +43,7 @@ impl Fault {
         match self {
             Self::NoPulse => Vec::new(),
             Self::DoubleHit => vec![pulse, pulse.repeated(SECOND_HIT_AFTER_S, 0.6)],
-            Self::Truncated | Self::SaturatedTorque | Self::Gap => vec![pulse],
+            Self::Truncated | Self::SaturatedTorque | Self::Gap | Self::SilentRest => vec![pulse],
         }
     }
 
@@ -64,6 +67,7 @@ impl Fault {
                 let length = acceleration_rad_per_s2.len();
                 acceleration_rad_per_s2[at(0.05).min(length)..at(0.055).min(length)].fill(f64::NAN);
             }
+            Self::SilentRest => acceleration_rad_per_s2[..window].fill(0.0),
             Self::NoPulse | Self::Truncated | Self::DoubleHit => {}
         }
     }

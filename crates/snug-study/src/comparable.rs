@@ -1,0 +1,48 @@
+//! Tightenings that can be judged together: one output, and either all against their measured noise or none.
+
+use snug_campaign::Quantity;
+use snug_diagnose::Case;
+
+/// Tightenings that are judged by one measure.
+pub(crate) struct Comparable {
+    pub cases: Vec<Case>,
+    /// Why others take no part; nothing where all do.
+    pub remark: Option<String>,
+}
+
+/// The largest group of tightenings that have the compared output and a known (or unknown) noise in common; of equals,
+/// the one whose noise is known.
+///
+/// A pooled residual has one unit: multiples of the noise, or the output's own. One tightening whose noise could not be
+/// measured would take that unit away from all.
+pub(crate) fn comparable(cases: Vec<Case>) -> Comparable {
+    let measure = |case: &Case| (case.quantity, case.has_noise());
+    let alike = |wanted| cases.iter().filter(|case| measure(case) == wanted).count();
+    let largest = cases
+        .iter()
+        .map(measure)
+        .max_by_key(|&one| (alike(one), one.1));
+    let all = cases.len();
+    let kept: Vec<Case> = (cases.into_iter())
+        .filter(|case| Some(measure(case)) == largest)
+        .collect();
+    let remark = match (largest, all - kept.len()) {
+        (None, _) | (_, 0) => None,
+        (Some(measure), left_out) => Some(remark(left_out, all, measure)),
+    };
+    Comparable {
+        cases: kept,
+        remark,
+    }
+}
+
+fn remark(left_out: usize, all: usize, (quantity, has_noise): (Quantity, bool)) -> String {
+    let measure = match has_noise {
+        true => format!("{} in multiples of its measured noise", quantity.name()),
+        false => format!("{} without a measured noise", quantity.name()),
+    };
+    format!(
+        "{left_out} of {all} tightenings took no part in the diagnosis: all must be judged by one measure, here {measure}, and that could not be had of {}. findings.json says why.",
+        if left_out == 1 { "this one" } else { "these" }
+    )
+}
