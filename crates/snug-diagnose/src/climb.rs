@@ -148,6 +148,9 @@ fn noise(fitted: &Fitted, count: usize) -> f64 {
 /// Standard deviations within which two candidates explain equally much.
 pub(crate) const EQUAL: f64 = 2.0;
 
+/// Share of what a candidate explains that another must explain, too, to be its twin.
+const AS_MUCH: f64 = 0.5;
+
 /// Supported candidates that these data cannot tell from the one at `index`.
 pub(crate) fn twins(ranking: &Ranking, index: usize) -> Vec<Effect> {
     let chosen = &ranking.candidates[index];
@@ -158,6 +161,7 @@ pub(crate) fn twins(ranking: &Ranking, index: usize) -> Vec<Effect> {
             other.effect != chosen.effect
                 && !is_unlisted(other.effect)
                 && other.gains_clearly()
+                && other.gain() > AS_MUCH * chosen.gain()
                 && chosen.ahead_of(other).abs() < EQUAL
         })
         .map(|other| other.effect)
