@@ -42,6 +42,27 @@ impl Case {
         self.measured().len() > self.unscored + 100
     }
 
+    /// Its first `samples` samples.
+    pub(crate) fn beginning(&self, samples: usize) -> Self {
+        let mut beginning = self.clone();
+        beginning.input = self.input.beginning(samples);
+        let Tightening {
+            torque_nm, motion, ..
+        } = &mut beginning.tightening;
+        torque_nm.truncate(samples);
+        for quantity in [
+            Quantity::Displacement,
+            Quantity::Velocity,
+            Quantity::Acceleration,
+        ] {
+            if let Some(signal) = motion.get(quantity) {
+                let signal = signal[..samples.min(signal.len())].to_vec();
+                motion.set(quantity, signal);
+            }
+        }
+        beginning
+    }
+
     /// The study's own model with other effects after its own; what the study says of shared parameters stays.
     pub(crate) fn model_with(&self, effects: &[Effect]) -> Result<Model, DiagnoseError> {
         let mut model = Model::scaled(*self.model.rig(), effects, self.model.scale())?;

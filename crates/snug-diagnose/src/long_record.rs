@@ -6,17 +6,15 @@ use snug_identify::{
     DenseResidual, PooledFit, PooledSettings, Settings, TighteningResidual, convex_set, solve,
 };
 
-/// Samples up to which a record is soon simulated.
+/// Samples of all records together up to which they are soon simulated.
 const SOON: usize = 30_000;
 
-/// Starts of an effect that are tried: twice the usual number where that is soon done, for the cost has more minima.
-pub(crate) fn most_starts(cases: &[Case], settings: &DiagnoseSettings) -> usize {
-    settings.starts * if is_soon_simulated(cases) { 2 } else { 1 }
-}
+/// Share of a record's squared output that its beginning holds, where records take long to simulate.
+const BEGINNING: f64 = 0.125;
 
-fn is_soon_simulated(cases: &[Case]) -> bool {
-    let samples: usize = cases.iter().map(|case| case.measured().len()).sum();
-    samples <= SOON
+/// Starts of an effect that are tried: twice as many as in tightenings, for the cost has more minima.
+pub(crate) fn most_starts(settings: &DiagnoseSettings) -> usize {
+    2 * settings.starts
 }
 
 /// When the trial of one start stops.
@@ -25,8 +23,9 @@ const ROUGH: PooledSettings = PooledSettings {
     cost_tolerance: 1e-3,
 };
 
-/// Fits from each of `starts`, and with their sizes (those of the best alone where the record is long to simulate) from
-/// where the study's own mass, damping and stiffness begin; the lowest cost goes on to the end.
+/// Fits from each of `starts`, and with their sizes from where the study's own mass, damping and stiffness begin; the
+/// lowest cost goes on to the end. Where the records take long to simulate, all but the last of that is done on their
+/// beginnings.
 ///
 /// A model without the effect may have been led far off by what it lacks, to where no step leads back.
 pub(crate) fn best_of(
@@ -34,37 +33,55 @@ pub(crate) fn best_of(
     starts: &[Start],
     settings: &PooledSettings,
 ) -> Result<PooledFit, DiagnoseError> {
-    let mut best: Option<PooledFit> = None;
-    let mut refused = None;
-    let mut attempt =
-        |hypothesis: &mut Hypothesis<'_>, start: &Start| match hypothesis.fit(start, &ROUGH) {
-            Ok(end) if best.as_ref().is_none_or(|b| end.cost() < b.cost()) => {
-                best = Some(end);
-                true
-            }
-            Ok(_) => false,
-            Err(error) => {
-                refused = Some(error);
-                false
-            }
-        };
-    let begins_afresh = is_soon_simulated(&hypothesis.cases);
+    let samples: usize = (hypothesis.cases.iter())
+        .map(|case| case.measured().len())
+        .sum();
+    if samples <= SOON {
+        return lowest(hypothesis, starts, settings);
+    }
+    let beginnings: Vec<Case> = hypothesis.cases.iter().map(beginning).collect();
+    let mut there = Hypothesis::new(hypothesis.cases.others(&beginnings), &hypothesis.effects)?;
+    let start = Start::at(&lowest(&mut there, starts, settings)?);
+    hypothesis.fit(&start, settings)
+}
+
+/// What comes first and holds enough of the motion.
+fn beginning(record: &Case) -> Case {
+    let measured = record.measured();
+    let squares = |samples: &[f64]| samples.iter().map(|y| y * y).sum::<f64>();
+    let enough = BEGINNING * squares(&measured[record.unscored..]);
+    let mut sum = 0.0;
+    let more = measured[record.unscored..].iter().take_while(|&&y| {
+        sum += y * y;
+        sum < enough
+    });
+    record.beginning(record.unscored + more.count().max(SHORTEST))
+}
+
+/// Fewest scored samples of a beginning.
+const SHORTEST: usize = 1000;
+
+fn lowest(
+    hypothesis: &mut Hypothesis<'_>,
+    starts: &[Start],
+    settings: &PooledSettings,
+) -> Result<PooledFit, DiagnoseError> {
     let own = hypothesis.usual_start().own;
     let afresh = |start: &Start| Start {
         own: own.clone(),
         shared: start.shared.clone(),
     };
-    let mut leading = None;
-    for start in starts {
-        if attempt(hypothesis, start) {
-            leading = Some(start);
+    let mut best: Option<PooledFit> = None;
+    let mut refused = None;
+    for start in starts
+        .iter()
+        .flat_map(|start| [start.clone(), afresh(start)])
+    {
+        match hypothesis.fit(&start, &ROUGH) {
+            Ok(end) if best.as_ref().is_none_or(|b| end.cost() < b.cost()) => best = Some(end),
+            Ok(_) => {}
+            Err(error) => refused = Some(error),
         }
-        if begins_afresh {
-            attempt(hypothesis, &afresh(start));
-        }
-    }
-    if let (Some(leader), false) = (leading, begins_afresh) {
-        attempt(hypothesis, &afresh(leader));
     }
     let Some(best) = best else {
         let none = || snug_identify::IdentifyError::NoStart.into();

@@ -7,7 +7,7 @@ use crate::hypothesis::{Hypothesis, Start};
 use crate::long_record;
 use crate::sizes::first_parameter;
 use crate::units::Units;
-use crate::{Case, DiagnoseError, DiagnoseSettings};
+use crate::{DiagnoseError, DiagnoseSettings};
 use snug_identify::{IdentifyError, PooledFit, PooledSettings};
 use snug_model::{BASE_PARAMETERS, Effect, Law, Scope};
 use snug_statistics::descriptive::median;
@@ -67,7 +67,7 @@ pub(crate) fn refit(
 ) -> Result<Fitted, DiagnoseError> {
     let mut effects = current.effects.clone();
     effects.push(effect);
-    let starts = promising(effect, columns, most_starts(&cases, &units, settings));
+    let starts = promising(effect, columns, most_starts(&units, settings));
     let mut hypothesis = Hypothesis::new(cases, &effects)?;
     let starts: Vec<Start> = (starts.iter())
         .map(|values| with_effect(&hypothesis, current, effect, values))
@@ -85,10 +85,10 @@ pub(crate) fn refit(
     Ok(Fitted::new(&hypothesis, end, &units))
 }
 
-fn most_starts(cases: &[Case], units: &Units, settings: &DiagnoseSettings) -> usize {
+fn most_starts(units: &Units, settings: &DiagnoseSettings) -> usize {
     match units.are_whole() {
         true => settings.starts,
-        false => long_record::most_starts(cases, settings),
+        false => long_record::most_starts(settings),
     }
 }
 
@@ -106,14 +106,14 @@ fn promising(effect: Effect, columns: &[Column], most: usize) -> Vec<&[f64]> {
     starts
 }
 
-/// Fits what is seen from ever nearer.
+/// Fits what is seen from ever nearer; what is only a place to go on from is fitted roughly.
 fn from_afar(
     hypothesis: &mut Hypothesis<'_>,
     start: &Start,
     settings: &PooledSettings,
 ) -> Result<PooledFit, DiagnoseError> {
-    let afar = hypothesis.fit_blurred(start, settings, AFAR)?;
-    let nearby = hypothesis.fit_blurred(&Start::at(&afar), settings, NEARBY)?;
+    let afar = hypothesis.fit_blurred(start, &ROUGH, AFAR)?;
+    let nearby = hypothesis.fit_blurred(&Start::at(&afar), &ROUGH, NEARBY)?;
     hypothesis.fit(&Start::at(&nearby), settings)
 }
 

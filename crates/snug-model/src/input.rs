@@ -97,6 +97,19 @@ impl Input {
         }
     }
 
+    /// The same input up to its `samples`-th sample.
+    pub fn beginning(&self, samples: usize) -> Self {
+        let samples = samples.min(self.samples);
+        let points = samples.saturating_sub(1) * self.substeps + 1;
+        Self {
+            grid: self.grid[..points.min(self.grid.len())].to_vec(),
+            samples,
+            between: OnceLock::new(),
+            slopes: OnceLock::new(),
+            ..self.clone()
+        }
+    }
+
     /// States for how long \[s\] before the first sample the sensor's signal was already being integrated.
     pub fn with_rest_before(mut self, rest_before_s: f64) -> Self {
         self.rest_before_s = rest_before_s;
@@ -331,6 +344,19 @@ mod tests {
             (there - 1.0).abs() < 0.03 && (shifted / there - 1.0).abs() < 0.02,
             "{there} {shifted}"
         );
+    }
+
+    #[test]
+    fn a_beginning_ends_on_its_last_sample() {
+        let samples = noise(400);
+        for intersample in [Intersample::Linear, Intersample::BandLimited] {
+            let whole = Input::new(&samples, 0.01, intersample);
+            let beginning = whole.beginning(100);
+            assert_eq!(beginning.samples(), 100);
+            let points = beginning.grid_nm();
+            assert_eq!(points.len(), 99 * whole.substeps() + 1);
+            assert_eq!(points, &whole.grid_nm()[..points.len()]);
+        }
     }
 
     /// The slope at a sample says nothing about that sample's noise, so that a small delay cannot take it away.
