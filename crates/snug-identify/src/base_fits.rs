@@ -65,14 +65,13 @@ impl LaneTask for SideBySide<'_, '_, '_, '_> {
         let mut lanes: Vec<_> = (0..R::LANES).map(|_| None).collect();
         let mut values = vec![[0.0; 3]; R::LANES];
         loop {
-            let mut loaded = Vec::new();
             for (lane, occupant) in lanes.iter_mut().enumerate() {
                 if occupant.is_none() {
                     *occupant = waiting
                         .by_ref()
                         .find_map(|fit| Some((fit.begin(self.settings)?, fit)));
                     match occupant {
-                        Some((_, fit)) => loaded.push((lane, fit.residual.scored())),
+                        Some((_, fit)) => sweep.load(lane, fit.residual.scored()),
                         None => sweep.unload(lane),
                     }
                 }
@@ -80,7 +79,6 @@ impl LaneTask for SideBySide<'_, '_, '_, '_> {
                     values[lane] = fit.values(search);
                 }
             }
-            sweep.load(loaded.iter().map(|(lane, record)| (*lane, record)));
             if lanes.iter().all(Option::is_none) {
                 return;
             }

@@ -1,11 +1,11 @@
 //! The noise in base-model fits, asked about for as many tightenings side by side as vector registers hold.
 
 use crate::dense::{chosen, chosen_square};
-use crate::integrated_noise::{drift, to_source};
-use crate::residual_noise::{Evidence, Inquiry, OwnedNoise, STRETCHES};
-use crate::{Fit, Residual, Subject, TighteningResidual, Whitening};
+use crate::integrated_noise::{IntegratedNoise, drift, to_source};
+use crate::residual_noise::{Evidence, Inquiry, OwnedNoise, STRETCHES, Source};
+use crate::{Fit, Residual, Subject, TighteningResidual};
 use snug_campaign::Quantity;
-use snug_model::{LaneTask, NormalEquations, Real, Sweep, Task, in_lanes};
+use snug_model::{LaneTask, NormalEquations, Real, ScoredRecord, Sweep, Task, in_lanes};
 
 /// A base-model fit whose noise is asked about.
 pub(crate) struct Settled<'r, 'a> {
@@ -20,27 +20,20 @@ pub(crate) struct Settled<'r, 'a> {
 /// Answers for all of them.
 pub(crate) fn ask_all(fits: &mut [Settled<'_, '_>], quantity: Quantity) {
     let values: Vec<[f64; 3]> = fits.iter_mut().map(Settled::values).collect();
-    let mean_squares = mean_squares(fits, &values);
-    let inquiries: Vec<Inquiry> = (fits.iter().zip(&mean_squares))
-        .map(|(fit, &square)| Inquiry::new(fit.residual, fit.subject, square))
+    let inquiries: Vec<Inquiry> = (fits.iter())
+        .map(|fit| Inquiry::new(fit.residual, fit.subject, fit.fit))
         .collect();
     let mut evidence: Vec<Evidence> = fits.iter().map(Settled::at_hand).collect();
-    let which = |asks: fn(&Inquiry) -> bool| -> Vec<usize> {
-        let places = 0..inquiries.len();
-        places.filter(|&place| asks(&inquiries[place])).collect()
-    };
-    for (places, search) in [
-        (which(Inquiry::asks_scores), Search::Scores),
-        (
-            which(|inquiry| inquiry.integrated().is_some()),
-            Search::Source,
-        ),
-    ] {
+    for search in [Search::Scores, Search::Source] {
+        let places: Vec<usize> = (0..fits.len())
+            .filter(|&place| search.is_asked_by(&inquiries[place]))
+            .collect();
         let swept: Vec<Swept<'_, '_>> = (places.iter())
             .map(|&place| Swept {
                 residual: fits[place].residual,
+                acceleration: fits[place].acceleration(),
                 values: values[place],
-                inquiry: Some(&inquiries[place]),
+                inquiry: &inquiries[place],
             })
             .collect();
         for (place, answer) in places.iter().zip(sweep_all(&swept, quantity, search)) {
@@ -53,11 +46,16 @@ pub(crate) fn ask_all(fits: &mut [Settled<'_, '_>], quantity: Quantity) {
     }
 }
 
-impl Settled<'_, '_> {
+impl<'a> Settled<'_, 'a> {
     /// m, c, k of the fit.
     fn values(&mut self) -> [f64; 3] {
         let all = self.residual.all_values(&self.fit.values);
         [all[0], all[1], all[2]]
+    }
+
+    /// The measured acceleration.
+    fn acceleration(&self) -> Option<&'a [f64]> {
+        (self.subject.tightening.motion).get(Quantity::Acceleration)
     }
 
     /// What the last sweep of the fit tells already.
@@ -71,82 +69,50 @@ impl Settled<'_, '_> {
     }
 }
 
-/// Mean square of the whitened residual of the quantity whose noise is known.
-fn mean_squares(fits: &[Settled<'_, '_>], values: &[[f64; 3]]) -> Vec<Option<f64>> {
-    let count = |fit: &Settled<'_, '_>| fit.fit.residual_count as f64;
-    let mut squares: Vec<Option<f64>> = (fits.iter())
-        .map(|fit| {
-            Some(fit.fit.sum_of_squares() / count(fit)).filter(|_| fit.residual.is_whitened())
-        })
-        .collect();
-    for quantity in [
-        Quantity::Displacement,
-        Quantity::Velocity,
-        Quantity::Acceleration,
-    ] {
-        let others: Vec<(usize, Whitening)> = (fits.iter().enumerate())
-            .filter(|(_, fit)| !fit.residual.is_whitened())
-            .filter_map(|(place, fit)| {
-                Some((place, Whitening::of(fit.subject.tightening, quantity)?))
-            })
-            .collect();
-        let residuals: Vec<(usize, TighteningResidual<'_>)> = (others.iter())
-            .filter_map(|(place, whitening)| {
-                let Subject {
-                    model,
-                    input,
-                    tightening,
-                } = *fits[*place].subject;
-                let measured = tightening.motion.get(quantity)?;
-                let whitening = Some(whitening);
-                let residual =
-                    TighteningResidual::new(model, input, measured, quantity, whitening, 0);
-                (residual.residual_count() > 0).then_some((*place, residual))
-            })
-            .collect();
-        let swept: Vec<Swept<'_, '_>> = (residuals.iter())
-            .map(|(place, residual)| Swept {
-                residual,
-                values: values[*place],
-                inquiry: None,
-            })
-            .collect();
-        let found = sweep_all(&swept, quantity, Search::Squares);
-        for ((place, residual), answer) in residuals.iter().zip(found) {
-            if let Answer::Squares(sum) = answer {
-                squares[*place] = Some(sum / residual.residual_count() as f64);
-            }
-        }
-    }
-    squares
-}
-
 /// What is looked for in a sweep at the optimum.
 #[derive(Clone, Copy)]
 enum Search {
-    Squares,
     Scores,
     Source,
 }
 
+impl Search {
+    fn is_asked_by(self, inquiry: &Inquiry) -> bool {
+        match self {
+            Self::Scores => inquiry.asks_scores(),
+            Self::Source => inquiry.integrated().is_some(),
+        }
+    }
+}
+
 enum Answer {
-    Squares(f64),
     /// Stretch by stretch, by m, c, k.
     Scores(Vec<[f64; 3]>),
-    /// Inner products and drift, by m, c, k.
-    Source([[f64; 3]; 3], [f64; 3]),
+    /// By m, c, k.
+    Source {
+        products: [[f64; 3]; 3],
+        drift: [f64; 3],
+        mean_square: Option<f64>,
+    },
 }
 
 impl Answer {
     fn add_to(&self, evidence: &mut Evidence, free: &[usize]) {
         match self {
-            Self::Squares(_) => {}
             Self::Scores(scores) => {
                 let scores = scores.iter().flat_map(|score| chosen(score, free));
                 evidence.scores = scores.collect();
             }
-            Self::Source(products, drift) => {
-                evidence.source = (chosen_square(products, free), chosen(drift, free));
+            Self::Source {
+                products,
+                drift,
+                mean_square,
+            } => {
+                evidence.source = Source {
+                    products: chosen_square(products, free),
+                    drift: chosen(drift, free),
+                    mean_square: *mean_square,
+                };
             }
         }
     }
@@ -155,23 +121,38 @@ impl Answer {
 /// One tightening to be swept once.
 struct Swept<'i, 'a> {
     residual: &'i TighteningResidual<'a>,
+    acceleration: Option<&'a [f64]>,
     values: [f64; 3],
-    inquiry: Option<&'i Inquiry>,
+    inquiry: &'i Inquiry,
 }
 
-impl Swept<'_, '_> {
+impl<'a> Swept<'_, 'a> {
     /// Sweeps of one kind of input take the same steps; integrals are as many in every lane.
     fn kind(&self) -> (usize, i32) {
-        let noise = self.inquiry.and_then(Inquiry::integrated);
+        let noise = self.inquiry.integrated();
         let integrations = noise.map_or(0, |noise| noise.integrations);
         (self.residual.substeps(), integrations)
+    }
+
+    /// How long work on it lasts: as long as the noise's colour is deep, and as the record.
+    fn size(&self) -> (usize, usize) {
+        let order = |noise: &IntegratedNoise| noise.whitening.order();
+        let colour = self.inquiry.integrated().map_or(0, order);
+        (colour, self.residual.residual_count())
+    }
+
+    fn record(&self, search: Search) -> ScoredRecord<'a> {
+        match search {
+            Search::Scores => self.residual.scored(),
+            Search::Source => self.residual.beside(self.acceleration),
+        }
     }
 }
 
 /// One answer for each, in their order; one by itself needs no vector registers.
 fn sweep_all(swept: &[Swept<'_, '_>], quantity: Quantity, search: Search) -> Vec<Answer> {
     let mut order: Vec<usize> = (0..swept.len()).collect();
-    order.sort_by_key(|&place| (swept[place].kind(), swept[place].residual.residual_count()));
+    order.sort_by_key(|&place| (swept[place].kind(), swept[place].size()));
     let mut answers: Vec<(usize, Answer)> = Vec::new();
     for alike in order.chunk_by(|&one, &other| swept[one].kind() == swept[other].kind()) {
         let task = SideBySide {
@@ -202,30 +183,21 @@ impl LaneTask for SideBySide<'_, '_, '_> {
         let mut values = vec![[0.0; 3]; R::LANES];
         let substeps = self.swept[0].kind().0;
         let mut sweep = Sweep::new(zero, self.quantity, substeps);
-        let mut rows = Vec::new();
+        let (mut residual, mut rows) = (Vec::new(), Vec::new());
         for group in self.swept.chunks(R::LANES) {
-            let records: Vec<_> = group.iter().map(|one| one.residual.scored()).collect();
-            sweep.load(records.iter().enumerate());
-            for (values, one) in values.iter_mut().zip(group) {
-                *values = one.values;
-            }
             (group.len()..R::LANES).for_each(|lane| sweep.unload(lane));
+            for (lane, one) in group.iter().enumerate() {
+                sweep.load(lane, one.record(self.search));
+                values[lane] = one.values;
+            }
             match self.search {
-                Search::Squares => {
-                    let found = sweep.run(&values).into_iter();
-                    answers.extend(
-                        found
-                            .map(|found| Answer::Squares(found.squares))
-                            .take(group.len()),
-                    );
-                }
                 Search::Scores => {
                     let found = sweep.scores(&values, STRETCHES).into_iter();
                     answers.extend(found.map(Answer::Scores).take(group.len()));
                 }
                 Search::Source => {
-                    sweep.sensitivities(&values, &mut rows);
-                    answers.extend(at_source(zero, &mut rows, group));
+                    sweep.course(&values, &mut residual, &mut rows);
+                    answers.extend(at_source(zero, &residual, &mut rows, group));
                 }
             }
         }
@@ -233,66 +205,116 @@ impl LaneTask for SideBySide<'_, '_, '_> {
     }
 }
 
-/// The sensitivities taken back to where integrated noise comes from.
-fn at_source<R: Real>(zero: R, rows: &mut [[R; 3]], group: &[&Swept<'_, '_>]) -> Vec<Answer> {
+/// What is found at the source of integrated noise.
+fn at_source<R: Real>(
+    zero: R,
+    residual: &[R],
+    rows: &mut [[R; 3]],
+    group: &[&Swept<'_, '_>],
+) -> Vec<Answer> {
     let noises: Vec<_> = (group.iter())
-        .filter_map(|one| one.inquiry?.integrated())
+        .filter_map(|one| one.inquiry.integrated())
         .collect();
+    for (lane, one) in group.iter().enumerate() {
+        let unscored = one.residual.samples() - one.residual.residual_count();
+        for entry in rows[..unscored].as_flattened_mut() {
+            entry.lanes_mut()[lane] = 0.0;
+        }
+    }
     let Some(first) = noises.first() else {
         return Vec::new();
     };
+    let each =
+        |of: &dyn Fn(usize) -> Option<f64>| zero.lane_by_lane(|lane| of(lane).unwrap_or(0.0));
+    let order = |lane: usize| Some(noises.get(lane)?.whitening.order());
+    let longest = (0..noises.len()).filter_map(order).max().unwrap_or(0);
     let coefficient = |lane: usize, lag: usize| {
-        let noise = noises.get(lane)?;
-        noise.whitening.coefficients().get(lag).copied()
+        let coefficients = noises.get(lane)?.whitening.coefficients();
+        coefficients.get(lag).copied()
     };
-    let order = noises
-        .iter()
-        .map(|noise| noise.whitening.order())
-        .max()
-        .unwrap_or(0);
-    let (drift, products) = zero.vectorize(Transposed {
+    let (drift, products, squares) = zero.vectorize(AtSource {
+        residual,
         rows,
-        interval_s: zero
-            .lane_by_lane(|lane| noises.get(lane).map_or(0.0, |noise| noise.interval_s)),
+        interval_s: each(&|lane| Some(noises.get(lane)?.interval_s)),
         integrations: first.integrations,
-        autoregression: (0..order)
-            .map(|lag| zero.lane_by_lane(|lane| coefficient(lane, lag).unwrap_or(0.0)))
+        autoregression: (0..longest)
+            .map(|lag| each(&|lane| coefficient(lane, lag)))
             .collect(),
+        scored: [
+            each(&|lane| Some(order(lane)? as f64)),
+            each(&|lane| Some(group.get(lane)?.residual.samples() as f64)),
+        ],
     });
-    (0..group.len())
-        .map(|lane| {
+    (group.iter().zip(noises).enumerate())
+        .map(|(lane, (one, noise))| {
             let of = |values: [R; 3]| values.map(|value| value.lanes()[lane]);
-            Answer::Source(products.map(of), of(drift))
+            let count = one
+                .residual
+                .samples()
+                .saturating_sub(noise.whitening.order());
+            let whole = count as f64 * noise.whitening.innovation_sd().powi(2);
+            let mean = (count > 0).then(|| squares.lanes()[lane] / whole);
+            Answer::Source {
+                products: products.map(of),
+                drift: of(drift),
+                mean_square: one.acceleration.and(mean),
+            }
         })
         .collect()
 }
 
-struct Transposed<'a, R> {
+/// One walk from the last sample to the first.
+struct AtSource<'a, R> {
+    /// Of the acceleration.
+    residual: &'a [R],
+    /// J.
     rows: &'a mut [[R; 3]],
     interval_s: R,
     integrations: i32,
     autoregression: Vec<R>,
+    /// First sample whose past is whole, and number of samples.
+    scored: [R; 2],
 }
 
-impl<R: Real> Task for Transposed<'_, R> {
-    /// Drift, and the inner products at the source.
-    type Output = ([R; 3], [[R; 3]; 3]);
+impl<R: Real> Task for AtSource<'_, R> {
+    /// Drift, the inner products at the source, and the square of the filtered acceleration residual.
+    type Output = ([R; 3], [[R; 3]; 3], R);
     #[inline(always)]
     fn run(self) -> Self::Output {
-        let (interval_s, integrations) = (self.interval_s, self.integrations);
-        let drift = drift(self.rows, interval_s, integrations);
-        to_source(self.rows, interval_s, integrations, &self.autoregression);
-        let zero = interval_s.constant(0.0);
+        let (h, integrations, residual) = (self.interval_s, self.integrations, self.residual);
+        let autoregression = &self.autoregression[..];
+        let [begin, end] = self.scored;
+        let zero = h.constant(0.0);
+        let (mut drifted, mut squares) = ([zero; 3], zero);
         let (mut mm, mut mc, mut mk) = (zero, zero, zero);
         let (mut cc, mut ck, mut kk) = (zero, zero, zero);
-        for &mut [m, c, k] in self.rows {
-            mm += m * m;
-            mc += m * c;
-            mk += m * k;
-            cc += c * c;
-            ck += c * k;
-            kk += k * k;
-        }
-        (drift, [[mm, mc, mk], [mc, cc, ck], [mk, ck, kk]])
+        to_source(
+            self.rows,
+            h,
+            integrations,
+            autoregression,
+            #[inline(always)]
+            |t, given, &[m, c, k]| {
+                let wrong = drift(t, h, integrations);
+                for (sum, s) in drifted.iter_mut().zip(given) {
+                    *sum += *s * wrong;
+                }
+                mm += m * m;
+                mc += m * c;
+                mk += m * k;
+                cc += c * c;
+                ck += c * k;
+                kk += k * k;
+                let mut white = residual[t];
+                for (a, earlier) in autoregression.iter().zip(residual[..t].iter().rev()) {
+                    white += *a * *earlier;
+                }
+                let now = h.constant(t as f64);
+                let kept = R::choose(end.is_above(now), white, zero);
+                let kept = R::choose(begin.is_above(now), zero, kept);
+                squares += kept * kept;
+            },
+        );
+        (drifted, [[mm, mc, mk], [mc, cc, ck], [mk, ck, kk]], squares)
     }
 }

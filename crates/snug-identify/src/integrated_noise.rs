@@ -4,7 +4,6 @@
 //! so that a sensitivity s meets the noise with the variance ‖Cᵀ Lᵀ s‖²: s is integrated and filtered backwards in time.
 
 use crate::Whitening;
-use crate::whitening::colour_transposed;
 use snug_campaign::{Quantity, Tightening};
 use snug_model::{Input, Real};
 
@@ -49,59 +48,67 @@ impl IntegratedNoise {
     }
 }
 
-/// Σ s τ, what a velocity that was already wrong at the window's start adds to K signals: τ is the time to the power
-/// `integrations` − 1, 1 for the velocity, t for the displacement.
-#[inline(always)]
-pub(crate) fn drift<R: Real, const K: usize>(
-    signals: &[[R; K]],
-    interval_s: R,
-    integrations: i32,
-) -> [R; K] {
-    let one = interval_s.constant(1.0);
-    let mut sums = [interval_s.constant(0.0); K];
-    for (index, row) in signals.iter().enumerate() {
-        let time = if integrations == 2 {
-            interval_s * index as f64
-        } else {
-            one
-        };
-        for (sum, s) in sums.iter_mut().zip(row) {
-            *sum += *s * time;
-        }
-    }
-    sums
-}
-
-/// Cᵀ Lᵀ s of K signals, σ_e left out.
+/// Replaces K signals s by Cᵀ Lᵀ s, σ_e left out, for L the cumulative trapezoid with step `interval_s` (it starts at
+/// zero), applied `integrations` times: once or twice.
+///
+/// From the last sample to the first, everything at once: the signals of many tightenings side by side fill the cache, and
+/// every walk over them would fetch them again. Each sample's s and Cᵀ Lᵀ s are handed to `visit` with its number.
 #[inline(always)]
 pub(crate) fn to_source<R: Real, const K: usize>(
     signals: &mut [[R; K]],
     interval_s: R,
     integrations: i32,
     autoregression: &[R],
+    visit: impl FnMut(usize, &[R; K], &[R; K]),
 ) {
-    for _ in 0..integrations {
-        integrate_transposed(signals, interval_s);
+    match integrations {
+        1 => backwards::<R, K, 1>(signals, interval_s, autoregression, visit),
+        _ => backwards::<R, K, 2>(signals, interval_s, autoregression, visit),
     }
-    colour_transposed(autoregression, signals);
 }
 
-/// Lᵀ s for the cumulative trapezoid L with step `interval_s` (L starts at zero).
 #[inline(always)]
-fn integrate_transposed<R: Real, const K: usize>(signals: &mut [[R; K]], interval_s: R) {
-    let mut later = [interval_s.constant(0.0); K];
-    let Some((first, rest)) = signals.split_first_mut() else {
-        return;
-    };
-    for row in rest.iter_mut().rev() {
-        for (s, later) in row.iter_mut().zip(&mut later) {
-            let own = *s;
-            *s = interval_s * (*later + own * 0.5);
-            *later += own;
+fn backwards<R: Real, const K: usize, const INTEGRATIONS: usize>(
+    signals: &mut [[R; K]],
+    interval_s: R,
+    autoregression: &[R],
+    mut visit: impl FnMut(usize, &[R; K], &[R; K]),
+) {
+    // Of every integration the sum of what came later.
+    let mut later = [[interval_s.constant(0.0); K]; INTEGRATIONS];
+    for t in (0..signals.len()).rev() {
+        let given = signals[t];
+        let mut source = given;
+        for later in &mut later {
+            for (s, later) in source.iter_mut().zip(later) {
+                let own = *s;
+                *s = interval_s
+                    * match t {
+                        0 => *later * 0.5,
+                        _ => *later + own * 0.5,
+                    };
+                *later += own;
+            }
         }
+        // The farthest first: only the last of these sums has to wait for the sample just filtered.
+        let filtered = &signals[t + 1..];
+        for (a, later) in autoregression.iter().zip(filtered).rev() {
+            for (s, later) in source.iter_mut().zip(later) {
+                *s = *s - *a * *later;
+            }
+        }
+        visit(t, &given, &source);
+        signals[t] = source;
     }
-    for (s, later) in first.iter_mut().zip(later) {
-        *s = interval_s * (later * 0.5);
+}
+
+/// What a velocity that was already wrong by 1 at the window's start adds to the fitted signal at a sample: 1 to the
+/// velocity, the time to the displacement.
+#[inline(always)]
+pub(crate) fn drift<R: Real>(index: usize, interval_s: R, integrations: i32) -> R {
+    match integrations {
+        2 => interval_s * index as f64,
+        _ => interval_s.constant(1.0),
     }
 }
 
@@ -109,19 +116,29 @@ fn integrate_transposed<R: Real, const K: usize>(signals: &mut [[R; K]], interva
 mod tests {
     use super::*;
 
-    /// sᵀ L a = (Lᵀ s)ᵀ a with L the cumulative trapezoid.
+    /// sᵀ L C e = (Cᵀ Lᵀ s)ᵀ e with L the cumulative trapezoid, once and twice, and C the colour of order 2.
     #[test]
-    fn transposed_integration_is_the_adjoint() {
-        let (s, a, h) = ([0.3, -1.0, 2.0, 0.7], [1.0, 0.5, -2.0, 4.0], 0.1);
-        let mut integral = 0.0;
-        let mut forwards = 0.0;
-        for k in 1..4 {
-            integral += 0.5 * h * (a[k - 1] + a[k]);
-            forwards += s[k] * integral;
+    fn to_source_is_the_adjoint_of_colouring_and_integrating() {
+        let (s, e, h) = ([0.3, -1.0, 2.0, 0.7], [1.0, 0.5, -2.0, 4.0], 0.1);
+        let mut signal = [0.0; 4];
+        for t in 0..4 {
+            let past = |lag: usize| if t >= lag { signal[t - lag] } else { 0.0 };
+            signal[t] = e[t] + 0.9 * past(1) - 0.2 * past(2);
         }
-        let mut transposed = s;
-        integrate_transposed(transposed.as_chunks_mut::<1>().0, h);
-        let backwards: f64 = transposed.iter().zip(&a).map(|(s, a)| s * a).sum();
-        assert!((forwards - backwards).abs() < 1e-15);
+        for integrations in [1, 2] {
+            let mut integral = [0.0; 4];
+            for k in 1..4 {
+                integral[k] = integral[k - 1] + 0.5 * h * (signal[k - 1] + signal[k]);
+            }
+            signal = integral;
+            let forwards: f64 = s.iter().zip(&signal).map(|(s, n)| s * n).sum();
+            let mut source = s;
+            let rows = source.as_chunks_mut::<1>().0;
+            to_source(rows, h, integrations, &[-0.9, 0.2], |t, [given], _| {
+                assert_eq!(*given, s[t]);
+            });
+            let backwards: f64 = source.iter().zip(&e).map(|(s, e)| s * e).sum();
+            assert!((forwards - backwards).abs() < 1e-15);
+        }
     }
 }

@@ -41,8 +41,8 @@ impl OwnedNoise {
 /// residual than noise: those scores beside the noise, or the integrated noise times the excess.
 pub(crate) struct Inquiry {
     whitened: bool,
-    /// Mean square residual over noise where it exceeds 1 beyond chance; else 1.
-    excess: f64,
+    /// Whether a whitened residual holds more than noise, beyond chance.
+    is_misfit: bool,
     /// Variance of an error that is the same in every sample, weighed as the residual.
     constant_variance: f64,
     integrated: Option<IntegratedNoise>,
@@ -57,28 +57,41 @@ pub(crate) struct Evidence {
     pub sums: Vec<f64>,
     /// Jᵀr of each of about [`STRETCHES`] stretches, one after the other.
     pub scores: Vec<f64>,
-    /// Inner products of the sensitivities, taken back to the source of integrated noise, and their drift.
-    pub source: (Vec<f64>, Vec<f64>),
+    /// Where the noise is integrated.
+    pub source: Source,
+}
+
+/// What is found at the source of integrated noise.
+#[derive(Default)]
+pub(crate) struct Source {
+    /// Inner products of the sensitivities taken back there, row-major.
+    pub products: Vec<f64>,
+    /// What a velocity that was already wrong by 1 does to the gradient.
+    pub drift: Vec<f64>,
+    /// Mean square of the whitened acceleration residual, where the acceleration was kept.
+    pub mean_square: Option<f64>,
+}
+
+impl Source {
+    /// Mean square residual over noise where it exceeds 1 beyond what parameter errors do; else 1.
+    fn excess(&self) -> f64 {
+        let beyond = |square: &f64| *square > BEYOND_PARAMETER_ERROR;
+        self.mean_square.filter(beyond).unwrap_or(1.0)
+    }
 }
 
 impl Inquiry {
-    /// `mean_square` is that of the whitened residual of the quantity whose noise is known.
-    pub fn new(
-        residual: &TighteningResidual<'_>,
-        subject: &Subject<'_>,
-        mean_square: Option<f64>,
-    ) -> Self {
+    /// About the residual of `fit`.
+    pub fn new(residual: &TighteningResidual<'_>, subject: &Subject<'_>, fit: &Fit) -> Self {
         let gain: f64 = residual
             .whitening()
             .map_or(0.0, |w| w.weights().iter().sum());
-        let chance = match residual.is_whitened() {
-            true => 1.0 + MISFIT * (2.0 / residual.residual_count() as f64).sqrt(),
-            false => BEYOND_PARAMETER_ERROR,
-        };
+        let count = residual.residual_count() as f64;
+        let beyond_chance = 1.0 + MISFIT * (2.0 / count).sqrt();
         let (tightening, input) = (subject.tightening, subject.input);
         Self {
             whitened: residual.is_whitened(),
-            excess: mean_square.filter(|&square| square > chance).unwrap_or(1.0),
+            is_misfit: residual.is_whitened() && fit.sum_of_squares() / count > beyond_chance,
             constant_variance: gain * gain * bias_variance(tightening),
             integrated: match residual.is_whitened() {
                 true => None,
@@ -87,19 +100,15 @@ impl Inquiry {
         }
     }
 
-    fn is_misfit(&self) -> bool {
-        self.excess > 1.0
-    }
-
     /// Whether the answer is known beforehand: white noise of unit variance.
     pub fn is_settled(&self) -> bool {
-        self.whitened && !self.is_misfit() && self.constant_variance == 0.0
+        self.whitened && !self.is_misfit && self.constant_variance == 0.0
     }
 
     /// Whether the scores are asked for.
     pub fn asks_scores(&self) -> bool {
         match self.whitened {
-            true => self.is_misfit(),
+            true => self.is_misfit,
             false => self.integrated.is_none(),
         }
     }
@@ -114,16 +123,16 @@ impl Inquiry {
         if self.is_settled() {
             return OwnedNoise::Unit;
         }
-        let (products, drift) = &evidence.source;
-        let known = match &self.integrated {
-            Some(noise) => Some(noise.meat(products, drift)),
-            None => self.whitened.then(|| evidence.matrix.clone()),
-        };
-        let mut meat = match known {
-            Some(known) if self.whitened && self.is_misfit() => add(known, &evidence.scored()),
-            // Integrated noise leaves too few independent stretches to learn from.
-            Some(known) => known.iter().map(|value| self.excess * value).collect(),
-            None => evidence.scored(),
+        let mut meat = match &self.integrated {
+            // It leaves too few independent stretches to learn from their scores.
+            Some(noise) => {
+                let source = &evidence.source;
+                let meat = noise.meat(&source.products, &source.drift);
+                meat.iter().map(|value| source.excess() * value).collect()
+            }
+            None if !self.whitened => evidence.scored(),
+            None if self.is_misfit => add(evidence.matrix.clone(), &evidence.scored()),
+            None => evidence.matrix.clone(),
         };
         if self.constant_variance > 0.0 {
             let sums = || evidence.sums.iter();
@@ -160,21 +169,17 @@ pub(crate) fn noise_of(
     subject: &Subject<'_>,
     fit: &Fit,
 ) -> OwnedNoise {
-    let mean_square = match residual.is_whitened() {
-        true => Some(fit.sum_of_squares() / residual.residual_count() as f64),
-        false => mean_square_of_known(residual, subject.tightening, fit),
-    };
-    let inquiry = Inquiry::new(residual, subject, mean_square);
+    let inquiry = Inquiry::new(residual, subject, fit);
     if inquiry.is_settled() {
         return OwnedNoise::Unit;
     }
-    match evidence(residual, &inquiry, fit) {
+    match evidence(residual, &inquiry, subject.tightening, fit) {
         Some(evidence) => inquiry.conclude(&evidence),
         None => OwnedNoise::Unit,
     }
 }
 
-/// Mean square of the whitened residual of the quantity whose noise is known, where that is not the fitted one.
+/// Mean square of the whitened residual of the quantity whose noise is known.
 fn mean_square_of_known(
     residual: &mut TighteningResidual<'_>,
     tightening: &Tightening,
@@ -190,6 +195,7 @@ fn mean_square_of_known(
 fn evidence(
     residual: &mut TighteningResidual<'_>,
     inquiry: &Inquiry,
+    tightening: &Tightening,
     fit: &Fit,
 ) -> Option<Evidence> {
     let (count, parameters) = (residual.residual_count(), residual.parameter_count());
@@ -205,19 +211,27 @@ fn evidence(
     }
     let source = inquiry.integrated().map(|noise| {
         let unscored = residual.samples() - count;
+        let (h, integrations) = (noise.interval_s, noise.integrations);
         let mut drifts = Vec::new();
         let sources: Vec<f64> = columns()
             .flat_map(|column| {
                 let mut source = vec![0.0; unscored];
                 source.extend(column);
-                let signal = source.as_chunks_mut::<1>().0;
-                drifts.extend(drift(signal, noise.interval_s, noise.integrations));
                 let autoregression = noise.whitening.coefficients();
-                to_source(signal, noise.interval_s, noise.integrations, autoregression);
+                let signal = source.as_chunks_mut::<1>().0;
+                let mut sum = 0.0;
+                to_source(signal, h, integrations, autoregression, |t, [s], _| {
+                    sum += s * drift(t, h, integrations);
+                });
+                drifts.push(sum);
                 source
             })
             .collect();
-        (products(&sources, parameters), drifts)
+        Source {
+            products: products(&sources, parameters),
+            drift: drifts,
+            mean_square: mean_square_of_known(residual, tightening, fit),
+        }
     });
     Some(Evidence {
         matrix: products(&jacobian, parameters),

@@ -122,6 +122,21 @@ impl<'a> TighteningResidual<'a> {
         }
     }
 
+    /// Every sample as it was measured, the acceleration beside the torque (zero where it was not measured).
+    pub(crate) fn beside(&self, acceleration: Option<&'a [f64]>) -> ScoredRecord<'a> {
+        ScoredRecord {
+            rig: *self.model.rig(),
+            input: self.input,
+            filter: vec![1.0],
+            first: 0,
+            torque_nm: self.input.grid_nm().into(),
+            measured: match acceleration {
+                Some(measured) => measured.into(),
+                None => vec![0.0; self.samples()].into(),
+            },
+        }
+    }
+
     /// All parameters of the model at these free values.
     pub(crate) fn all_values(&mut self, free_values: &[f64]) -> &[f64] {
         for (&index, &value) in self.free.iter().zip(free_values) {

@@ -1,5 +1,5 @@
 use snug_campaign::{NoiseFloor, Quantity, Tightening};
-use snug_model::{Real, on_this_processor};
+use snug_model::on_this_processor;
 
 /// Makes stationary noise white with unit variance: w_t = (r_t + a_1 r_{t−1} + … + a_p r_{t−p}) / σ_e.
 ///
@@ -82,16 +82,6 @@ impl Whitening {
         }
     }
 
-    /// Cᵀ s, where C colours unit white noise into this noise: s is filtered backwards in time by σ_e / A.
-    ///
-    /// ‖Cᵀ s‖² is the variance of the inner product of s with the noise.
-    pub fn colour_transposed(&self, signal: &mut [f64]) {
-        colour_transposed(self.coefficients(), signal.as_chunks_mut::<1>().0);
-        signal
-            .iter_mut()
-            .for_each(|value| *value *= self.innovation_sd);
-    }
-
     /// a_1, …, a_p.
     pub(crate) fn coefficients(&self) -> &[f64] {
         &self.autoregression
@@ -100,25 +90,6 @@ impl Whitening {
     /// σ_e.
     pub(crate) fn innovation_sd(&self) -> f64 {
         self.innovation_sd
-    }
-}
-
-/// Filters K signals backwards in time by 1/A.
-#[inline(always)]
-pub(crate) fn colour_transposed<R: Real, const K: usize>(
-    autoregression: &[R],
-    signals: &mut [[R; K]],
-) {
-    for t in (0..signals.len()).rev() {
-        let (now, later) = signals[t..]
-            .split_first_mut()
-            .expect("t is below the length");
-        // The farthest first: only the last of these sums has to wait for the sample just filtered.
-        for (a, later) in autoregression.iter().zip(later.iter()).rev() {
-            for (now, later) in now.iter_mut().zip(later) {
-                *now = *now - *a * *later;
-            }
-        }
     }
 }
 
@@ -152,21 +123,5 @@ mod tests {
         for (computed, expected) in white.iter().zip(&innovations[2..]) {
             assert!((computed - expected).abs() < 1e-14);
         }
-    }
-
-    /// sᵀ C e computed forwards (colour e, then the inner product) equals (Cᵀ s)ᵀ e.
-    #[test]
-    fn transposed_colouring_is_the_adjoint() {
-        let (s, e) = ([1.0, -2.0, 0.5, 3.0], [0.2, 0.1, -0.4, 1.0]);
-        let mut noise = [0.0; 4];
-        for t in 0..4 {
-            let past = |lag: usize| if t >= lag { noise[t - lag] } else { 0.0 };
-            noise[t] = 0.5 * e[t] + 0.9 * past(1) - 0.2 * past(2);
-        }
-        let forwards: f64 = s.iter().zip(&noise).map(|(s, n)| s * n).sum();
-        let mut transposed = s;
-        second_order().colour_transposed(&mut transposed);
-        let backwards: f64 = transposed.iter().zip(&e).map(|(s, e)| s * e).sum();
-        assert!((forwards - backwards).abs() < 1e-14);
     }
 }

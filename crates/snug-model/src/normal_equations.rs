@@ -6,6 +6,7 @@
 //! almost for nothing through the adders beside them and spare the covariance a sweep of its own.
 
 use crate::real::Task;
+use crate::sweep::BLOCK;
 use crate::{Real, Sweep};
 use snug_campaign::Quantity;
 
@@ -23,8 +24,8 @@ pub struct NormalEquations {
 }
 
 /// One run over the samples of all lanes.
-pub(crate) struct Run<'a, R, F> {
-    pub sweep: &'a Sweep<R>,
+pub(crate) struct Run<'a, 'r, R, F> {
+    pub sweep: &'a mut Sweep<'r, R>,
     /// m, c, k, lane by lane.
     pub values: &'a [[f64; 3]],
     /// Samples of one stretch, lane by lane.
@@ -33,7 +34,7 @@ pub(crate) struct Run<'a, R, F> {
     pub read: F,
 }
 
-impl<R: Real, F: FnMut(usize, NormalEquations)> Task for Run<'_, R, F> {
+impl<R: Real, F: FnMut(usize, NormalEquations)> Task for Run<'_, '_, R, F> {
     type Output = ();
     #[inline(always)]
     fn run(self) {
@@ -45,28 +46,29 @@ impl<R: Real, F: FnMut(usize, NormalEquations)> Task for Run<'_, R, F> {
     }
 }
 
-impl<R: Real, F: FnMut(usize, NormalEquations)> Run<'_, R, F> {
+impl<R: Real, F: FnMut(usize, NormalEquations)> Run<'_, '_, R, F> {
     #[inline(always)]
     fn sum<const DOTS: usize>(mut self) {
-        let Sweep { zero, lanes, .. } = self.sweep;
+        let zero = self.sweep.zero;
         let mut states = self.sweep.begin(self.values);
-        let mut sums = [*zero; 13];
+        let mut sums = [zero; 13];
         let mut from = 0;
+        let lasts: Vec<usize> = self.sweep.lanes.iter().map(|lane| lane.samples).collect();
         // The next sample at which the sums of a lane are read; the others go on.
         let next = |lane: usize, from: usize| {
             let stretch = self.stretches[lane];
-            ((from / stretch + 1) * stretch).min(lanes[lane].samples)
+            ((from / stretch + 1) * stretch).min(lasts[lane])
         };
         while let Some(end) = (0..R::LANES)
             .map(|lane| next(lane, from))
             .filter(|&end| end > from)
             .min()
         {
-            let mut block = [[*zero; 4]; BLOCK];
+            let mut block = [[zero; 4]; BLOCK];
             for begin in (from..end).step_by(BLOCK) {
                 let block = &mut block[..BLOCK.min(end - begin)];
                 let mut rows = block.iter_mut();
-                self.sweep.walk::<DOTS>(
+                self.sweep.walk::<DOTS, DOTS>(
                     &mut states,
                     begin..begin + rows.len(),
                     #[inline(always)]
@@ -79,7 +81,7 @@ impl<R: Real, F: FnMut(usize, NormalEquations)> Run<'_, R, F> {
                 add(&mut sums, block);
             }
             for lane in (0..R::LANES).filter(|&lane| next(lane, from) == end) {
-                let square = lanes[lane].square_m2;
+                let square = self.sweep.lanes[lane].square_m2;
                 (self.read)(
                     lane,
                     read(states.inverse_inertia(lane), &sums, lane, square),
@@ -89,10 +91,6 @@ impl<R: Real, F: FnMut(usize, NormalEquations)> Run<'_, R, F> {
         }
     }
 }
-
-/// Samples that are simulated before their products are added. In one loop, the recursion's constants and the sums would
-/// not fit into the registers together, and every sum would go through memory for every sample.
-const BLOCK: usize = 32;
 
 /// Adds the products of some samples' r and its derivatives by m, c, k.
 #[inline(always)]

@@ -35,13 +35,17 @@ pub struct ScoredRecord<'a> {
 /// A lane can be loaded with another tightening between two sweeps; what stands in the others does not change a bit of
 /// its results.
 #[derive(Debug)]
-pub struct Sweep<R> {
+pub struct Sweep<'r, R> {
     pub(crate) zero: R,
     pub(crate) quantity: Quantity,
-    pub(crate) substeps: usize,
-    pub(crate) torque_nm: Vec<R>,
-    pub(crate) measured: Vec<R>,
     pub(crate) lanes: Vec<Lane>,
+    substeps: usize,
+    torque_nm: Vec<R>,
+    measured: Vec<R>,
+    /// Tightenings that have been given a lane, but whose signals do not stand in it yet.
+    arriving: Vec<(usize, ScoredRecord<'r>)>,
+    /// Samples whose signals this run has put into their lanes.
+    placed: usize,
 }
 
 /// What is known of one lane besides its signals.
@@ -60,7 +64,7 @@ pub(crate) struct Lane {
     lead_nm: Vec<f64>,
 }
 
-impl<R: Real> Sweep<R> {
+impl<'r, R: Real> Sweep<'r, R> {
     /// All lanes empty; inputs must have `substeps` grid points per sample.
     pub fn new(zero: R, quantity: Quantity, substeps: usize) -> Self {
         Self {
@@ -70,55 +74,51 @@ impl<R: Real> Sweep<R> {
             torque_nm: Vec::new(),
             measured: Vec::new(),
             lanes: vec![Lane::default(); R::LANES],
+            arriving: Vec::new(),
+            placed: 0,
         }
     }
 
-    /// Gives lanes to tightenings, part by part of their signals: writing all lanes of a register while it is at hand
-    /// takes a fraction of the time of writing them one after the other.
-    pub fn load<'r>(&mut self, records: impl Iterator<Item = (usize, &'r ScoredRecord<'r>)>) {
-        let records: Vec<(usize, &ScoredRecord<'_>)> = records.collect();
-        for &(lane, record) in &records {
-            let lead = record.first * self.substeps + 1;
-            self.lanes[lane] = Lane {
-                square_m2: record.rig.lever_arm_m * record.rig.lever_arm_m,
-                known_inertia_kg_m2: record.rig.known_inertia_kg_m2,
-                interval_s: record.input.grid_interval_s(),
-                held: record.input.held(),
-                first: record.first,
-                samples: record.measured.len(),
-                filter: record.filter.clone(),
-                lead_nm: record.input.grid_nm()[..lead].to_vec(),
-            };
-        }
-        let measured = |record: &'r ScoredRecord<'r>| &record.measured[..];
-        place(&mut self.measured, &records, measured, self.zero);
-        place(
-            &mut self.torque_nm,
-            &records,
-            |record| &record.torque_nm,
-            self.zero,
-        );
+    /// Gives a lane to a tightening.
+    ///
+    /// Its signals are put there by the next run, part by part as it comes to them: every register then enters the cache
+    /// once, to be written and to be swept, where a load beforehand would fetch them all for one number each.
+    pub fn load(&mut self, lane: usize, record: ScoredRecord<'r>) {
+        let lead = record.first * self.substeps + 1;
+        let samples = record.measured.len().max(self.measured.len());
+        self.measured.resize(samples, self.zero);
         // The recursion looks one sample ahead, also behind the last one, where it changes nothing any more.
-        let ahead = self.substeps * self.measured.len() + 1;
-        if self.torque_nm.len() < ahead {
-            self.torque_nm.resize(ahead, self.zero);
-        }
+        self.torque_nm
+            .resize(self.substeps * samples + 1, self.zero);
+        self.unload(lane);
+        self.lanes[lane] = Lane {
+            square_m2: record.rig.lever_arm_m * record.rig.lever_arm_m,
+            known_inertia_kg_m2: record.rig.known_inertia_kg_m2,
+            interval_s: record.input.grid_interval_s(),
+            held: record.input.held(),
+            first: record.first,
+            samples: record.measured.len(),
+            filter: record.filter.clone(),
+            lead_nm: record.input.grid_nm()[..lead].to_vec(),
+        };
+        self.arriving.push((lane, record));
     }
 
     /// Takes the tightening out of a lane.
     pub fn unload(&mut self, lane: usize) {
+        self.arriving.retain(|(other, _)| *other != lane);
         self.lanes[lane] = Lane::default();
     }
 
     /// The normal equations of every lane at its own m, c, k.
-    pub fn run(&self, values: &[[f64; 3]]) -> Vec<NormalEquations> {
+    pub fn run(&mut self, values: &[[f64; 3]]) -> Vec<NormalEquations> {
         let mut found = vec![NormalEquations::default(); R::LANES];
         self.sum(values, 1, |lane, so_far| found[lane] = so_far);
         found
     }
 
     /// The gradient Jᵀr of every lane, stretch by stretch: the samples in about `stretches` parts of equal length.
-    pub fn scores(&self, values: &[[f64; 3]], stretches: usize) -> Vec<Vec<[f64; 3]>> {
+    pub fn scores(&mut self, values: &[[f64; 3]], stretches: usize) -> Vec<Vec<[f64; 3]>> {
         let mut before = vec![[0.0; 3]; R::LANES];
         let mut scores = vec![Vec::new(); R::LANES];
         self.sum(values, stretches, |lane, so_far| {
@@ -130,45 +130,49 @@ impl<R: Real> Sweep<R> {
     }
 
     /// Hands what has been summed up to the end of each stretch of each lane to `read`.
-    fn sum(&self, values: &[[f64; 3]], stretches: usize, read: impl FnMut(usize, NormalEquations)) {
+    fn sum(
+        &mut self,
+        values: &[[f64; 3]],
+        stretches: usize,
+        read: impl FnMut(usize, NormalEquations),
+    ) {
         let stretch = |lane: &Lane| lane.samples.div_ceil(stretches).max(1);
+        let stretches = self.lanes.iter().map(stretch).collect();
         self.zero.vectorize(Run {
             sweep: self,
             values,
-            stretches: self.lanes.iter().map(stretch).collect(),
+            stretches,
             read,
         });
+        self.arriving.clear();
     }
 
-    /// J of every lane at its own m, c, k, sample by sample, into `rows`; zero before the first scored sample of a lane
-    /// and behind its last.
-    pub fn sensitivities(&self, values: &[[f64; 3]], rows: &mut Vec<[R; 3]>) {
-        let ends = |lane: &Lane| lane.first + lane.samples;
-        let longest = self.lanes.iter().map(ends).max().unwrap_or(0);
-        rows.resize(longest, [self.zero; 3]);
-        let first = self.lanes.iter().map(|lane| lane.first).max().unwrap_or(0);
-        debug_assert!(
-            self.lanes
-                .iter()
-                .all(|lane| lane.samples == 0 || lane.first == first)
-        );
-        rows[..first].fill([self.zero; 3]);
-        self.zero.vectorize(Trace {
+    /// Sample by sample of every lane at its own m, c, k: into `residual` what its record says was measured minus the
+    /// simulated acceleration, into `rows` J; zero behind a lane's last sample.
+    ///
+    /// For records that are not weighed, from their first sample on.
+    pub fn course(&mut self, values: &[[f64; 3]], residual: &mut Vec<R>, rows: &mut Vec<[R; 3]>) {
+        let longest = self.lanes.iter().map(|lane| lane.samples).max();
+        residual.resize(longest.unwrap_or(0), self.zero);
+        rows.resize(longest.unwrap_or(0), [self.zero; 3]);
+        self.zero.vectorize(Course {
             sweep: self,
             values,
-            rows: &mut rows[first..],
+            residual,
+            rows,
         });
+        self.arriving.clear();
         for (number, lane) in self.lanes.iter().enumerate() {
-            for row in &mut rows[ends(lane)..] {
-                row.iter_mut()
-                    .for_each(|entry| entry.lanes_mut()[number] = 0.0);
-            }
+            let behind = residual[lane.samples..].iter_mut();
+            let entries = behind.chain(rows[lane.samples..].as_flattened_mut());
+            entries.for_each(|entry| entry.lanes_mut()[number] = 0.0);
         }
     }
 
     /// The constants, the recursion and the filtered states at the first scored sample.
     #[inline(always)]
-    pub(crate) fn begin(&self, values: &[[f64; 3]]) -> States<R> {
+    pub(crate) fn begin(&mut self, values: &[[f64; 3]]) -> States<R> {
+        self.placed = 0;
         let square = self.each(|lane| lane.square_m2);
         let known = self.each(|lane| lane.known_inertia_kg_m2);
         let interval_s = self.each(|lane| lane.interval_s);
@@ -195,21 +199,25 @@ impl<R: Real> Sweep<R> {
         }
     }
 
-    /// Goes over some samples and hands r and its derivatives by m, c, k, the factor b1² l² left out, of each to `visit`.
+    /// Goes over some samples, at most [`BLOCK`], and hands of each to `visit` the `MEASURED`th derivative's residual r
+    /// and the `DOTS`th's derivatives by m, c, k, the factor b1² l² left out.
     #[inline(always)]
-    pub(crate) fn walk<const DOTS: usize>(
-        &self,
+    pub(crate) fn walk<const MEASURED: usize, const DOTS: usize>(
+        &mut self,
         states: &mut States<R>,
         samples: Range<usize>,
         mut visit: impl FnMut([R; 4]),
     ) {
+        while self.placed < samples.end {
+            self.place_part();
+        }
+        let grid = samples.start * self.substeps..samples.end * self.substeps + 1;
         let States {
             constants,
             recursion,
             mut x,
         } = *states;
         let inverse = constants.inverse();
-        let grid = samples.start * self.substeps..=samples.end * self.substeps;
         let mut torque = self.torque_nm[grid].windows(2);
         for &y in &self.measured[samples] {
             for substep in 0..self.substeps {
@@ -218,13 +226,25 @@ impl<R: Real> Sweep<R> {
                 };
                 if substep == 0 {
                     let all = constants.derivatives(x, u);
-                    let r = y - inverse * all.g[DOTS];
+                    let r = y - inverse * all.g[MEASURED];
                     visit([r, all.z[DOTS + 2], all.z[DOTS + 1], all.z[DOTS]]);
                 }
                 x = recursion.step(x, u, next);
             }
         }
         states.x = x;
+    }
+
+    /// Puts the next part of what arrives into its lanes.
+    #[inline(always)]
+    fn place_part(&mut self) {
+        let part = self.placed..(self.placed + PART).min(self.measured.len());
+        let grid = part.start * self.substeps..part.end * self.substeps + 1;
+        for (lane, record) in &self.arriving {
+            place(&mut self.measured, *lane, &record.measured, &part);
+            place(&mut self.torque_nm, *lane, &record.torque_nm, &grid);
+        }
+        self.placed = part.end;
     }
 
     /// One parameter of every lane.
@@ -246,26 +266,23 @@ impl<R: Real> Sweep<R> {
     }
 }
 
-/// Samples of every signal that are placed before those that follow.
+/// Samples that are looked at together. What is done with them, in a loop of its own, finds them in the nearest cache; in
+/// one loop with the recursion, whose constants fill the registers, it would go through memory for every sample.
+pub(crate) const BLOCK: usize = 32;
+
+/// Samples of a signal that are put into its lane before other signals have their turn: enough to read a signal in long
+/// stretches, few enough for the registers still to be in the nearest cache when the sweep comes to them.
 const PART: usize = 64;
 
-/// Puts signals into their lanes.
-fn place<'r, R: Real>(
-    side_by_side: &mut Vec<R>,
-    records: &[(usize, &'r ScoredRecord<'r>)],
-    signal: impl Fn(&'r ScoredRecord<'r>) -> &'r [f64],
-    zero: R,
-) {
-    let longest = records.iter().map(|(_, record)| signal(record).len()).max();
-    let longest = longest.unwrap_or(0).max(side_by_side.len());
-    side_by_side.resize(longest, zero);
-    for (part, points) in side_by_side.chunks_mut(PART).enumerate() {
-        for &(lane, record) in records {
-            let values = signal(record).get(part * PART..).unwrap_or_default();
-            for (point, &value) in points.iter_mut().zip(values) {
-                point.lanes_mut()[lane] = value;
-            }
-        }
+/// Puts part of a signal into its lane.
+///
+/// By itself, so that it is not compiled for wide registers: it would become scatters, which take several times as long as
+/// one store after the other.
+#[inline(never)]
+fn place<R: Real>(side_by_side: &mut [R], lane: usize, signal: &[f64], part: &Range<usize>) {
+    let values = signal.get(part.start..).unwrap_or_default();
+    for (point, &value) in side_by_side[part.clone()].iter_mut().zip(values) {
+        point.lanes_mut()[lane] = value;
     }
 }
 
@@ -308,42 +325,51 @@ impl<R: Real> States<R> {
     }
 }
 
-/// One run that keeps every sensitivity.
-struct Trace<'a, R> {
-    sweep: &'a Sweep<R>,
+/// One run that keeps every sample.
+struct Course<'a, 'r, R> {
+    sweep: &'a mut Sweep<'r, R>,
     values: &'a [[f64; 3]],
+    residual: &'a mut [R],
     rows: &'a mut [[R; 3]],
 }
 
-impl<R: Real> Task for Trace<'_, R> {
+impl<R: Real> Task for Course<'_, '_, R> {
     type Output = ();
     #[inline(always)]
     fn run(self) {
         match self.sweep.quantity {
             Quantity::Displacement => self.keep::<0>(),
             Quantity::Velocity => self.keep::<1>(),
-            Quantity::Acceleration => self.keep::<2>(),
+            Quantity::Acceleration => self.keep::<ACCELERATION>(),
         }
     }
 }
 
-impl<R: Real> Trace<'_, R> {
+/// The acceleration is the second derivative.
+const ACCELERATION: usize = 2;
+
+impl<R: Real> Course<'_, '_, R> {
     #[inline(always)]
     fn keep<const DOTS: usize>(self) {
         let mut states = self.sweep.begin(self.values);
         let inverse = states.constants.inverse();
         let factor = inverse * inverse * self.sweep.each(|lane| lane.square_m2);
-        let samples = 0..self.rows.len();
-        let mut rows = self.rows.iter_mut();
-        self.sweep.walk::<DOTS>(
-            &mut states,
-            samples,
-            #[inline(always)]
-            |[_, m, c, k]| {
-                if let Some([by_m, by_c, by_k]) = rows.next() {
-                    (*by_m, *by_c, *by_k) = (factor * m, factor * c, factor * k);
-                }
-            },
-        );
+        let kept = (self.residual.chunks_mut(BLOCK)).zip(self.rows.chunks_mut(BLOCK));
+        for (block, (residual, rows)) in kept.enumerate() {
+            let begin = block * BLOCK;
+            let samples = begin..begin + rows.len();
+            let mut kept = residual.iter_mut().zip(rows);
+            self.sweep.walk::<ACCELERATION, DOTS>(
+                &mut states,
+                samples,
+                #[inline(always)]
+                |[r, m, c, k]| {
+                    if let Some((residual, row)) = kept.next() {
+                        *residual = r;
+                        *row = [factor * m, factor * c, factor * k];
+                    }
+                },
+            );
+        }
     }
 }
