@@ -23,6 +23,7 @@ mod linearization;
 mod pooled;
 mod residual;
 mod residual_noise;
+mod rough_starts;
 mod search;
 mod settings;
 mod simulation;

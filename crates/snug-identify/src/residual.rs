@@ -46,16 +46,19 @@ pub struct DenseResidual<R> {
     residual_function: R,
     residual: Vec<f64>,
     jacobian: Vec<f64>,
-    bend: Option<BendRoom>,
+    /// The last two evaluations with J, the last one first: after a rejected step, the other is where a search stands and
+    /// wants to know how its next step bends.
+    known: [Evaluation; 2],
+    ahead: Vec<f64>,
 }
 
-/// Room for second differences, made when a fit first asks for them.
-#[derive(Debug, Clone)]
-struct BendRoom {
-    residual: Vec<f64>,
-    ahead: Vec<f64>,
-    jacobian: Vec<f64>,
+/// r and J at some parameters.
+#[derive(Debug, Clone, Default)]
+struct Evaluation {
+    /// Empty before the first, and where r has no value.
     parameters: Vec<f64>,
+    residual: Vec<f64>,
+    jacobian: Vec<f64>,
 }
 
 /// Part of a step over which its bending is measured.
@@ -72,13 +75,29 @@ impl<R: Residual> DenseResidual<R> {
             residual_function,
             residual: vec![0.0; m],
             jacobian: vec![0.0; m * n],
-            bend: None,
+            known: std::array::from_fn(|_| Evaluation {
+                parameters: Vec::with_capacity(n),
+                residual: vec![0.0; m],
+                jacobian: vec![0.0; m * n],
+            }),
+            ahead: vec![0.0; m],
         }
     }
 
     /// Gives the residual function back.
     pub fn into_inner(self) -> R {
         self.residual_function
+    }
+
+    /// Makes r and J at `parameters` the first that are known.
+    fn evaluate(&mut self, parameters: &[f64]) -> Result<(), EvaluationError> {
+        self.known.swap(0, 1);
+        let now = &mut self.known[0];
+        now.parameters.clear();
+        self.residual_function
+            .evaluate(parameters, &mut now.residual, Some(&mut now.jacobian))?;
+        now.parameters.extend_from_slice(parameters);
+        Ok(())
     }
 }
 
@@ -107,11 +126,9 @@ impl<R: Residual> LeastSquares for DenseResidual<R> {
         parameters: &[f64],
         linearization: &mut Linearization,
     ) -> Result<(), EvaluationError> {
-        self.residual_function.evaluate(
-            parameters,
-            &mut self.residual,
-            Some(&mut self.jacobian),
-        )?;
+        self.evaluate(parameters)?;
+        self.residual.copy_from_slice(&self.known[0].residual);
+        self.jacobian.copy_from_slice(&self.known[0].jacobian);
         linearization.set_jacobian(&mut self.residual, &mut self.jacobian)
     }
 
@@ -122,27 +139,26 @@ impl<R: Residual> LeastSquares for DenseResidual<R> {
         direction: &[f64],
         bending: &mut [f64],
     ) -> Result<bool, EvaluationError> {
-        let (m, n) = (self.residual.len(), parameters.len());
-        let room = self.bend.get_or_insert_with(|| BendRoom {
-            residual: vec![0.0; m],
-            ahead: vec![0.0; m],
-            jacobian: vec![0.0; m * n],
-            parameters: vec![0.0; n],
-        });
-        let function = &mut self.residual_function;
-        function.evaluate(parameters, &mut room.residual, Some(&mut room.jacobian))?;
-        room.parameters.copy_from_slice(parameters);
-        add_scaled(&mut room.parameters, BEND_SHARE, direction);
-        function.evaluate(&room.parameters, &mut room.ahead, None)?;
-        for (ahead, here) in room.ahead.iter_mut().zip(&room.residual) {
+        if !(self.known.iter()).any(|known| known.parameters == parameters) {
+            self.evaluate(parameters)?;
+        }
+        let is_there = |known: &&Evaluation| known.parameters == parameters;
+        let Some(here) = self.known.iter().find(is_there) else {
+            return Err(EvaluationError::NotFinite);
+        };
+        let ahead = &mut self.ahead;
+        let mut further = parameters.to_vec();
+        add_scaled(&mut further, BEND_SHARE, direction);
+        self.residual_function.evaluate(&further, ahead, None)?;
+        for (ahead, here) in ahead.iter_mut().zip(&here.residual) {
             *ahead = (*ahead - here) / BEND_SHARE;
         }
-        let columns = || room.jacobian.chunks_exact(m.max(1));
+        let columns = || here.jacobian.chunks_exact(self.residual.len().max(1));
         for (column, step) in columns().zip(direction) {
-            add_scaled(&mut room.ahead, -step, column);
+            add_scaled(ahead, -step, column);
         }
         for (bending, column) in bending.iter_mut().zip(columns()) {
-            *bending = 2.0 / BEND_SHARE * dot(column, &room.ahead);
+            *bending = 2.0 / BEND_SHARE * dot(column, ahead);
         }
         match bending.iter().all(|value| value.is_finite()) {
             true => Ok(true),

@@ -4,6 +4,7 @@ use crate::base_fits::{self, BaseFit};
 use crate::base_noise::{self, Settled};
 use crate::integral_start::integral_start;
 use crate::residual_noise::{OwnedNoise, noise_of};
+use crate::rough_starts::{Tried, try_roughly};
 use crate::{
     ConstraintKind, Constraints, Covariance, DenseResidual, Fit, IdentifyError, Settings,
     Simulation, Status, TighteningResidual, Whitening, convex_set, solve_from_starts,
@@ -110,6 +111,9 @@ pub fn identify_all(
         .collect()
 }
 
+/// Mean square of a whitened residual beyond which a fit may have ended in the wrong valley.
+const FAR_OFF: f64 = 2.0;
+
 /// A tightening on its way to an estimate.
 struct Attempt<'a> {
     residual: TighteningResidual<'a>,
@@ -184,6 +188,38 @@ impl<'a> Attempt<'a> {
         })
     }
 
+    /// A fit by itself. Of several starts those that lead on in a rough fit are followed to the end; all of them where
+    /// that comes to nothing, or leaves so much that a lower valley may have been missed.
+    fn fit(
+        &mut self,
+        subject: &Subject<'_>,
+        settings: &IdentifySettings,
+    ) -> Result<Fit, IdentifyError> {
+        let tried = match self.starts.len() {
+            0 | 1 => None,
+            _ => try_roughly(subject, &self.starts, &self.set, settings)?,
+        };
+        let is_whitened = self.residual.is_whitened();
+        let mut problem = DenseResidual::new(&mut self.residual);
+        let mut solve_from = |starts: &[Vec<f64>]| {
+            solve_from_starts(&mut problem, starts, &self.set, &settings.solver)
+        };
+        let Some(Tried { starts, work }) = tried else {
+            return solve_from(&self.starts);
+        };
+        let mut fit = solve_from(&starts)?;
+        fit.work.add(&work);
+        let noise = fit.residual_count as f64;
+        let is_far_off = is_whitened && fit.sum_of_squares() > FAR_OFF * noise;
+        if fit.status.is_converged() && !is_far_off {
+            return Ok(fit);
+        }
+        let work = fit.work;
+        let mut fit = solve_from(&[&[fit.values], self.starts.as_slice()].concat())?;
+        fit.work.add(&work);
+        Ok(fit)
+    }
+
     /// The estimate with its covariance, after a fit if that is still to be made.
     fn estimate(
         mut self,
@@ -192,10 +228,7 @@ impl<'a> Attempt<'a> {
     ) -> Result<Estimate, IdentifyError> {
         let fit = match self.outcome {
             Some(outcome) => outcome?,
-            None => {
-                let mut problem = DenseResidual::new(&mut self.residual);
-                solve_from_starts(&mut problem, &self.starts, &self.set, &settings.solver)?
-            }
+            None => self.fit(subject, settings)?,
         };
         let noise = match self.noise {
             Some(noise) => noise,

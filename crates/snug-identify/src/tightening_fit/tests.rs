@@ -295,6 +295,42 @@ fn the_company_changes_no_bit() {
     }
 }
 
+/// Where an effect has several starts, trying them on a rough record leads to the optimum that all of them together find.
+#[test]
+fn rough_starts_lead_to_the_best_optimum_of_all() {
+    let truth = Model::new(RIG, &[Effect::MaxwellBranch]).unwrap();
+    let [m, c, k] = USUAL;
+    for (number, tau_s) in [(1, 0.008), (2, 0.03), (3, 0.09)] {
+        let mut one = simulated(number, &plan());
+        let motion = truth.simulate(&[m, c, k, 800.0, tau_s], &one.input);
+        let noise = coloured(number, &plan(), &[-0.6, 0.2]);
+        let pairs = motion
+            .acceleration_rad_per_s2
+            .unwrap()
+            .into_iter()
+            .zip(noise);
+        one.tightening.motion.acceleration_rad_per_s2 = Some(pairs.map(|(a, n)| a + n).collect());
+        one.model = truth.clone();
+        let (subject, settings) = (one.subject(), IdentifySettings::default());
+        let whitening = Whitening::of(subject.tightening, settings.fitted_output);
+        let mut attempt = Attempt::new(&subject, whitening.as_ref(), &settings).unwrap();
+        assert!(attempt.starts.len() > 1);
+        let rough = attempt.fit(&subject, &settings).unwrap();
+        let mut problem = DenseResidual::new(&mut attempt.residual);
+        let all = solve_from_starts(
+            &mut problem,
+            &attempt.starts,
+            &attempt.set,
+            &settings.solver,
+        );
+        let all = all.unwrap();
+        assert!(rough.status.is_converged() && rough.cost <= all.cost * (1.0 + 1e-9));
+        for (found, expected) in rough.values.iter().zip(&all.values) {
+            assert!((found / expected - 1.0).abs() < 1e-7, "{rough:?} {all:?}");
+        }
+    }
+}
+
 #[test]
 fn what_is_unusual_is_there() {
     let all = all();
