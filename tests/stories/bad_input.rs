@@ -197,13 +197,16 @@ fn a_value_of_the_wrong_kind_is_told_with_its_field() {
     for (text, told) in [
         (
             "(\n  selection: (minimum_fit_percent: high),\n)",
-            "2:35: minimum_fit_percent is high: ",
+            "2:35: minimum_fit_percent is high; allowed is a number",
         ),
         (
             "(\n  seed: 3,\n  preprocess: (preset: Tesis),\n)",
-            "3:24: Unexpected variant named `Tesis`",
+            "3:24: preset is `Tesis`; allowed is `Snug` or `Thesis`",
         ),
-        ("(seed: -1)", "seed is -1: "),
+        (
+            "(seed: -1)",
+            "seed is -1; allowed is a whole number, 0 or more",
+        ),
     ] {
         std::fs::write(&path, text).unwrap();
         let error = Study::read(&path).unwrap_err();

@@ -1,3 +1,4 @@
+use crate::signal::{Signal, Unit};
 use snug_campaign::{Finding, Severity, did_you_mean};
 use std::path::{Path, PathBuf};
 use thiserror::Error;
@@ -30,7 +31,7 @@ pub enum IngestError {
         path: PathBuf,
     },
     /// The folder holds no file of the formats that the source reads.
-    #[error("{} holds no file to read: {others} file(s) are there, none ends in {expected}", folder.display())]
+    #[error("{} holds no file to read: {others} file(s) are there, none ends in {expected}; folders inside it are not looked into", folder.display())]
     NothingToRead {
         /// The folder.
         folder: PathBuf,
@@ -245,6 +246,20 @@ pub enum IngestError {
         allowed: &'static str,
     },
 
+    /// A channel's unit does not measure its signal.
+    #[error(
+        "source setting channels: {signal:?} is in {unit:?}; allowed: {}",
+        units(allowed)
+    )]
+    UnitOfSignal {
+        /// What the channel measures.
+        signal: Signal,
+        /// In which unit.
+        unit: Unit,
+        /// In which it may be.
+        allowed: Vec<Unit>,
+    },
+
     /// A channel stands in the file under none of its names.
     #[error(
         "no {channel} channel: expected {}, the file holds {}{}",
@@ -335,6 +350,11 @@ pub enum IngestError {
     },
 }
 
+fn units(units: &[Unit]) -> String {
+    let names: Vec<String> = units.iter().map(|unit| format!("{unit:?}")).collect();
+    names.join(", ")
+}
+
 /// The first names of a list, and how many more there are.
 fn listed(names: &[String]) -> String {
     const SHOWN: usize = 12;
@@ -376,7 +396,7 @@ impl IngestError {
             | Self::NotAFile { .. }
             | Self::NothingToRead { .. }
             | Self::NoSuchFile { .. } => "missing_data",
-            Self::Setting { .. } => "bad_setting",
+            Self::Setting { .. } | Self::UnitOfSignal { .. } => "bad_setting",
             Self::FormatNotBuilt { .. } => "unknown_format",
             Self::MissingChannel { .. } => "missing_channel",
             Self::UnusableChannel { .. } => "unusable_channel",

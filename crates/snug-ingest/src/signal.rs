@@ -99,6 +99,37 @@ const STANDARD_GRAVITY_M_PER_S2: f64 = 9.806_65;
 const INCH_M: f64 = 0.0254;
 
 impl Unit {
+    /// Every unit.
+    pub const ALL: [Self; 27] = [
+        Self::One,
+        Self::Volt,
+        Self::NewtonMetre,
+        Self::NewtonCentimetre,
+        Self::NewtonMillimetre,
+        Self::KilonewtonMetre,
+        Self::PoundForceInch,
+        Self::PoundForceFoot,
+        Self::Radian,
+        Self::Milliradian,
+        Self::Degree,
+        Self::Revolution,
+        Self::Metre,
+        Self::Centimetre,
+        Self::Millimetre,
+        Self::RadianPerSecond,
+        Self::DegreePerSecond,
+        Self::RevolutionPerMinute,
+        Self::MetrePerSecond,
+        Self::MillimetrePerSecond,
+        Self::RadianPerSecondSquared,
+        Self::DegreePerSecondSquared,
+        Self::MetrePerSecondSquared,
+        Self::StandardGravity,
+        Self::Newton,
+        Self::Kilonewton,
+        Self::PoundForce,
+    ];
+
     /// What a number in this unit is multiplied with to give `signal` in SI units about the joint; `None` where the unit
     /// does not measure that signal.
     ///
@@ -161,10 +192,12 @@ pub(crate) fn check(
     };
     for (index, (signal, unit, scale)) in channels.clone().enumerate() {
         if unit.factor(signal, 1.0).is_none() {
-            return Err(refused(
-                format!("{signal:?} in {unit:?}"),
-                "a unit that measures the signal",
-            ));
+            let measures = |one: &Unit| one.factor(signal, 1.0).is_some();
+            return Err(IngestError::UnitOfSignal {
+                signal,
+                unit,
+                allowed: Unit::ALL.into_iter().filter(measures).collect(),
+            });
         }
         if !scale.is_finite() || scale == 0.0 {
             return Err(refused(
@@ -218,6 +251,19 @@ mod tests {
     }
 
     #[test]
+    fn no_unit_is_left_out_of_the_list() {
+        let read: Result<Unit, _> = ron::from_str("Furlong");
+        let Err(ron::error::SpannedError {
+            code: ron::Error::NoSuchEnumVariant { expected, .. },
+            ..
+        }) = read
+        else {
+            panic!("{read:?}");
+        };
+        assert_eq!(Unit::ALL.map(|unit| format!("{unit:?}")), expected);
+    }
+
+    #[test]
     fn lengths_become_angles_by_the_lever_arm() {
         assert_eq!(Unit::Metre.factor(Signal::Displacement, 0.5), Some(2.0));
         assert_eq!(
@@ -237,7 +283,12 @@ mod tests {
         assert!(!ok(&[torque]), "no motion");
         assert!(!ok(&[angle, (GripForce, Unit::Newton, 1.0)]), "no input");
         assert!(!ok(&[torque, angle, angle]), "twice");
-        assert!(!ok(&[(Torque, Unit::Newton, 1.0), angle]), "wrong unit");
+        let wrong = check([(Torque, Unit::Newton, 1.0), angle].into_iter()).unwrap_err();
+        assert!(
+            wrong
+                .to_string()
+                .contains("Torque is in Newton; allowed: One, Volt, NewtonMetre")
+        );
         assert!(!ok(&[(Torque, Unit::NewtonMetre, 0.0), angle]), "scale 0");
     }
 }

@@ -37,7 +37,9 @@ pub enum ModelError {
         known: Vec<String>,
     },
     /// A parameter's value is not finite, or outside its limits, or the limits are the wrong way round.
-    #[error("parameter `{name}`: value {value} must be finite and within {minimum} to {maximum}")]
+    #[error(
+        "parameter `{name}`: its value is {value}, its minimum {minimum}, its maximum {maximum}; allowed is a minimum below the maximum and a finite value between them"
+    )]
     ParameterRange {
         /// The parameter.
         name: String,
@@ -50,7 +52,7 @@ pub enum ModelError {
     },
     /// A standard error was stated for a parameter that is not fixed, or is negative or not finite.
     #[error(
-        "parameter `{name}`: the standard error {standard_error} must be zero or a positive number, and the parameter fixed"
+        "parameter `{name}`: its standard_error is {standard_error}; allowed is 0 or more, and only where the parameter is `fixed: true`"
     )]
     StandardError {
         /// The parameter.
@@ -78,7 +80,7 @@ pub enum ModelError {
     },
     /// A custom effect's parameter starts outside its range, or the range is the wrong way round.
     #[error(
-        "custom effect `{effect}`: the parameter `{parameter}` starts at {start}; it must be finite and within {minimum} to {maximum}, the smaller first"
+        "custom effect `{effect}`: the parameter `{parameter}` has start {start}, minimum {minimum}, maximum {maximum}; allowed is a minimum below the maximum and a finite start between them"
     )]
     CustomRange {
         /// The effect.

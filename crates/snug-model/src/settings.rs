@@ -80,14 +80,15 @@ impl ModelSettings {
     /// The study's own effects, whether the model has them or not.
     ///
     /// # Errors
-    /// [`ModelError::DuplicateEffect`] when two have one name; otherwise as [`CustomEffect::intern`].
+    /// [`ModelError::CustomName`] when two have one name; otherwise as [`CustomEffect::intern`].
     pub fn custom_effects(&self) -> Result<Vec<Effect>, ModelError> {
         let mut effects: Vec<Effect> = Vec::new();
         for settings in &self.custom {
             let effect = CustomEffect::intern(settings)?;
             if effects.iter().any(|known| known.name() == effect.name()) {
-                return Err(ModelError::DuplicateEffect {
-                    effect: effect.name(),
+                return Err(ModelError::CustomName {
+                    name: settings.name.clone(),
+                    problem: "is declared twice; a custom effect needs a name of its own",
                 });
             }
             effects.push(effect);

@@ -367,9 +367,9 @@ fn what_cannot_be_an_effect_says_why() {
         ),
         (
             |bad| bad.parameters[0].minimum = 2.0,
-            "starts at 1; it must be finite and within 2 to 10000000",
+            "`p` has start 1, minimum 2, maximum 10000000; allowed is a minimum below",
         ),
-        (|bad| bad.parameters[0].start = f64::NAN, "starts at NaN"),
+        (|bad| bad.parameters[0].start = f64::NAN, "has start NaN"),
         (
             |bad| bad.expression = "p*y".into(),
             "effect `own_law`: in the expression `p*y`, at character 3, found `y`; allowed is a parameter (p), a variable (x, v",
@@ -396,5 +396,5 @@ fn what_cannot_be_an_effect_says_why() {
         ..ModelSettings::default()
     };
     let message = twice.model(RIG).unwrap_err().to_string();
-    assert!(message.contains("`own_law` is named twice"), "{message}");
+    assert!(message.contains("`own_law` is declared twice"), "{message}");
 }

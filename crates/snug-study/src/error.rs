@@ -14,7 +14,7 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 pub enum StudyError {
     /// The study file cannot be read.
-    #[error("{}: {source}", path.display())]
+    #[error("{} cannot be read: {source}; a study is a text file (RON in UTF-8)", path.display())]
     Read {
         /// Which file.
         path: PathBuf,
@@ -173,7 +173,7 @@ impl StudyError {
                 | Self::NothingScored { .. }
                 | Self::UnknownRange { .. }
                 | Self::FixedAgainstConstraint { .. }
-                | Self::Ingest(IngestError::Setting { .. })
+                | Self::Ingest(IngestError::Setting { .. } | IngestError::UnitOfSignal { .. })
                 | Self::Identify(IdentifyError::Setting { .. })
                 | Self::Record(RecordError::Setting { .. })
                 | Self::Preprocess(_)
@@ -194,6 +194,7 @@ impl StudyError {
             }
             Self::UnknownRange { .. } => Some("validation.ranges".to_owned()),
             Self::Ingest(IngestError::Setting { field, .. }) => Some(format!("source.{field}")),
+            Self::Ingest(IngestError::UnitOfSignal { .. }) => Some("source.channels".to_owned()),
             Self::Preprocess(PreprocessError::SettingOutOfRange { setting, .. }) => {
                 Some(format!("preprocess.{setting}"))
             }
@@ -202,8 +203,17 @@ impl StudyError {
             }
             Self::Model(ModelError::Rig { field, .. }) => Some(format!("preprocess.rig.{field}")),
             Self::Model(
-                ModelError::UnknownParameter { name, .. } | ModelError::ParameterRange { name, .. },
+                ModelError::UnknownParameter { name, .. }
+                | ModelError::ParameterRange { name, .. }
+                | ModelError::StandardError { name, .. },
             ) => Some(format!("model.parameters.{name}")),
+            Self::Model(
+                ModelError::CustomName { .. }
+                | ModelError::CustomParameter { .. }
+                | ModelError::CustomRange { .. }
+                | ModelError::Expression { .. }
+                | ModelError::ExpressionValue { .. },
+            ) => Some("model.custom".to_owned()),
             Self::Model(_) => Some("model.effects".to_owned()),
             Self::Identify(IdentifyError::Setting { name, .. }) => {
                 Some(format!("identify.solver.{name}"))

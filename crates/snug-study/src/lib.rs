@@ -15,6 +15,7 @@ mod selection;
 mod settling;
 mod statistics;
 mod study;
+mod syntax;
 
 #[doc(hidden)]
 pub use cases::cases;

@@ -1,5 +1,6 @@
 //! Where a field stands in a study file, for errors that are found only after the file was read.
 
+use std::fmt;
 use std::ops::Range;
 
 /// A place in a text.
@@ -9,6 +10,12 @@ pub(crate) struct Position {
     pub(crate) line: usize,
     /// 1-based column, in characters.
     pub(crate) column: usize,
+}
+
+impl fmt::Display for Position {
+    fn fmt(&self, text: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(text, "line {}, column {}", self.line, self.column)
+    }
 }
 
 /// The place of the field that `path` names, for example `selection.minimum_fit_percent`; of its nearest parent where the
@@ -38,15 +45,8 @@ pub(crate) fn of_field(text: &str, path: &str) -> Option<Position> {
 ///
 /// `text` need not be well formed; `None` outside every field and at the text's end.
 pub(crate) fn field_at(text: &str, place: Position) -> Option<(&str, &str)> {
-    let (above, in_line) = (place.line.checked_sub(1)?, place.column.checked_sub(1)?);
-    let mut lines = text.split_inclusive('\n');
-    let line_start: usize = lines.by_ref().take(above).map(str::len).sum();
-    let (bytes, _) = lines.next()?.char_indices().nth(in_line)?;
-    let rest = text[line_start + bytes..].trim_start();
-    let at = text.len() - rest.len();
-    if rest.is_empty() {
-        return None;
-    }
+    let at = behind_space(text, place)?;
+    let rest = &text[at..];
     let fields = keys(text).into_iter();
     let innermost = fields
         .filter(|key| key.value.contains(&at))
@@ -58,6 +58,54 @@ pub(crate) fn field_at(text: &str, place: Position) -> Option<(&str, &str)> {
         false => value,
     };
     Some((innermost.name, found))
+}
+
+/// What stands at `place` or, behind white space, right after it; `None` at the text's end.
+pub(crate) fn found_at(text: &str, place: Position) -> Option<&str> {
+    let rest = &text[behind_space(text, place)?..];
+    Some(&rest[..token(rest).length])
+}
+
+/// The innermost bracket that is open at `place`, or at the text's end where the text ends before.
+pub(crate) fn open_at(text: &str, place: Position) -> Option<(char, Position)> {
+    let until = behind_space(text, place).unwrap_or(text.len());
+    let mut open = Vec::new();
+    let mut at = 0;
+    while at < until {
+        let token = token(&text[at..]);
+        match token.kind {
+            Kind::Mark(mark @ ('(' | '[' | '{')) => open.push((mark, at)),
+            Kind::Mark(')' | ']' | '}') => drop(open.pop()),
+            _ => {}
+        }
+        at += token.length;
+    }
+    open.pop().map(|(mark, at)| (mark, position(text, at)))
+}
+
+/// Where a text in quotes begins that nothing closes.
+pub(crate) fn open_text(text: &str) -> Option<Position> {
+    let mut at = 0;
+    while at < text.len() {
+        let token = token(&text[at..]);
+        let whole = &text[at..at + token.length];
+        let is_closed = whole.len() > 1 && whole.ends_with('"');
+        if whole.starts_with('"') && !is_closed {
+            return Some(position(text, at));
+        }
+        at += token.length;
+    }
+    None
+}
+
+/// The byte at `place` or, behind white space, right after it; `None` at the text's end.
+fn behind_space(text: &str, place: Position) -> Option<usize> {
+    let (above, in_line) = (place.line.checked_sub(1)?, place.column.checked_sub(1)?);
+    let mut lines = text.split_inclusive('\n');
+    let line_start: usize = lines.by_ref().take(above).map(str::len).sum();
+    let (bytes, _) = lines.next()?.char_indices().nth(in_line)?;
+    let rest = text[line_start + bytes..].trim_start();
+    (!rest.is_empty()).then(|| text.len() - rest.len())
 }
 
 fn position(text: &str, at: usize) -> Position {

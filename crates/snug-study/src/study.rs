@@ -1,8 +1,8 @@
-use crate::position::{self, Position};
-use crate::{DiagnosisSettings, StudyError};
+use crate::position::Position;
+use crate::{DiagnosisSettings, StudyError, syntax};
 use ron::extensions::Extensions;
 use serde::{Deserialize, Serialize};
-use snug_campaign::{Intersample, Quantity, did_you_mean};
+use snug_campaign::{Intersample, Quantity, Rig};
 use snug_identify::{ConstraintKind, IdentifySettings};
 use snug_ingest::Source;
 use snug_model::{ModelError, ModelSettings};
@@ -88,7 +88,7 @@ impl Study {
                 path: path.to_path_buf(),
                 line,
                 column,
-                message: told(&source.code, text, Position { line, column }),
+                message: syntax::told(&source.code, text, Position { line, column }),
             }
         })
     }
@@ -159,12 +159,7 @@ impl Study {
                 });
             }
         }
-        let rig = self.preprocess.rig;
-        let any = snug_campaign::Rig {
-            lever_arm_m: rig.lever_arm_m,
-            known_inertia_kg_m2: 0.0,
-        };
-        let model = self.model.model(any)?;
+        let model = self.model.model(self.any_rig())?;
         let positive = self
             .identify
             .constraints
@@ -178,6 +173,14 @@ impl Study {
             }
         }
         Ok(())
+    }
+
+    /// Its rig with nothing on it: a model's parameters do not depend on what a tightening knows of the inertia.
+    pub(crate) fn any_rig(&self) -> Rig {
+        Rig {
+            lever_arm_m: self.preprocess.rig.lever_arm_m,
+            known_inertia_kg_m2: 0.0,
+        }
     }
 
     /// Of every range something must be scored.
@@ -256,22 +259,6 @@ impl PresetChoices {
                 constraints: vec![ConstraintKind::Stable],
             },
         }
-    }
-}
-
-/// What is wrong with a RON text at `place`, in which field; behind a misspelt name, the one that may have been meant.
-fn told(error: &ron::Error, text: &str, place: Position) -> String {
-    match error {
-        ron::Error::NoSuchStructField {
-            expected, found, ..
-        }
-        | ron::Error::NoSuchEnumVariant {
-            expected, found, ..
-        } => format!("{error}{}", did_you_mean(found, expected)),
-        _ => match position::field_at(text, place) {
-            Some((field, found)) => format!("{field} is {found}: {error}"),
-            None => error.to_string(),
-        },
     }
 }
 
