@@ -12,16 +12,14 @@ pub(crate) fn candidates(
     current: &Fitted,
     custom: &[Effect],
 ) -> Result<Vec<Effect>, DiagnoseError> {
-    let acceleration = cases
-        .iter()
-        .all(|case| case.quantity == Quantity::Acceleration);
     let case = &cases[0];
+    let compared = case.quantity;
+    let only_this = cases.iter().all(|case| case.quantity == compared);
     let all = Effect::ALL.iter().filter(|&&effect| can_act(effect, case));
     let mut all = all
         .map(|&effect| case.model.scale().effect(effect, case.model.rig()))
         .collect::<Result<Vec<Effect>, _>>()?;
-    // In the acceleration an offset of the output is the bias: ranked once.
-    all.retain(|effect| !(acceleration && effect.name() == "output_offset"));
+    all.retain(|effect| !(only_this && effect.same_as(compared).is_some()));
     all.extend(custom);
     all.extend(terms()?);
     all.retain(|effect| !current.effects.contains(effect));
@@ -42,7 +40,7 @@ fn can_act(effect: Effect, case: &Case) -> bool {
     let is_machine = matches!(case.model.scale(), Scale::Rig { .. });
     let has_accelerometer = case.quantity == Quantity::Acceleration
         || case.tightening.motion.acceleration_rad_per_s2.is_some();
-    let is_set = description.name == "initial_motion" && case.input.is_restarted();
+    let is_set = effect.sets_initial_motion() && case.input.is_restarted();
     let is_of_another = match description.kind {
         Kind::Muscular => is_machine,
         Kind::Measurement => !has_accelerometer && description.of_accelerometer(),

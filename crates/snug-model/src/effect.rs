@@ -1,4 +1,5 @@
 use crate::Number;
+use snug_campaign::Quantity;
 
 /// Where in the chain from bolt to sample an effect sits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
@@ -275,5 +276,11 @@ pub trait Law {
     /// True when the effect only changes what is measured, so that the motion itself stays the base model's.
     fn measurement_only(&self) -> bool {
         false
+    }
+
+    /// The effect that it is one and the same with where `compared` is all that is compared; of the two the other is
+    /// ranked.
+    fn same_as(&self, _compared: Quantity) -> Option<&'static str> {
+        None
     }
 }

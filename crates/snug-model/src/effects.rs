@@ -3,6 +3,7 @@
 use crate::Number;
 use crate::custom::CustomEffect;
 use crate::effect::{Deflection, Delayed, Description, Instant, Kinematics, Law, LoggedTorque};
+use snug_campaign::Quantity;
 
 /// Declares the effects' modules and an enum over them that forwards every hook of [`Law`].
 macro_rules! catalogue {
@@ -126,6 +127,12 @@ macro_rules! catalogue {
                     Self::Custom(law) => law.measurement_only(),
                 }
             }
+            fn same_as(&self, compared: Quantity) -> Option<&'static str> {
+                match self {
+                    $(Self::$Effect => $module::$Effect.same_as(compared),)+
+                    Self::Custom(law) => law.same_as(compared),
+                }
+            }
         }
     };
 }
@@ -173,5 +180,12 @@ impl Effect {
     /// Its fixed name.
     pub fn name(&self) -> &'static str {
         self.description().name
+    }
+
+    /// Whether it says with which motion the window begins.
+    pub fn sets_initial_motion(&self) -> bool {
+        let parameters = self.description().parameters.iter();
+        let usual: Vec<f64> = parameters.map(|spec| spec.starts[0]).collect();
+        self.initial(&usual).is_some()
     }
 }

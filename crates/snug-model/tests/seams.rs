@@ -203,3 +203,43 @@ fn a_standard_error_belongs_to_a_fixed_parameter() {
         );
     }
 }
+
+/// What is ranked once because it is one and the same moves the output as its other does.
+#[test]
+fn what_is_called_the_same_is_the_same() {
+    let simulated = |effect, compared| {
+        let model = Model::new(RIG, &[effect]).unwrap();
+        let mut values: Vec<f64> = model.parameters().iter().map(|one| one.value).collect();
+        values[3] = 0.3;
+        let mut output = vec![0.0; SAMPLES];
+        model.output(&values, &input(), compared, &mut output);
+        output
+    };
+    let mut known = 0;
+    for compared in [
+        Quantity::Displacement,
+        Quantity::Velocity,
+        Quantity::Acceleration,
+    ] {
+        for &effect in Effect::ALL {
+            let Some(other) = effect.same_as(compared) else {
+                continue;
+            };
+            let other = Effect::named(other).unwrap();
+            assert_eq!(simulated(effect, compared), simulated(other, compared));
+            known += 1;
+        }
+    }
+    assert_eq!(known, 1, "an offset of the acceleration is the bias");
+}
+
+#[test]
+fn one_effect_says_how_the_window_begins() {
+    let begins = |effect: &&Effect| effect.sets_initial_motion();
+    let found: Vec<&str> = Effect::ALL
+        .iter()
+        .filter(begins)
+        .map(Effect::name)
+        .collect();
+    assert_eq!(found, ["initial_motion"]);
+}

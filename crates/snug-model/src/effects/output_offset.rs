@@ -4,6 +4,7 @@
 
 use crate::Number;
 use crate::effect::{Description, Kind, Kinematics, Law, ParameterSpec, Scope};
+use snug_campaign::Quantity;
 
 pub struct OutputOffset;
 
@@ -49,5 +50,9 @@ impl Law for OutputOffset {
 
     fn measurement_only(&self) -> bool {
         true
+    }
+
+    fn same_as(&self, compared: Quantity) -> Option<&'static str> {
+        (compared == Quantity::Acceleration).then_some("acceleration_bias")
     }
 }
