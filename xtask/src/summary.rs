@@ -123,18 +123,19 @@ fn parameters(text: &mut String, result: &CampaignResult) {
     let Some(all) = result.conditions.first() else {
         return;
     };
-    let rows: Vec<(&str, &Moments)> = all
+    let rows: Vec<(String, &Moments)> = all
         .quantities
         .iter()
-        .filter_map(|q| Some((q.quantity.as_str(), q.selected.as_ref()?)))
+        .filter_map(|q| Some((called(&q.quantity, result), q.selected.as_ref()?)))
         .collect();
-    if rows.is_empty() {
+    let Some(width) = rows.iter().map(|(name, _)| name.chars().count()).max() else {
         return;
-    }
+    };
+    let width = width.max(24);
     line(
         text,
         format_args!(
-            "\n  {:<24} {:>11} {:>11} {:>25}",
+            "\n  {:<width$} {:>11} {:>11} {:>25}",
             "selected", "mean", "SD", "95 % of the mean"
         ),
     );
@@ -149,10 +150,33 @@ fn parameters(text: &mut String, result: &CampaignResult) {
         line(
             text,
             format_args!(
-                "  {name:<24} {:>11} {sd:>11} {interval:>25}",
+                "  {name:<width$} {:>11} {sd:>11} {interval:>25}",
                 significant(moments.mean)
             ),
         );
+    }
+}
+
+/// A column of the tables by its name; a parameter of an effect by what it is: `coulomb friction: friction force [N]`.
+fn called(column: &str, result: &CampaignResult) -> String {
+    let Some(told) = result.meanings.iter().find(|told| told.name == column) else {
+        return column.to_owned();
+    };
+    let effect = told.effect.replace('_', " ");
+    let words = match told.meaning == effect {
+        true => effect,
+        false => format!("{effect}: {}", told.meaning),
+    };
+    let estimates = result
+        .tightenings
+        .iter()
+        .filter_map(|t| t.estimate.as_ref());
+    let unit = (estimates.flat_map(|estimate| &estimate.parameters))
+        .find(|parameter| parameter.name == column)
+        .map_or("", |parameter| parameter.unit.as_str());
+    match unit {
+        "" | "1" => words,
+        unit => format!("{words} [{unit}]"),
     }
 }
 

@@ -108,6 +108,17 @@ pub struct TestRow {
     pub note: Option<String>,
 }
 
+/// What a parameter of one of the model's effects is.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct ParameterMeaning {
+    /// Its column: name with unit suffix.
+    pub name: String,
+    /// Its effect.
+    pub effect: String,
+    /// What it is, in a few words, as its effect says it.
+    pub meaning: String,
+}
+
 /// A campaign, evaluated.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct CampaignResult {
@@ -123,6 +134,8 @@ pub struct CampaignResult {
     pub units: SignalUnits,
     /// Names of the effects in the model; empty for the base model.
     pub effects: Vec<String>,
+    /// What their parameters are.
+    pub meanings: Vec<ParameterMeaning>,
     /// Both presets side by side (the one in use first).
     pub presets: Vec<PresetSummary>,
     /// Every tightening, in campaign order.

@@ -18,8 +18,8 @@ mod time_base;
 mod units;
 
 pub use campaign::{
-    CampaignResult, ConditionSummary, EffectSize, Moments, PresetSummary, QuantitySummary,
-    RejectionCount, TestRow,
+    CampaignResult, ConditionSummary, EffectSize, Moments, ParameterMeaning, PresetSummary,
+    QuantitySummary, RejectionCount, TestRow,
 };
 pub use comparison::{Comparison, Misfit, TighteningMisfit};
 pub use conditions::Conditions;

@@ -2,7 +2,7 @@
 
 use crate::effect_words::{effect_name, unit_text};
 use crate::signal_unit;
-use snug_campaign::{CampaignResult, EffectParameter};
+use snug_campaign::CampaignResult;
 
 /// How a quantity is called on the page.
 #[derive(Debug, Clone, PartialEq)]
@@ -70,9 +70,6 @@ fn as_declared(column: &str, result: &CampaignResult) -> QuantityName {
                 .unwrap_or_else(|| (*unit).into()),
         };
     }
-    if let Some(name) = of_added_effect(column, result) {
-        return name;
-    }
     let (stem, suffix_unit) = split_unit(column);
     let declared = result
         .tightenings
@@ -81,28 +78,20 @@ fn as_declared(column: &str, result: &CampaignResult) -> QuantityName {
         .find_map(|estimate| estimate.parameter(column))
         .map(|parameter| parameter.unit.clone());
     QuantityName {
-        words: stem.replace('_', " "),
+        words: of_effect(column, result).unwrap_or_else(|| stem.replace('_', " ")),
         symbol: "",
         unit: signal_unit::effect_parameter(&result.units, declared.unwrap_or(suffix_unit)),
     }
 }
 
-/// A parameter of an effect that the diagnosis put into the model: `coulomb friction: friction force`.
-fn of_added_effect(column: &str, result: &CampaignResult) -> Option<QuantityName> {
-    let added = &result.diagnosis.as_ref()?.added;
-    added.iter().find_map(|effect| {
-        let is_column = |size: &&EffectParameter| size.name == column && !size.meaning.is_empty();
-        let size = effect.parameters.iter().find(is_column)?;
-        let effect = effect_name(&effect.effect);
-        Some(QuantityName {
-            // An effect with one parameter may be called like it.
-            words: match size.meaning == effect {
-                true => effect,
-                false => format!("{effect}: {}", size.meaning),
-            },
-            symbol: "",
-            unit: signal_unit::effect_parameter(&result.units, size.unit.clone()),
-        })
+/// A parameter of one of the model's effects in words: `coulomb friction: friction force`.
+fn of_effect(column: &str, result: &CampaignResult) -> Option<String> {
+    let told = result.meanings.iter().find(|told| told.name == column)?;
+    let effect = effect_name(&told.effect);
+    // An effect with one parameter may be called like it.
+    Some(match told.meaning == effect {
+        true => effect,
+        false => format!("{effect}: {}", told.meaning),
     })
 }
 

@@ -143,7 +143,7 @@ fn axes_and_columns_carry_units() {
         "damping c [kg/s]",
         "stiffness k [N/m]",
         "natural frequency fₙ [Hz]",
-        "k3 [N/m³]",
+        "cubic stiffness [N/m³]",
         "angle θ [rad]",
         "acceleration α [rad/s²]",
         "force [N]",

@@ -6,9 +6,10 @@ use crate::file_evaluation::{FileEvaluation, evaluate_file, other, outcomes};
 use crate::{ProgressEvent, Study, StudyError, statistics};
 use rayon::prelude::*;
 use snug_campaign::{
-    CampaignResult, Diagnosis, Finding, PresetSummary, Rejection, RejectionCount, Severity,
-    TighteningId, TighteningResult,
+    CampaignResult, Diagnosis, Finding, ParameterMeaning, PresetSummary, Rejection, RejectionCount,
+    Severity, TighteningId, TighteningResult,
 };
+use snug_model::{BASE_PARAMETERS, Law, Model};
 use snug_record::Recorder;
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -112,7 +113,7 @@ pub(crate) fn run_with(
     }
 
     progress(ProgressEvent::Writing { what: "statistics" });
-    let mut result = collected.result(study, study_ron);
+    let mut result = collected.result(study, study_ron)?;
     result.diagnosis = diagnosis;
     recorder.statistics(&result.conditions, &result.tests)?;
     if let Some(diagnosis) = &result.diagnosis {
@@ -175,7 +176,7 @@ impl Collected {
         Ok(())
     }
 
-    fn result(self, study: &Study, study_ron: String) -> CampaignResult {
+    fn result(self, study: &Study, study_ron: String) -> Result<CampaignResult, StudyError> {
         let fitted: Vec<&TighteningResult> = self
             .tightenings
             .iter()
@@ -186,13 +187,15 @@ impl Collected {
         let tests = statistics::rows(&fitted, &units, study.seed);
         let mut presets = vec![preset_summary(study, self.here)];
         presets.extend(other(study).map(|other| preset_summary(&other, self.there)));
-        CampaignResult {
+        let model = study.model.model(study.any_rig())?;
+        Ok(CampaignResult {
             title: study.title(),
             study_ron,
             preset: study.preprocess.preset.name().to_owned(),
             fitted_output: study.identify.fitted_output.name().to_owned(),
             units,
             effects: study.model.effects.clone(),
+            meanings: meanings(&model),
             presets,
             conditions,
             tests,
@@ -200,8 +203,26 @@ impl Collected {
             findings: self.findings,
             examples: self.examples.into_kept(),
             diagnosis: None,
-        }
+        })
     }
+}
+
+/// What the parameters of the model's effects are.
+fn meanings(model: &Model) -> Vec<ParameterMeaning> {
+    let effects: Vec<_> = model.effects().collect();
+    let described = effects.iter().flat_map(|effect| {
+        let specs = effect.description().parameters.iter();
+        specs.map(move |spec| (effect.name(), spec.meaning))
+    });
+    model.parameters()[BASE_PARAMETERS.len()..]
+        .iter()
+        .zip(described)
+        .map(|(parameter, (effect, meaning))| ParameterMeaning {
+            name: parameter.name.clone(),
+            effect: effect.to_owned(),
+            meaning: meaning.to_owned(),
+        })
+        .collect()
 }
 
 fn preset_summary(study: &Study, outcomes: Vec<(TighteningId, Vec<Rejection>)>) -> PresetSummary {

@@ -7,8 +7,9 @@ mod summary;
 use oscillator::{Noise, Oscillator};
 use snug_campaign::{
     CampaignResult, Conditions, Correction, Estimate, Finding, FitMeasures, FitStatus,
-    Identifiability, Interval, NoiseFloor, NoiseSource, ParameterEstimate, Quantity, Rejection,
-    Rig, Selection, Severity, SignalUnits, TighteningId, TighteningResult, Traces,
+    Identifiability, Interval, NoiseFloor, NoiseSource, ParameterEstimate, ParameterMeaning,
+    Quantity, Rejection, Rig, Selection, Severity, SignalUnits, TighteningId, TighteningResult,
+    Traces,
 };
 
 /// Signals are kept of the first tightenings only.
@@ -34,6 +35,11 @@ pub fn campaign(count: usize) -> CampaignResult {
         fitted_output: "acceleration".into(),
         units: SignalUnits::default(),
         effects: vec!["cubic_stiffness".into()],
+        meanings: vec![ParameterMeaning {
+            name: "k3_n_per_m3".into(),
+            effect: "cubic_stiffness".into(),
+            meaning: "cubic stiffness".into(),
+        }],
         presets: summary::presets(&tightenings),
         conditions: summary::conditions(&tightenings),
         tests: summary::tests(),
