@@ -143,37 +143,20 @@ fn height(rungs: &[Rung]) -> f64 {
 }
 
 fn error_figure(rungs: &[Rung], names: &[String]) -> Markup {
-    let read: [fn(&Rung) -> Option<f64>; 4] = [
-        |rung| rung.error_over_noise,
-        VIEWS[0].read,
-        VIEWS[1].read,
-        VIEWS[2].read,
-    ];
-    let values = || {
-        rungs
-            .iter()
-            .flat_map(|rung| read.iter().filter_map(|read| read(rung)))
+    let (low, high) = error_scale(rungs);
+    let left = |rung: &Rung| rung.error_over_noise;
+    let floor = Segment {
+        x: (1.0, 1.0),
+        y: (0.5, 0.5 - rungs.len() as f64),
     };
-    let largest = values()
-        .filter(|value| value.is_finite())
-        .fold(1.1, f64::max);
-    let smallest = values().filter(|value| *value > 0.0).fold(1.0, f64::min);
     let mut marks = vec![
         Mark::Bars {
             class: "c-faint",
-            bars: bars(
-                rungs,
-                smallest.min(0.96),
-                |rung| rung.error_over_noise,
-                "error over noise",
-            ),
+            bars: bars(rungs, low, left, "error over noise"),
         },
         Mark::Segments {
             class: "c-floor thick",
-            segments: vec![Segment {
-                x: (1.0, 1.0),
-                y: (0.5, 0.5 - rungs.len() as f64),
-            }],
+            segments: vec![floor],
         },
     ];
     let mut entries = vec![
@@ -181,23 +164,7 @@ fn error_figure(rungs: &[Rung], names: &[String]) -> Markup {
         ("c-floor", "nothing but noise"),
     ];
     for view in &VIEWS {
-        let dots: Vec<Dot> = rungs
-            .iter()
-            .enumerate()
-            .filter_map(|(row, rung)| {
-                let value = (view.read)(rung)?;
-                Some(Dot {
-                    x: value,
-                    y: -(row as f64) + view.offset,
-                    title: format!(
-                        "{}, {}: {} times the noise",
-                        names[row],
-                        view.words,
-                        significant(value, 4)
-                    ),
-                })
-            })
-            .collect();
+        let dots = view.dots(rungs, names);
         if !dots.is_empty() {
             entries.push((view.class, view.words));
             marks.push(Mark::Dots {
@@ -210,11 +177,7 @@ fn error_figure(rungs: &[Rung], names: &[String]) -> Markup {
         description: "Error over noise of each model of the ladder".into(),
         width: 520.0,
         height: height(rungs),
-        x: Axis::logarithmic(
-            "error over noise [× noise]",
-            smallest.min(0.96),
-            1.08 * largest,
-        ),
+        x: Axis::logarithmic("error over noise [× noise]", low, high),
         y: rows(names),
         marks,
     };
@@ -223,6 +186,38 @@ fn error_figure(rungs: &[Rung], names: &[String]) -> Markup {
         html! { (figure.svg()) (legend(&entries)) },
         None,
     )
+}
+
+/// Both ends of the scale: a little beyond every error, and the noise always on it.
+fn error_scale(rungs: &[Rung]) -> (f64, f64) {
+    let errors = || {
+        rungs.iter().flat_map(|rung| {
+            let held_out = VIEWS.iter().filter_map(|view| (view.read)(rung));
+            held_out.chain(rung.error_over_noise)
+        })
+    };
+    let largest = errors()
+        .filter(|error| error.is_finite())
+        .fold(1.1, f64::max);
+    let smallest = errors().filter(|error| *error > 0.0).fold(0.96, f64::min);
+    (smallest, 1.08 * largest)
+}
+
+impl View {
+    /// One dot per model for which it could be told.
+    fn dots(&self, rungs: &[Rung], names: &[String]) -> Vec<Dot> {
+        let rows = rungs.iter().zip(names).enumerate();
+        rows.filter_map(|(row, (rung, name))| {
+            let value = (self.read)(rung)?;
+            let error = significant(value, 4);
+            Some(Dot {
+                x: value,
+                y: -(row as f64) + self.offset,
+                title: format!("{name}, {}: {error} times the noise", self.words),
+            })
+        })
+        .collect()
+    }
 }
 
 fn bars(rungs: &[Rung], from: f64, read: fn(&Rung) -> Option<f64>, what: &str) -> Vec<Bar> {

@@ -92,50 +92,33 @@ fn label(candidate: &RankedEffect) -> String {
     called(&candidate.effect, candidate.expression.as_ref())
 }
 
+/// Colours of the bars and what they stand for.
+const LAYERS: [(&str, &str); 3] = [
+    ("c-selected", "beyond chance"),
+    ("c-rejected", "beyond chance, in no catalogue"),
+    ("c-faint", "could be chance"),
+];
+
 fn figure(ranking: &[&RankedEffect]) -> Markup {
-    let rows: Vec<(String, bool)> = ranking
-        .iter()
-        .map(|candidate| (label(candidate), false))
-        .collect();
-    let ends = ranking.iter().flat_map(|candidate| {
-        [-1.0, 1.0]
-            .map(|side| 100.0 * (candidate.heldout_gain + side * candidate.heldout_gain_error))
+    let (low, high) = scale(ranking);
+    let placed = || ranking.iter().enumerate();
+    let of_layer = |layer: &str| -> Vec<Bar> {
+        placed()
+            .filter(|(_, candidate)| class(candidate) == layer)
+            .map(|(row, candidate)| bar(row, candidate, (low, high)))
+            .collect()
+    };
+    let bars = LAYERS.map(|(layer, _)| Mark::Bars {
+        class: layer,
+        bars: of_layer(layer),
     });
-    let (low, high) = ends
-        .filter(|end| end.is_finite())
-        // What goes beyond the scale is cut off, so that it does not press the rest together.
-        .fold((0.0_f64, 5.0_f64), |(low, high), end| {
-            (low.min(end.max(-50.0)), high.max(end.min(110.0)))
-        });
-    let mut marks: Vec<Mark> = ["c-faint", "c-selected", "c-rejected"]
-        .into_iter()
-        .map(|layer| Mark::Bars {
-            class: layer,
-            bars: ranking
-                .iter()
-                .enumerate()
-                .filter(|(_, candidate)| class(candidate) == layer)
-                .map(|(row, candidate)| bar(row, candidate, (low, high)))
-                .collect(),
-        })
-        .collect();
-    marks.push(Mark::Segments {
+    let whiskers = Mark::Segments {
         class: "c-whisker",
-        segments: ranking
-            .iter()
-            .enumerate()
-            .map(|(row, candidate)| {
-                let end = |side: f64| {
-                    let end = candidate.heldout_gain + side * candidate.heldout_gain_error;
-                    (100.0 * end).clamp(low, high)
-                };
-                Segment {
-                    x: (end(-1.0), end(1.0)),
-                    y: (-(row as f64), -(row as f64)),
-                }
-            })
+        segments: placed()
+            .map(|(row, candidate)| whisker(row, candidate, (low, high)))
             .collect(),
-    });
+    };
+    let labels: Vec<(String, bool)> = ranking.iter().map(|one| (label(one), false)).collect();
     let figure = Figure {
         description: "Share of the misfit that each candidate removes in held-out tightenings"
             .into(),
@@ -147,15 +130,10 @@ fn figure(ranking: &[&RankedEffect]) -> Markup {
             1.03 * high,
             6,
         ),
-        y: Axis::rows(&rows),
-        marks,
+        y: Axis::rows(&labels),
+        marks: bars.into_iter().chain([whiskers]).collect(),
     };
-    let entries = [
-        ("c-selected", "beyond chance"),
-        ("c-rejected", "beyond chance, in no catalogue"),
-        ("c-faint", "could be chance"),
-    ];
-    let used: Vec<(&str, &str)> = entries
+    let used: Vec<(&str, &str)> = LAYERS
         .into_iter()
         .filter(|(layer, _)| ranking.iter().any(|candidate| class(candidate) == *layer))
         .collect();
@@ -164,6 +142,28 @@ fn figure(ranking: &[&RankedEffect]) -> Markup {
         html! { (figure.svg()) (legend(&used)) },
         None,
     )
+}
+
+/// Both ends of a candidate's standard error \[%\].
+fn ends(candidate: &RankedEffect) -> [f64; 2] {
+    [-1.0, 1.0].map(|side| 100.0 * (candidate.heldout_gain + side * candidate.heldout_gain_error))
+}
+
+/// Both ends of the scale \[%\]. What goes beyond is cut off, so that it does not press the rest together.
+fn scale(ranking: &[&RankedEffect]) -> (f64, f64) {
+    let ends = ranking.iter().flat_map(|candidate| ends(candidate));
+    ends.filter(|end| end.is_finite())
+        .fold((0.0_f64, 5.0_f64), |(low, high), end| {
+            (low.min(end.max(-50.0)), high.max(end.min(110.0)))
+        })
+}
+
+fn whisker(row: usize, candidate: &RankedEffect, (low, high): (f64, f64)) -> Segment {
+    let [from, to] = ends(candidate).map(|end| end.clamp(low, high));
+    Segment {
+        x: (from, to),
+        y: (-(row as f64), -(row as f64)),
+    }
 }
 
 fn bar(row: usize, candidate: &RankedEffect, (low, high): (f64, f64)) -> Bar {
