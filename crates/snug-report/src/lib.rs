@@ -16,6 +16,7 @@ mod statistics_json;
 mod tightenings_csv;
 mod traces_json;
 mod verdict_json;
+mod whole_file;
 
 pub use error::ReportError;
 pub use findings_json::findings_json;
@@ -23,6 +24,7 @@ pub use page::html;
 pub use statistics_json::statistics_json;
 pub use tightenings_csv::tightenings_csv;
 pub use verdict_json::verdict_json;
+pub use whole_file::write_whole;
 
 use snug_campaign::CampaignResult;
 use std::fs;
@@ -52,7 +54,7 @@ pub fn write(folder: &Path, result: &CampaignResult) -> Result<Vec<PathBuf>, Rep
     let mut written = Vec::with_capacity(files.len());
     for (name, content) in files {
         let path = folder.join(name);
-        fs::write(&path, content).map_err(|source| ReportError::WriteFile {
+        write_whole(&path, &content).map_err(|source| ReportError::WriteFile {
             path: path.clone(),
             source,
         })?;

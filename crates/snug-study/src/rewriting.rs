@@ -43,7 +43,7 @@ pub fn rewrite_effects(
         Some(new) if Study::parse(&new, path).is_ok_and(|study| study == wanted) => new,
         _ => wanted.to_ron()?,
     };
-    std::fs::write(path, new).map_err(|source| StudyError::Write {
+    snug_report::write_whole(path, &new).map_err(|source| StudyError::Write {
         path: path.to_path_buf(),
         source,
     })

@@ -294,7 +294,7 @@ fn create_folder(folder: &Path) -> Result<(), StudyError> {
 }
 
 fn write(path: &Path, text: &str) -> Result<(), StudyError> {
-    std::fs::write(path, text).map_err(|source| StudyError::Write {
+    snug_report::write_whole(path, text).map_err(|source| StudyError::Write {
         path: path.to_path_buf(),
         source,
     })
