@@ -3,7 +3,7 @@
 use crate::DiagnoseError;
 use crate::case::Case;
 use crate::cases::Cases;
-use crate::simulated::{Asked, Simulated};
+use crate::simulated::{Asked, Simulated, simulate};
 use snug_identify::{
     Constraints, EvaluationError, PooledFit, PooledResidual, PooledSettings, Trial, Whitening,
     convex_set, solve_pooled,
@@ -199,6 +199,21 @@ impl<'a> Hypothesis<'a> {
         end
     }
 
+    /// The compared output of every tightening that is `asked` for.
+    pub fn outputs(&self, asked: &[Asked<'_>]) -> Vec<Vec<f64>> {
+        let mut simulated = Vec::new();
+        simulate(&self.cases, &self.models, asked, &[], &mut simulated);
+        simulated.into_iter().map(|one| one.output).collect()
+    }
+
+    /// Its derivatives to one parameter.
+    pub fn derivatives(&self, asked: &[Asked<'_>], parameter: usize) -> Vec<Vec<f64>> {
+        let mut simulated = Vec::new();
+        let order = [parameter];
+        simulate(&self.cases, &self.models, asked, &order, &mut simulated);
+        simulated.into_iter().map(|one| one.sensitivity).collect()
+    }
+
     /// Weighted residual and, for the parameters in `order`, weighted Jacobian (column-major) of one member.
     pub fn weighted<'r>(
         &self,
@@ -213,7 +228,8 @@ impl<'a> Hypothesis<'a> {
             input,
             values,
         }];
-        self.simulate(&asked, order, &mut room.simulated);
+        let simulated = &mut room.simulated;
+        simulate(&self.cases, &self.models, &asked, order, simulated);
         self.weigh_simulated(member, order.len(), 0, room)
     }
 
@@ -332,7 +348,8 @@ impl PooledResidual for Hypothesis<'_> {
                 values,
             })
             .collect();
-        self.simulate(&asked, &order, &mut room.simulated);
+        let simulated = &mut room.simulated;
+        simulate(&self.cases, &self.models, &asked, &order, simulated);
         let mut outcome = Ok(());
         for (index, trial) in trials.iter_mut().enumerate() {
             let (residual, jacobian) =

@@ -1,7 +1,7 @@
-//! What a hypothesis says of several tightenings, simulated side by side.
+//! What models say of several tightenings, simulated side by side.
 
-use crate::hypothesis::Hypothesis;
-use snug_model::{Input, Run, simulate_side_by_side};
+use crate::Case;
+use snug_model::{Input, Model, Run, simulate_side_by_side};
 
 /// What is asked of one tightening.
 #[derive(Clone, Copy)]
@@ -23,42 +23,33 @@ pub(crate) struct Simulated {
     pub sensitivity: Vec<f64>,
 }
 
-impl Hypothesis<'_> {
-    /// The compared output of every tightening that is `asked` for, and its derivatives to the parameters in `order`.
-    ///
-    /// The first of `simulated` get the answers; they are kept from call to call for their room.
-    pub fn simulate(&self, asked: &[Asked<'_>], order: &[usize], simulated: &mut Vec<Simulated>) {
-        simulated.resize_with(simulated.len().max(asked.len()), Simulated::default);
-        let mut runs: Vec<Run<'_>> = (asked.iter().zip(simulated.iter_mut()))
-            .map(|(asked, simulated)| {
-                let case = &self.cases[asked.member];
-                let samples = case.measured().len();
-                simulated.output.resize(samples, 0.0);
-                simulated.sensitivity.resize(samples * order.len(), 0.0);
-                Run {
-                    model: &self.models[asked.member],
-                    values: asked.values,
-                    input: asked.input,
-                    quantity: case.quantity,
-                    output: &mut simulated.output,
-                    sensitivity: &mut simulated.sensitivity,
-                }
-            })
-            .collect();
-        simulate_side_by_side(&mut runs, order);
-    }
-
-    /// The compared outputs alone.
-    pub fn outputs(&self, asked: &[Asked<'_>]) -> Vec<Vec<f64>> {
-        let mut simulated = Vec::new();
-        self.simulate(asked, &[], &mut simulated);
-        simulated.into_iter().map(|one| one.output).collect()
-    }
-
-    /// Their derivatives to one parameter.
-    pub fn derivatives(&self, asked: &[Asked<'_>], parameter: usize) -> Vec<Vec<f64>> {
-        let mut simulated = Vec::new();
-        self.simulate(asked, &[parameter], &mut simulated);
-        simulated.into_iter().map(|one| one.sensitivity).collect()
-    }
+/// The compared output of every tightening that is `asked` for, and its derivatives to the parameters in `order`.
+///
+/// `models` are those of `cases`, one each. The first of `simulated` get the answers; they are kept from call to call for
+/// their room.
+pub(crate) fn simulate(
+    cases: &[Case],
+    models: &[Model],
+    asked: &[Asked<'_>],
+    order: &[usize],
+    simulated: &mut Vec<Simulated>,
+) {
+    simulated.resize_with(simulated.len().max(asked.len()), Simulated::default);
+    let mut runs: Vec<Run<'_>> = (asked.iter().zip(simulated.iter_mut()))
+        .map(|(asked, simulated)| {
+            let case = &cases[asked.member];
+            let samples = case.measured().len();
+            simulated.output.resize(samples, 0.0);
+            simulated.sensitivity.resize(samples * order.len(), 0.0);
+            Run {
+                model: &models[asked.member],
+                values: asked.values,
+                input: asked.input,
+                quantity: case.quantity,
+                output: &mut simulated.output,
+                sensitivity: &mut simulated.sensitivity,
+            }
+        })
+        .collect();
+    simulate_side_by_side(&mut runs, order);
 }
