@@ -21,6 +21,8 @@ pub struct Following<'a> {
     pub options: &'a str,
     /// The study file that holds the model found.
     pub study: &'a str,
+    /// The one among the results, which always holds it.
+    pub written: &'a str,
 }
 
 /// Prints a diagnosis on standard output.
@@ -92,6 +94,7 @@ fn verdict(page: &mut Page, diagnosis: &Diagnosis) {
         .iter()
         .any(|rung| rung.error_over_noise.is_some());
     let word = match diagnosis.verdict {
+        _ if diagnosis.interrupted => "stopped by you before there was one",
         Verdict::Adequate => "the model is adequate",
         Verdict::MissingEffect => "an effect is missing",
         Verdict::UnlistedEffect => "something is missing that is in no catalogue",
@@ -265,6 +268,14 @@ fn next(page: &mut Page, diagnosis: &Diagnosis, following: &Following<'_>) {
     };
     if let Some(experiment) = &diagnosis.experiment {
         page.paragraph("  ", &experiment.statement);
+    }
+    if diagnosis.interrupted {
+        page.paragraph("  ", "Go on from the model found so far:");
+        page.line(&format!(
+            "    cargo xtask improve --study {}",
+            following.written
+        ));
+        return;
     }
     if diagnosis.verb == "compare" {
         page.paragraph("  ", "Ask which effect is missing; it changes nothing:");

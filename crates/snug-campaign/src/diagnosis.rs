@@ -281,6 +281,8 @@ pub struct Diagnosis {
     pub reasons: Vec<String>,
     /// Why the climb stopped; `None` for verbs that do not climb.
     pub stopped: Option<String>,
+    /// Whether whoever asked ended the climb: what is told is what was known by then.
+    pub interrupted: bool,
     /// Tightenings that took part.
     pub tightenings: usize,
     /// What errors are compared with.

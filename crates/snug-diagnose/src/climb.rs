@@ -33,7 +33,7 @@ pub(crate) struct Climb {
     pub rungs: Vec<Fitted>,
     pub additions: Vec<Addition>,
     pub attempts: Vec<Attempt>,
-    /// The ranking against the last model.
+    /// The ranking against the last model; empty where nothing was ranked against it.
     pub ranking: Ranking,
     /// The ranking's candidate that is supported and matters, where the climb ends without adding it.
     pub chosen: Option<usize>,
@@ -52,6 +52,23 @@ impl Climb {
             chosen: None,
             stopped: None,
         }
+    }
+
+    /// One rung up.
+    pub fn add(&mut self, addition: Addition, fitted: Fitted) {
+        self.additions.push(addition);
+        self.stand_on(fitted);
+    }
+
+    /// Another last model, against which nothing is ranked yet.
+    pub fn stand_on(&mut self, fitted: Fitted) {
+        self.rungs.push(fitted);
+        self.ranking = Ranking::default();
+    }
+
+    /// Whether whoever watches ended it on the way.
+    pub fn is_interrupted(&self) -> bool {
+        self.stopped == Some(Stop::Interrupted)
     }
 
     /// The last model.
@@ -83,6 +100,8 @@ pub(crate) enum Stop {
     TooSmall { share: f64 },
     /// The model cannot carry more.
     Full,
+    /// Whoever watches ended it; what it reached by then holds, what it would have reached is not known.
+    Interrupted,
 }
 
 impl Candidate {

@@ -1,5 +1,6 @@
 #![doc = include_str!("../README.md")]
 
+mod answer;
 mod applicability;
 mod case;
 mod cases;
@@ -14,11 +15,13 @@ mod experiment;
 mod family;
 mod fitted;
 mod hypothesis;
+mod improvement;
 mod ladder;
 mod locate;
 mod long_record;
 mod nuisance;
 mod preparation;
+mod question;
 mod ranking;
 mod refit;
 mod score;
@@ -36,10 +39,12 @@ mod unlisted;
 mod watch;
 mod wording;
 
+pub use answer::{Answer, RungModel};
 pub use case::Case;
 pub use error::DiagnoseError;
-pub use examine::{Answer, Goal, Question, RungModel, examine};
+pub use examine::examine;
 pub use locate::{Seen, compare, drifts, locate};
+pub use question::{Goal, Question};
 pub use settings::DiagnoseSettings;
 pub use together::{Together, fit_together};
 pub use watch::Watch;

@@ -1,14 +1,14 @@
-//! The way up: rank, add the best, tidy up, again, until nothing more is justified.
+//! What is looked for beside a model: the ranking of all candidates, and which of them to add.
 
 use crate::applicability::candidates;
 use crate::cases::Cases;
-use crate::climb::{Addition, Climb, EQUAL, Stop, justified, misfit, twins};
+use crate::climb::{Addition, Climb, EQUAL, justified, misfit, twins};
 use crate::fitted::Fitted;
 use crate::ranking::{Candidate, Ranking, gains, rank};
 use crate::refit::fit_effects;
 use crate::units::Units;
 use crate::unlisted::is_unlisted;
-use crate::{DiagnoseError, DiagnoseSettings, Watch, tidying};
+use crate::{DiagnoseError, DiagnoseSettings, Watch};
 use snug_model::Effect;
 
 /// What stays the same while effects are looked for.
@@ -24,7 +24,7 @@ pub(crate) struct Search<'a> {
 }
 
 /// Effects a model can be extended by before the climb is called off.
-const MOST_EFFECTS: usize = 5;
+pub(crate) const MOST_EFFECTS: usize = 5;
 
 impl Search<'_> {
     /// The study's own model, nothing ranked beside it.
@@ -59,41 +59,13 @@ impl Search<'_> {
             let index = ranking.candidates.iter().position(|c| c.effect == effect);
             let Some(index) = index else { continue };
             let (addition, fitted) = step(&ranking, index, climb.last());
-            climb.additions.push(addition);
-            climb.rungs.push(self.settled(&fitted)?);
+            climb.add(addition, self.settled(&fitted)?);
         }
         climb.ranking = self.rank(climb.last(), self.settings.control_campaigns)?;
         match justified(&climb.ranking, climb.last(), self.settings) {
             Ok(best) => climb.chosen = Some(self.single(&climb.ranking, best)),
             Err(stop) => climb.stopped = Some(stop),
         }
-        Ok(climb)
-    }
-
-    /// Climbs from the study's own effects as far as the data justify.
-    pub fn improve(&self) -> Result<Climb, DiagnoseError> {
-        let mut climb = self.compare()?;
-        loop {
-            climb.ranking = self.rank(climb.last(), self.settings.control_campaigns)?;
-            if climb.additions.len() >= MOST_EFFECTS {
-                climb.stopped = Some(Stop::Full);
-                break;
-            }
-            let best = match justified(&climb.ranking, climb.last(), self.settings) {
-                Ok(best) => best,
-                Err(stop) => {
-                    climb.stopped = Some(stop);
-                    break;
-                }
-            };
-            let room = MOST_EFFECTS - climb.additions.len();
-            for (addition, fitted) in self.choose(climb.last(), &climb.ranking, best, room)? {
-                climb.additions.push(addition);
-                climb.rungs.push(self.settled(&fitted)?);
-            }
-        }
-        tidying::try_removals(self, &mut climb)?;
-        tidying::look_at_twins_again(self, &mut climb)?;
         Ok(climb)
     }
 
@@ -119,7 +91,7 @@ impl Search<'_> {
     }
 
     /// The same effects, fitted from there to the end.
-    fn settled(&self, fitted: &Fitted) -> Result<Fitted, DiagnoseError> {
+    pub fn settled(&self, fitted: &Fitted) -> Result<Fitted, DiagnoseError> {
         fit_effects(self.cases, &fitted.effects, Some(fitted), self.units)
     }
 
@@ -169,7 +141,7 @@ impl Search<'_> {
 
     /// What to add: one effect, or, where one leaves much, the two that together leave least. Of equals a catalogue
     /// effect comes before an unlisted term.
-    fn choose(
+    pub fn choose(
         &self,
         current: &Fitted,
         ranking: &Ranking,

@@ -39,7 +39,7 @@ pub(crate) fn try_removals(search: &Search<'_>, climb: &mut Climb) -> Result<(),
         });
         if removed {
             climb.additions.retain(|one| one.effect != effect);
-            climb.rungs.push(without);
+            climb.stand_on(without);
         }
     }
     if climb.attempts.iter().any(|attempt| attempt.removed) {

@@ -4,14 +4,24 @@ use crate::Case;
 use crate::sizes::described;
 use crate::wording;
 use snug_campaign::{Drift, EffectParameter, RankedEffect};
-use snug_model::{BASE_PARAMETERS, TRENDS};
+use snug_model::{BASE_PARAMETERS, Description, TRENDS};
 
-/// Fatigue as a candidate: slopes of m, c, k over the tightening's number, tested within files.
+/// The catalogue's trends as candidates, as far as they could be tested.
+pub(crate) fn trends(drifts: &[Drift], cases: &[Case]) -> impl Iterator<Item = RankedEffect> {
+    TRENDS
+        .iter()
+        .filter_map(|trend| candidate(trend, drifts, cases))
+}
+
+/// One trend as a candidate: slopes of m, c, k over the tightening's number, tested within files.
 ///
 /// It removes no misfit, since every tightening has its own m, c, k; its p is that of the clearest of the three slopes,
 /// times three. `None` where no slope could be tested.
-pub(crate) fn fatigue(drifts: &[Drift], cases: &[Case]) -> Option<RankedEffect> {
-    let description = TRENDS.iter().find(|trend| trend.name == "fatigue")?;
+fn candidate(
+    description: &'static Description,
+    drifts: &[Drift],
+    cases: &[Case],
+) -> Option<RankedEffect> {
     let numbers = || {
         cases
             .iter()
@@ -44,7 +54,7 @@ pub(crate) fn fatigue(drifts: &[Drift], cases: &[Case]) -> Option<RankedEffect> 
         .collect();
     Some(RankedEffect {
         effect: description.name.to_owned(),
-        kind: "trend".to_owned(),
+        kind: description.kind.name().to_owned(),
         unlisted: false,
         expression: None,
         score: 0.0,

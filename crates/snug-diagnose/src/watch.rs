@@ -24,6 +24,14 @@ impl<'a> Watch<'a> {
         }
     }
 
+    /// Hears of the stages and ends nothing any more.
+    pub(crate) fn to_the_end(&self) -> Self {
+        Self {
+            tell: self.tell,
+            interrupted: None,
+        }
+    }
+
     /// A stage begins, unless the diagnosis is to end.
     pub(crate) fn begin(&self, stage: &str) -> Result<(), DiagnoseError> {
         self.go_on()?;

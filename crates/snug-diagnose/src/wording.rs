@@ -141,6 +141,14 @@ fn error(fitted: &Fitted) -> String {
     }
 }
 
+/// `1 effect`, `2 effects`.
+fn counted(effects: usize) -> String {
+    match effects {
+        1 => "1 effect".to_owned(),
+        some => format!("{some} effects"),
+    }
+}
+
 fn joined(effects: &[String]) -> String {
     match effects {
         [] => String::new(),
@@ -159,6 +167,18 @@ pub(crate) fn headline(situation: &Situation<'_>) -> String {
             with_twins(spoken(one.effect), &twins)
         })
         .collect();
+    if situation.stopped == Some(Stop::Interrupted) {
+        return match added.as_slice() {
+            [] => format!(
+                "Stopped by you before an effect was added: the model leaves {after}, and what it lacks is not decided."
+            ),
+            some => format!(
+                "Stopped by you after {}: with {} the error fell {fell}; nothing more was tried.",
+                counted(some.len()),
+                joined(some)
+            ),
+        };
+    }
     match (situation.verdict, situation.chosen) {
         (Verdict::MissingEffect | Verdict::UnlistedEffect, Some(chosen)) => {
             let name = spoken(chosen.effect);
@@ -271,7 +291,8 @@ fn trends(situation: &Situation<'_>) -> impl Iterator<Item = String> {
 }
 
 fn what_would_decide(situation: &Situation<'_>) -> Option<String> {
-    if situation.verdict != Verdict::Undecided || situation.verb == "compare" {
+    let is_interrupted = situation.stopped == Some(Stop::Interrupted);
+    if situation.verdict != Verdict::Undecided || situation.verb == "compare" || is_interrupted {
         return None;
     }
     let first = situation.ranking.first()?;
@@ -349,6 +370,13 @@ pub(crate) fn stopped(situation: &Situation<'_>) -> Option<String> {
             situation.settings.smallest_gain * 100.0
         ),
         Stop::Full => "The model carries as many effects as can be told apart; look at the data before adding more.".to_owned(),
+        Stop::Interrupted => match situation.additions.len() {
+            0 => "You ended it before an effect was added.".to_owned(),
+            some => format!(
+                "You ended it after {}; nothing more was tried, nor whether each of them is needed beside the others.",
+                counted(some)
+            ),
+        },
     })
 }
 

@@ -95,7 +95,7 @@ pub enum Verb {
     Diagnose,
     /// These effects are added to the study's model.
     Add(Vec<String>),
-    /// Effects are added as long as the data justify it.
+    /// Effects are added as long as the data justify it, or until it is interrupted.
     Improve,
 }
 
@@ -132,8 +132,11 @@ fn nothing_to_compare(
 /// The outcome's `study.ron` holds that model, sizes that all tightenings share held at their estimates with their
 /// standard errors, so that it can be run again and diagnosed further.
 ///
+/// When `interrupted` becomes true, [`Verb::Improve`] goes no further up and everything is written for the model it has
+/// reached; the other verbs end without a result until they have one.
+///
 /// # Errors
-/// As [`crate::run()`]; and when there are tightenings, but none can be compared with the model.
+/// As [`crate::run()`]; [`StudyError::Interrupted`] where there is no result yet; and when there are tightenings, but none can be compared with the model.
 pub fn diagnose(
     study: &Study,
     verb: &Verb,
@@ -185,8 +188,13 @@ pub fn diagnose(
     answer.diagnosis.reasons.extend_from_slice(remarks);
     answer.diagnosis.reasons.extend(remark);
     drop(cases);
-    let (last, diagnosis) =
-        pool.install(|| climb(study, answer, &listing.files, progress, interrupted))?;
+    let (last, diagnosis) = pool.install(|| climb(study, answer, &listing.files, progress))?;
+    // Who ended the search wants to see what it found of all tightenings.
+    let never = AtomicBool::new(false);
+    let interrupted = match interrupted.load(Ordering::Relaxed) {
+        true => &never,
+        false => interrupted,
+    };
     run_with(&last, Some(diagnosis), settings, progress, interrupted)
 }
 
@@ -209,7 +217,6 @@ fn climb(
     answer: Answer,
     files: &[PathBuf],
     progress: &(dyn Fn(ProgressEvent<'_>) + Sync),
-    interrupted: &AtomicBool,
 ) -> Result<(Study, Diagnosis), StudyError> {
     let mut diagnosis = answer.diagnosis;
     let shown = diagnosis
@@ -221,9 +228,6 @@ fn climb(
     let mut showcase: Vec<Option<Traces>> = Vec::new();
     let mut last = study.clone();
     for (rung, model) in diagnosis.ladder.iter_mut().zip(&answer.models) {
-        if interrupted.load(Ordering::Relaxed) {
-            return Err(StudyError::Interrupted);
-        }
         last = with_model(study, model, changes);
         let text = match rung.effects.as_slice() {
             [] => "evaluating the base model".to_owned(),

@@ -6,6 +6,7 @@ use snug_campaign::*;
 const FOLLOWING: Following = Following {
     options: "--study rig.ron",
     study: "rig.ron",
+    written: "out/study.ron",
 };
 
 fn parameter(name: &str, unit: &str, value: f64, low: f64, high: f64) -> EffectParameter {
@@ -64,6 +65,7 @@ fn missing() -> Diagnosis {
         headline: "Missing: cubic stiffness. ".repeat(12),
         reasons: vec!["It does not fit.".into()],
         stopped: None,
+        interrupted: false,
         tightenings: 24,
         noise: NoiseStatement {
             source: "pre_roll".into(),
@@ -244,4 +246,22 @@ fn every_verdict_says_what_to_do() {
     let found = text(&diagnosis, &FOLLOWING, false);
     let last = "cargo xtask improve --study rig.ron";
     assert!(found.trim_end().ends_with(last));
+}
+
+/// Who stopped the climb is told so at once, and how to go on.
+#[test]
+fn a_climb_that_was_stopped_says_so_and_how_to_go_on() {
+    let mut diagnosis = missing();
+    diagnosis.verb = "improve".into();
+    diagnosis.verdict = Verdict::Undecided;
+    diagnosis.interrupted = true;
+    let text = text(&diagnosis, &FOLLOWING, false);
+    assert!(
+        text.contains("Verdict: stopped by you before there was one"),
+        "{text}"
+    );
+    assert!(
+        text.ends_with("cargo xtask improve --study out/study.ron\n"),
+        "{text}"
+    );
 }

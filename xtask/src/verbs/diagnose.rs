@@ -22,7 +22,12 @@ pub fn diagnose(options: &RunOptions, verb: &Verb) -> ExitCode {
         &repeated(options),
         |settings, progress, interrupted| {
             let outcome = snug_study::diagnose(&study, verb, settings, progress, interrupted)?;
-            if let (Some(path), Verb::Add(_) | Verb::Improve) = (&options.study, verb) {
+            let diagnosis = outcome.result.diagnosis.as_ref();
+            // A study file gets a model that is complete, or none.
+            let is_complete = diagnosis.is_some_and(|one| !one.interrupted);
+            if let (Some(path), Verb::Add(_) | Verb::Improve, true) =
+                (&options.study, verb, is_complete)
+            {
                 let laws = snug_study::Study::parse(&outcome.result.study_ron, path)?
                     .model
                     .custom;

@@ -55,6 +55,7 @@ pub fn carry_out(
                 let following = Following {
                     options: next,
                     study: &options.study.as_ref().unwrap_or(&written).to_string_lossy(),
+                    written: &written.to_string_lossy(),
                 };
                 match &outcome.result.diagnosis {
                     Some(diagnosis) => diagnosis_summary::print(diagnosis, &following),
@@ -82,7 +83,8 @@ pub fn carry_out(
 fn exit_code(outcome: &Outcome) -> ExitCode {
     let tightenings = &outcome.result.tightenings;
     let evaluated = tightenings.iter().any(|t| t.estimate.is_some());
-    if outcome.interrupted {
+    let diagnosis = outcome.result.diagnosis.as_ref();
+    if outcome.interrupted || diagnosis.is_some_and(|one| one.interrupted) {
         exit::interrupted()
     } else if !evaluated {
         eprintln!("no tightening could be evaluated; findings.json says why");

@@ -55,6 +55,7 @@ fn diagnosis() -> Diagnosis {
         headline: "Missing: cubic stiffness.".into(),
         reasons: vec!["It does not fit.".into()],
         stopped: None,
+        interrupted: false,
         tightenings: 24,
         noise: NoiseStatement {
             source: "pre_roll".into(),

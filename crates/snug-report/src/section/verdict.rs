@@ -42,6 +42,7 @@ fn word(diagnosis: &Diagnosis) -> &'static str {
         .iter()
         .any(|rung| rung.error_over_noise.is_some());
     match diagnosis.verdict {
+        _ if diagnosis.interrupted => "stopped by you before there was a verdict",
         // A comparison asks how much is missing, not what.
         Verdict::Undecided if diagnosis.verb == "compare" && known => {
             "the model leaves more than the noise"

@@ -83,6 +83,7 @@ fn diagnosis(result: &CampaignResult) -> Diagnosis {
             "97 % of that misfit repeats from tightening to tightening, so it is a law and not chance.".into(),
         ],
         stopped: None,
+        interrupted: false,
         tightenings: 24,
         noise: NoiseStatement {
             source: "pre_roll".into(),
