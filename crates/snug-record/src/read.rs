@@ -3,6 +3,7 @@
 //! Both readers take what is there: a file whose end is missing gives everything before the cut and says so
 //! ([`Completeness`]). Nothing depends on the summary at the end of the file, because a killed run has none.
 
+mod decoded;
 mod json;
 mod numeric;
 mod protobuf;

@@ -1,5 +1,6 @@
 //! Effects, their sizes and the evidence for them, in words for people who know nutrunners and not statistics.
 
+use crate::effect_name::{raised, unit_text};
 use crate::number::{fixed, missing, rounded, significant};
 use crate::quantity;
 use maud::{Markup, html};
@@ -7,44 +8,6 @@ use snug_campaign::{CampaignResult, EffectParameter, Interval};
 
 /// Family-wise p below which an effect is supported.
 pub const LEVEL: f64 = 0.05;
-
-/// `cubic_stiffness` as `cubic stiffness`; an expression stays as it is.
-pub fn effect_name(name: &str) -> String {
-    if name.contains(['*', '^', '(', '+', '/']) {
-        name.into()
-    } else {
-        name.replace('_', " ")
-    }
-}
-
-/// An effect by its name; a term that is in no catalogue by what it is, `force p*x^2*v`.
-pub fn called(effect: &str, expression: Option<&String>) -> String {
-    expression.map_or_else(
-        || effect_name(effect),
-        |expression| format!("force {expression}"),
-    )
-}
-
-/// Names as a sentence lists them.
-pub fn effect_names(names: &[String]) -> String {
-    let names: Vec<String> = names.iter().map(|name| effect_name(name)).collect();
-    names.join(", ")
-}
-
-/// `N/m^3` as `N/m³`; nothing for a pure number.
-pub fn unit_text(unit: &str) -> String {
-    match unit {
-        "1" => String::new(),
-        unit => raised(unit),
-    }
-}
-
-fn raised(text: &str) -> String {
-    let marks = [("^2", "²"), ("^3", "³"), ("^4", "⁴"), ("^5", "⁵")];
-    marks.iter().fold(text.to_owned(), |text, (plain, mark)| {
-        text.replace(plain, mark)
-    })
-}
 
 /// Value, interval and unit of an effect's parameter.
 pub fn size(parameter: &EffectParameter) -> Markup {
@@ -151,12 +114,6 @@ mod tests {
     use super::*;
 
     #[test]
-    fn units_are_raised_and_pure_numbers_have_none() {
-        assert_eq!(unit_text("N s^2/m^2"), "N s²/m²");
-        assert_eq!(unit_text("1"), "");
-    }
-
-    #[test]
     fn chance_is_said_in_cases() {
         assert_eq!(
             by_chance(0.001),
@@ -188,11 +145,5 @@ mod tests {
             share_with_error(0.991, 0.003),
             "99.1\u{a0}±\u{a0}0.3\u{a0}%"
         );
-    }
-
-    #[test]
-    fn expressions_keep_their_signs() {
-        assert_eq!(effect_name("cubic_stiffness"), "cubic stiffness");
-        assert_eq!(effect_name("p_1*x^2*v"), "p_1*x^2*v");
     }
 }

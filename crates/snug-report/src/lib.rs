@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 mod decimation;
+mod effect_name;
 mod effect_words;
 mod error;
 mod figure;

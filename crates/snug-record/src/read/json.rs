@@ -1,4 +1,4 @@
-use super::numeric::{ARRAY_TOO_LONG, Decoded, LONGEST_ARRAY};
+use super::decoded::{ARRAY_TOO_LONG, Decoded, LONGEST_ARRAY};
 use serde_json::Value;
 use std::fmt::Write as _;
 

@@ -4,8 +4,6 @@ use crate::RecordError;
 use std::collections::{BTreeMap, HashMap};
 use std::ops::ControlFlow;
 
-/// Arrays are spread out element by element up to this length; longer ones (images, point clouds) are no signal.
-pub(super) const LONGEST_ARRAY: usize = 256;
 /// Distinct fields of one topic.
 const MOST_FIELDS: usize = 4096;
 /// Values of one file, all channels together (2 GiB with their times).
@@ -160,12 +158,6 @@ struct Collector {
     values: usize,
     start_ns: Option<u64>,
 }
-
-/// What came of decoding one message; reasons are fixed sentences, so that equal ones are counted together.
-pub(super) type Decoded = Result<(), &'static str>;
-
-/// Why an array was left out.
-pub(super) const ARRAY_TOO_LONG: &str = "an array is longer than 256 elements and was left out";
 
 impl Collector {
     fn declare(&mut self, id: u16, channel: &Channel) {

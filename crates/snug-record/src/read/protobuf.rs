@@ -1,4 +1,4 @@
-use super::numeric::{ARRAY_TOO_LONG, Decoded, LONGEST_ARRAY};
+use super::decoded::{ARRAY_TOO_LONG, Decoded, LONGEST_ARRAY};
 use crate::wire::{Fields, Value, take_fixed32, take_fixed64, take_varint};
 use std::collections::HashMap;
 use std::fmt::Write as _;

@@ -1,4 +1,4 @@
-use super::numeric::{ARRAY_TOO_LONG, Decoded, LONGEST_ARRAY};
+use super::decoded::{ARRAY_TOO_LONG, Decoded, LONGEST_ARRAY};
 use crate::wire::take;
 use std::collections::HashMap;
 use std::fmt::Write as _;

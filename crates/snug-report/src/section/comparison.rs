@@ -1,5 +1,5 @@
 use super::DiagnosisSection;
-use crate::effect_words::unit_text;
+use crate::effect_name::unit_text;
 use crate::number::{drawn, plain, significant};
 use crate::quantity;
 use maud::{Markup, html};

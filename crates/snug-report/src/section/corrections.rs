@@ -1,5 +1,5 @@
 use super::{Section, nothing};
-use crate::effect_words::unit_text;
+use crate::effect_name::unit_text;
 use crate::figure::{Axis, Dot, Figure, Mark, Segment, captioned, legend, linear_range};
 use crate::number::{missing, percent, share, significant};
 use crate::quartiles::Quartiles;

@@ -1,5 +1,6 @@
 use super::DiagnosisSection;
-use crate::effect_words::{effect_name, parameter_name, sentence, unit_text};
+use crate::effect_name::{effect_name, unit_text};
+use crate::effect_words::{parameter_name, sentence};
 use crate::number::{percent, percent_interval, significant};
 use maud::{Markup, html};
 use snug_campaign::{CampaignResult, Detectability, Diagnosis, Interval, NegativeControl};

@@ -1,5 +1,5 @@
 use super::DiagnosisSection;
-use crate::effect_words::{called, effect_name, unit_text};
+use crate::effect_name::{called, effect_name, unit_text};
 use crate::figure::{Axis, Bar, Dot, Figure, Mark, Segment, captioned, legend};
 use crate::number::{percent, plain, significant};
 use maud::{Markup, html};

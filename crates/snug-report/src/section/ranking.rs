@@ -1,6 +1,8 @@
 use super::DiagnosisSection;
-use crate::effect_words::{LEVEL, UNSURE, by_chance, called, effect_names, parameter_name};
-use crate::effect_words::{sentence, share_with_error, sizes};
+use crate::effect_name::{called, effect_names};
+use crate::effect_words::{
+    LEVEL, UNSURE, by_chance, parameter_name, sentence, share_with_error, sizes,
+};
 use crate::figure::{Axis, Bar, Figure, Mark, Segment, captioned, legend};
 use crate::number::{fixed, p_value, plain, significant};
 use maud::{Markup, html};
@@ -215,7 +217,7 @@ fn evidence(candidate: &RankedEffect, with_twins: bool, result: &CampaignResult)
                 li { "Its size is beyond what is plausible, or its fit did not settle: that speaks against it." }
             }
             @for parameter in &candidate.parameters {
-                li { (parameter_name(&parameter.meaning, &parameter.name, result)) ": plausible from " (significant(parameter.minimum, 3)) " to " (significant(parameter.maximum, 3)) " " (crate::effect_words::unit_text(&parameter.unit)) "." }
+                li { (parameter_name(&parameter.meaning, &parameter.name, result)) ": plausible from " (significant(parameter.minimum, 3)) " to " (significant(parameter.maximum, 3)) " " (crate::effect_name::unit_text(&parameter.unit)) "." }
             }
         }
     }

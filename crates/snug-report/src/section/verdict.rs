@@ -1,7 +1,6 @@
 use super::DiagnosisSection;
-use crate::effect_words::{
-    by_chance, called, effect_name, effect_names, sentence, share_with_error, sizes, unit_text,
-};
+use crate::effect_name::{called, effect_name, effect_names, unit_text};
+use crate::effect_words::{by_chance, sentence, share_with_error, sizes};
 use crate::number::{fixed, percent, significant};
 use maud::{Markup, html};
 use snug_campaign::{

@@ -1,6 +1,6 @@
 use rand::seq::SliceRandom;
 
-use super::permutation::PermutationSettings;
+use super::permutation_settings::PermutationSettings;
 use crate::{Result, StatisticsError};
 
 /// Units whose labels may be exchanged with each other.

@@ -13,6 +13,7 @@ mod mixed_model;
 mod orthonormal;
 mod partition;
 mod permutation;
+mod permutation_settings;
 mod sign_flip;
 mod spectrum;
 
@@ -20,5 +21,6 @@ pub use cluster_robust::{ClusterRobustFit, fit_cluster_robust};
 pub use contrast::ContrastEstimate;
 pub use design::Design;
 pub use mixed_model::{DenominatorFreedom, RandomInterceptFit, fit_random_intercept};
-pub use permutation::{PermutationSettings, PermutationTest, Scheme, permutation_test};
+pub use permutation::{PermutationTest, permutation_test};
+pub use permutation_settings::{PermutationSettings, Scheme};
 pub use sign_flip::sign_flip_test;

@@ -1,7 +1,7 @@
 use rand::Rng;
 
 use super::arrangements::Outcome;
-use super::permutation::PermutationSettings;
+use super::permutation_settings::PermutationSettings;
 use crate::descriptive::Moments;
 use crate::sample::check_sample;
 use crate::{Result, StatisticsError, TestResult};
