@@ -1,7 +1,7 @@
 //! What a climb leaves: its rungs, what was added and why, what is still missing and why it stopped.
 
 use crate::DiagnoseSettings;
-use crate::fitted::Fitted;
+use crate::fitted::{AT_FLOOR, Fitted};
 use crate::ranking::{Candidate, Ranking};
 use crate::unlisted::is_unlisted;
 use snug_model::Effect;
@@ -76,13 +76,17 @@ impl Climb {
         self.rungs.last().expect("a climb begins with a rung")
     }
 
-    /// A candidate that is not supported, but might be with more tightenings.
+    /// A candidate that is not supported, but might be with more tightenings: chance seldom does as much, or it explains a
+    /// good part of an error that is beyond the noise.
     pub fn is_promising(&self, settings: &DiagnoseSettings) -> Option<&Candidate> {
-        let squares = self.last().squares();
+        let last = self.last();
+        let beyond_noise = last.is_weighted && last.error() > AT_FLOOR;
         self.ranking.candidates.iter().find(|candidate| {
+            let is_seldom = candidate.p_family < PROMISING_P;
+            let explains = beyond_noise && candidate.gain() > GOOD_PART * misfit(last);
             candidate.p_family > settings.level
-                && candidate.p_family < PROMISING_P
-                && candidate.gain() > 2.0 * settings.smallest_gain * squares
+                && (is_seldom || explains)
+                && candidate.gain() > 2.0 * settings.smallest_gain * last.squares()
                 && candidate.clearness() > 1.0
         })
     }
@@ -90,6 +94,8 @@ impl Climb {
 
 /// Family-wise p below which a large but unsupported candidate leaves the verdict open.
 const PROMISING_P: f64 = 0.3;
+/// Share of the misfit beyond the noise from which an unsupported candidate does so, too.
+const GOOD_PART: f64 = 0.2;
 
 /// Why the climb stopped.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -247,14 +247,20 @@ fn what_is_left(situation: &Situation<'_>) -> String {
             self::error(situation.after)
         );
     }
-    match error < AT_FLOOR {
-        true => format!(
+    if error < AT_FLOOR {
+        return format!(
             "Over {tightenings} tightenings the model's error is {error:.3} times the sensor noise measured in the quiet part before each pulse; 1 means that only noise is left."
-        ),
-        false => format!(
-            "Over {tightenings} tightenings the model's error is {error:.2} times the sensor noise measured in the quiet part before each pulse; with a complete model it would be 1."
-        ),
+        );
     }
+    let more = match situation.verdict {
+        Verdict::Adequate => {
+            " What is left beyond the noise hardly repeats from tightening to tightening, as an effect that all share would: look at the tightenings that fit worst."
+        }
+        _ => "",
+    };
+    format!(
+        "Over {tightenings} tightenings the model's error is {error:.2} times the sensor noise measured in the quiet part before each pulse; with a complete model it would be 1.{more}"
+    )
 }
 
 fn what_speaks_for_the_chosen(situation: &Situation<'_>) -> Vec<String> {
@@ -308,7 +314,7 @@ fn what_would_decide(situation: &Situation<'_>) -> Option<String> {
         ),
     };
     Some(format!(
-        "The best candidate is {} (chance alone does as well in {} of 100 campaigns). {decided_by}",
+        "The best candidate is {} (chance alone does as well in at most {} of 100 campaigns). {decided_by}",
         first.effect.replace('_', " "),
         (first.p_family * 100.0).ceil(),
     ))

@@ -42,7 +42,7 @@ pub fn ranking(page: &mut Page, diagnosis: &Diagnosis) {
     if diagnosis.verdict == Verdict::Adequate {
         page.paragraph(
             "  ",
-            "What the model leaves is within the noise: shares of next to nothing say little.",
+            "Nothing more is justified: shares of the little that is left, and does not repeat, say little.",
         );
     }
     page.line(&format!(

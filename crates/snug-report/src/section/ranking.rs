@@ -37,8 +37,8 @@ fn render(diagnosis: &Diagnosis, result: &CampaignResult) -> Option<Markup> {
             The bar is the share of the misfit that it takes away there; the thin line is one standard error to either side. \
             Below zero, it does harm." }
         @if diagnosis.verdict == Verdict::Adequate {
-            p { strong { "What the model leaves is within the noise" } ": there is hardly any misfit left to share out, and large shares of \
-                next to nothing say little." }
+            p { strong { "Nothing more is justified" } ": the misfit that is left to share out is little or does not repeat, and large shares \
+                of it say little." }
         }
         (figure(&shown))
         p { "A candidate is believed when chance alone would do as well in fewer than " (fixed(100.0 * LEVEL, 0))
