@@ -230,7 +230,7 @@ fn candidates_stand_with_gain_chance_size_and_twins() {
             "misfit removed in held-out tightenings [%]",
             "cubic stiffness 83 ± 4 % p 0.001 cubic stiffness 9.90 × 10⁵ N/m³",
             "not to be told from quadratic stiffness",
-            "size not plausible",
+            "fit did not settle",
             "4 more were tried; terms that are in no catalogue among them: 1",
             "p*x^2*v 0 ± 2 % p 0.610",
             "whether the arm runs into a stop",

@@ -6,7 +6,7 @@ use crate::effect_words::{
 use crate::figure::{Axis, Bar, Figure, Mark, Segment, captioned, legend};
 use crate::number::{fixed, p_value, plain, significant};
 use maud::{Markup, html};
-use snug_campaign::{CampaignResult, Diagnosis, RankedEffect, Verdict};
+use snug_campaign::{CampaignResult, Diagnosis, EffectParameter, RankedEffect, Verdict};
 
 /// What could be missing, best first.
 pub const SECTION: DiagnosisSection = DiagnosisSection {
@@ -182,6 +182,18 @@ fn bar(row: usize, candidate: &RankedEffect, (low, high): (f64, f64)) -> Bar {
     }
 }
 
+/// What speaks against a candidate, whatever it explains.
+fn against(candidate: &RankedEffect) -> Option<&'static str> {
+    if candidate.plausible {
+        return None;
+    }
+    let mut parameters = candidate.parameters.iter();
+    Some(match parameters.all(EffectParameter::is_plausible) {
+        true => "fit did not settle",
+        false => "size not plausible",
+    })
+}
+
 /// A row of the candidates; twins are a question of the first only.
 fn entry(candidate: &RankedEffect, with_twins: bool, result: &CampaignResult) -> Markup {
     html! {
@@ -193,7 +205,7 @@ fn entry(candidate: &RankedEffect, with_twins: bool, result: &CampaignResult) ->
                 " " span.sizes { (sizes(&candidate.parameters, result)) }
                 @if with_twins && !candidate.twins.is_empty() { " " span.tag.twins { "not to be told from " (effect_names(&candidate.twins)) } }
                 @if candidate.unlisted { " " span.tag.unlisted { "in no catalogue" } }
-                @if !candidate.plausible { " " span.tag.implausible { "size not plausible" } }
+                @if let Some(against) = against(candidate) { " " span.tag.implausible { (against) } }
             }
             (evidence(candidate, with_twins, result))
         }
@@ -213,8 +225,8 @@ fn evidence(candidate: &RankedEffect, with_twins: bool, result: &CampaignResult)
             @if with_twins && !candidate.twins.is_empty() {
                 li { "These data cannot tell it from " (effect_names(&candidate.twins)) "." }
             }
-            @if !candidate.plausible {
-                li { "Its size is beyond what is plausible, or its fit did not settle: that speaks against it." }
+            @if let Some(against) = against(candidate) {
+                li { "What speaks against it: " (against) "." }
             }
             @for parameter in &candidate.parameters {
                 li { (parameter_name(&parameter.meaning, &parameter.name, result)) ": plausible from " (significant(parameter.minimum, 3)) " to " (significant(parameter.maximum, 3)) " " (crate::effect_name::unit_text(&parameter.unit)) "." }
