@@ -37,8 +37,9 @@ pub(crate) fn settle(study: &Study, cases: &[Case]) -> Option<Settled> {
         settled.study.identify.simulation = match missed {
             Some(share) if share > POOR && every_s >= FEWEST_SAMPLES * interval_s(&cases[0]) => {
                 settled.remarks.push(format!(
-                    "Run freely from its first sample on, the study's own model misses {:.0} % of the measured motion, so that a free run says little about single effects. Every model is therefore judged by what it predicts over {every_s:.2e} s from the measured motion, again and again (`identify.simulation: Restarted(every_s: {every_s:.2e})`; `FreeRun` in the study file asks for the whole record at once).",
-                    100.0 * share.min(9.99)
+                    "Run freely from its first sample on, the study's own model misses {percent:.0} % of the measured motion, so that a free run says little about single effects. Every model is therefore judged by what it predicts over {every} s from the measured motion, again and again (`identify.simulation: Restarted(every_s: {every})`; `FreeRun` in the study file asks for the whole record at once).",
+                    percent = 100.0 * share.min(9.99),
+                    every = three_digits(every_s)
                 ));
                 let search = &mut settled.study.diagnosis.search;
                 search.smallest_gain = search.smallest_gain.max(RESTARTED_GAIN);
@@ -48,6 +49,11 @@ pub(crate) fn settle(study: &Study, cases: &[Case]) -> Option<Settled> {
         };
     }
     Some(settled)
+}
+
+/// `value` as people write it who mean no more than three digits.
+fn three_digits(value: f64) -> f64 {
+    format!("{value:.2e}").parse().unwrap_or(value)
 }
 
 /// Root mean square of a free run's error over that of the measured motion beyond which it is restarted.
