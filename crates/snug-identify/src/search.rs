@@ -16,6 +16,13 @@ const TRUSTED_STEPS: usize = 20;
 const LONG_FIT: usize = 400;
 /// Share of its scale that a parameter keeps per step then.
 const SHORT_MEMORY: f64 = 0.5;
+/// A trial that promises no more than this share of the cost, a fraction of a hundredth of a standard error, ...
+const LITTLE_PROMISE: f64 = 1e-8;
+/// ... and keeps less than this share of its promise is idle: the cost does not follow its derivatives, as where a kink or
+/// the noise of the input makes it rugged.
+const LITTLE_GAIN: f64 = 0.1;
+/// Idle trials in a row after which the fit rests; a search that has to find its damping anew makes fewer.
+const MOST_IDLE: usize = 12;
 /// Optimality accepted when rounding forbids better.
 const ROUGH_TOLERANCE: f64 = 1e-5;
 
@@ -75,6 +82,8 @@ pub(crate) struct Search<'a> {
     bending: Vec<f64>,
     trusted_steps: usize,
     last_decrement: f64,
+    /// Trials in a row that brought nothing.
+    idle_trials: usize,
     work: Work,
 }
 
@@ -126,6 +135,7 @@ impl<'a> Search<'a> {
             bending: vec![0.0; n],
             trusted_steps: 0,
             last_decrement: f64::INFINITY,
+            idle_trials: 0,
             work,
         })
     }
@@ -169,6 +179,7 @@ impl<'a> Search<'a> {
             }
             (_, Ok(())) if self.is_better(self.there.cost) => {
                 self.gain = (self.here.cost - self.there.cost) / self.stepper.step.predicted;
+                self.note_trial(self.gain);
                 self.accept();
                 self.propose();
             }
@@ -207,6 +218,9 @@ impl<'a> Search<'a> {
             if self.work.iterations == self.settings.max_iterations {
                 return self.stage = Stage::Ended(Status::IterationLimit);
             }
+            if self.idle_trials >= MOST_IDLE {
+                return self.stage = Stage::Ended(self.end_of_decrease());
+            }
             if self.find_step() {
                 if let Some(status) = self.optimality() {
                     return self.stage = Stage::Ended(status);
@@ -240,6 +254,7 @@ impl<'a> Search<'a> {
     }
 
     fn reject(&mut self) {
+        self.note_trial(0.0);
         if self.damp_more() {
             self.propose();
         } else {
@@ -309,6 +324,16 @@ impl<'a> Search<'a> {
             cost <= self.here.cost * (1.0 + 10.0 * RESOLUTION)
         } else {
             self.here.cost - cost > 1e-4 * self.stepper.step.predicted
+        }
+    }
+
+    /// Counts a trial with this gain if it was idle; one that the cost cannot resolve says nothing either way.
+    fn note_trial(&mut self, gain: f64) {
+        let promises_little = self.stepper.step.predicted < LITTLE_PROMISE * self.here.cost;
+        if !promises_little || gain >= LITTLE_GAIN {
+            self.idle_trials = 0;
+        } else if !self.is_unresolved() {
+            self.idle_trials += 1;
         }
     }
 
