@@ -12,23 +12,25 @@
 use crate::dense::{chosen, chosen_square, solve_upper};
 use crate::{Linearization, Subject};
 use snug_campaign::{Parameter, ParameterSource, Quantity};
-use snug_model::{Input, on_this_processor};
+use snug_model::{BASE_PARAMETERS, Input, on_this_processor};
 
-/// Values of the free parameters among m, c, k; `None` when a start was stated, without a measured displacement, or when
-/// the regression has no sensible answer.
+/// Values of the free parameters among m, c, k, as if no effect acted; `None` when a start was stated, without a measured
+/// displacement, when the simulation does not begin at rest, or when the regression has no sensible answer.
 pub(crate) fn integral_start(subject: &Subject<'_>) -> Option<Vec<f64>> {
     let Subject {
         model,
         input,
         tightening,
     } = *subject;
-    let parameters = model.parameters();
+    let parameters = &model.parameters()[..BASE_PARAMETERS.len()];
     let is_default = |p: &Parameter| p.fixed || p.source == ParameterSource::Default;
     let angle_rad = tightening.motion.get(Quantity::Displacement)?;
-    if parameters.len() != 3 || !parameters.iter().all(is_default) {
+    if input.is_restarted() || !parameters.iter().all(is_default) {
         return None;
     }
-    let (free, rig) = (model.free(), model.rig());
+    let is_free = |&index: &usize| !parameters[index].fixed;
+    let free: Vec<usize> = (0..parameters.len()).filter(is_free).collect();
+    let rig = model.rig();
     let square = rig.lever_arm_m * rig.lever_arm_m;
     let known = |index: usize| match parameters[index].fixed {
         true => parameters[index].value,

@@ -4,9 +4,10 @@
 //! the work. Only the ends of the best rough fits are worth a fit of every sample.
 
 use crate::fit::Work;
+use crate::starts::race;
 use crate::{
-    Constraints, DenseResidual, Fit, IdentifyError, IdentifySettings, Settings, Subject,
-    TighteningResidual, solve,
+    Constraints, DenseResidual, IdentifyError, IdentifySettings, Settings, Subject,
+    TighteningResidual,
 };
 use snug_campaign::{Intersample, Quantity};
 use snug_model::Input;
@@ -19,6 +20,8 @@ const LONGEST_INTERVAL_S: f64 = 1e-3;
 const ROUGH_TOLERANCE: f64 = 1e-3;
 /// Most steps of a rough fit: what takes longer crawls.
 const MOST_STEPS: usize = 150;
+/// Steps after which rough fits are compared for the first time.
+const HEAT: usize = 40;
 /// Ends are worth a fit of every sample up to this multiple of the lowest rough cost, and at most so many.
 const WORTH: f64 = 1.2;
 const MOST_ENDS: usize = 2;
@@ -58,17 +61,9 @@ pub(crate) fn try_roughly(
         None,
         settings.unscored_samples.div_ceil(rough.factor),
     ));
-    let mut ends: Vec<Fit> = Vec::new();
-    let mut work = Work::default();
-    for start in starts {
-        let end = solve(&mut problem, start, set, &solver)?;
-        work.add(&end.work);
-        let is_same = |known: &Fit| (end.cost / known.cost - 1.0).abs() < SAME_VALLEY;
-        if end.cost.is_finite() && !ends.iter().any(is_same) {
-            ends.push(end);
-        }
-    }
-    ends.sort_by(|one, other| one.cost.total_cmp(&other.cost));
+    let (mut ends, work) = race(&mut problem, starts, set, &solver, (HEAT, WORTH))?;
+    ends.retain(|end| end.cost.is_finite());
+    ends.dedup_by(|next, kept| (next.cost / kept.cost - 1.0).abs() < SAME_VALLEY);
     let Some(lowest) = ends.first().map(|end| end.cost) else {
         return Ok(None);
     };

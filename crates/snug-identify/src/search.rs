@@ -168,6 +168,21 @@ impl<'a> Search<'a> {
         &self.values
     }
 
+    /// Lowest cost so far.
+    pub fn cost(&self) -> f64 {
+        self.here.cost
+    }
+
+    /// Steps tried so far.
+    pub fn steps(&self) -> usize {
+        self.work.iterations
+    }
+
+    /// The work so far.
+    pub fn work(&self) -> &Work {
+        &self.work
+    }
+
     /// Goes on after a linearization.
     pub fn linearized(&mut self, outcome: Result<(), EvaluationError>) {
         self.work.linearizations += 1;

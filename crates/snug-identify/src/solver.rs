@@ -16,7 +16,17 @@ pub fn solve(
     settings: &Settings,
 ) -> Result<Fit, IdentifyError> {
     let mut search = Search::new(problem.parameter_count(), start, constraints, settings)?;
-    loop {
+    advance(&mut search, problem, usize::MAX);
+    Ok(search.finish(problem.residual_count()))
+}
+
+/// Answers what a search asks until it ends or has made this many steps; returns whether it has ended.
+pub(crate) fn advance(
+    search: &mut Search<'_>,
+    problem: &mut dyn LeastSquares,
+    steps: usize,
+) -> bool {
+    while search.steps() <= steps {
         match search.ask() {
             Ask::Linearization { at, into } => {
                 let outcome = problem.linearize(at, into);
@@ -30,7 +40,8 @@ pub fn solve(
                 let outcome = problem.bending(at, along, into);
                 search.bent(outcome);
             }
-            Ask::Nothing => return Ok(search.finish(problem.residual_count())),
+            Ask::Nothing => return true,
         }
     }
+    false
 }

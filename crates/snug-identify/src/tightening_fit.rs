@@ -5,9 +5,10 @@ use crate::base_noise::{self, Settled};
 use crate::integral_start::integral_start;
 use crate::residual_noise::{OwnedNoise, noise_of};
 use crate::rough_starts::{Tried, try_roughly};
+use crate::starts::{best, race};
 use crate::{
     ConstraintKind, Constraints, Covariance, DenseResidual, Fit, IdentifyError, Settings,
-    Simulation, Status, TighteningResidual, Whitening, convex_set, solve_from_starts,
+    Simulation, Status, TighteningResidual, Whitening, convex_set,
 };
 use serde::{Deserialize, Serialize};
 use snug_campaign::{
@@ -111,6 +112,9 @@ pub fn identify_all(
         .collect()
 }
 
+/// Of fits of every sample: the steps after which they are compared, and how far above the lowest end one is left behind.
+const RACE: (usize, f64) = (20, 1.0);
+
 /// Mean square of a whitened residual beyond which a fit may have ended in the wrong valley.
 const FAR_OFF: f64 = 2.0;
 
@@ -118,9 +122,9 @@ const FAR_OFF: f64 = 2.0;
 struct Attempt<'a> {
     residual: TighteningResidual<'a>,
     set: Constraints,
+    /// In the order of preference.
     starts: Vec<Vec<f64>>,
-    /// A start near the optimum, for the base model.
-    near: Option<Vec<f64>>,
+    usual_start: Vec<f64>,
     outcome: Option<Result<Fit, IdentifyError>>,
     latest: Option<([f64; 3], NormalEquations)>,
     noise: Option<OwnedNoise>,
@@ -145,12 +149,14 @@ impl<'a> Attempt<'a> {
             settings.unscored_samples,
         );
         residual.check_length()?;
-        let near = residual.is_base().then(|| integral_start(subject));
+        let usual = starts(subject.model);
+        let is_easy = usual.len() == 1 && !residual.is_base();
+        let near = integral_start(subject).filter(|_| !is_easy);
         Ok(Self {
             residual,
             set: convex_set(subject.model, &settings.constraints),
-            starts: starts(subject.model),
-            near: near.flatten(),
+            starts: near.map_or_else(|| usual.clone(), |near| nearer(&usual, &near)),
+            usual_start: usual.into_iter().next().unwrap_or_default(),
             outcome: None,
             latest: None,
             noise: None,
@@ -160,10 +166,10 @@ impl<'a> Attempt<'a> {
     /// As sweeps fit it, if they can.
     fn in_sweeps(&mut self) -> Option<BaseFit<'_, 'a>> {
         match self.starts.as_slice() {
-            [usual] if self.residual.is_base() => Some(BaseFit {
+            [start] if self.residual.is_base() => Some(BaseFit {
                 residual: &mut self.residual,
-                start: self.near.as_deref().unwrap_or(usual),
-                usual_start: usual,
+                start,
+                usual_start: &self.usual_start,
                 set: &self.set,
                 outcome: &mut self.outcome,
                 latest: &mut self.latest,
@@ -201,23 +207,24 @@ impl<'a> Attempt<'a> {
         };
         let is_whitened = self.residual.is_whitened();
         let mut problem = DenseResidual::new(&mut self.residual);
-        let mut solve_from = |starts: &[Vec<f64>]| {
-            solve_from_starts(&mut problem, starts, &self.set, &settings.solver)
+        let mut race_from =
+            |starts: &[Vec<f64>]| race(&mut problem, starts, &self.set, &settings.solver, RACE);
+        let Some(Tried { starts, mut work }) = tried else {
+            let (ends, work) = race_from(&self.starts)?;
+            return best(ends, work);
         };
-        let Some(Tried { starts, work }) = tried else {
-            return solve_from(&self.starts);
-        };
-        let mut fit = solve_from(&starts)?;
-        fit.work.add(&work);
+        let (mut ends, on_all) = race_from(&starts)?;
+        work.add(&on_all);
+        let fit = best(ends.clone(), work)?;
         let noise = fit.residual_count as f64;
         let is_far_off = is_whitened && fit.sum_of_squares() > FAR_OFF * noise;
         if fit.status.is_converged() && !is_far_off {
             return Ok(fit);
         }
-        let work = fit.work;
-        let mut fit = solve_from(&[&[fit.values], self.starts.as_slice()].concat())?;
-        fit.work.add(&work);
-        Ok(fit)
+        let (more_ends, once_more) = race_from(&self.starts)?;
+        work.add(&once_more);
+        ends.extend(more_ends);
+        best(ends, work)
     }
 
     /// The estimate with its covariance, after a fit if that is still to be made.
@@ -248,6 +255,16 @@ fn starts(model: &Model) -> Vec<Vec<f64>> {
         .chain(model.further_starts())
         .map(|values| free.iter().map(|&index| values[index]).collect())
         .collect()
+}
+
+/// The same starts with m, c, k that explain the tightening as far as it can be without an effect: from values of other
+/// tightenings, a search first takes what m, c, k lack for the effect, and wanders.
+///
+/// Of several starts the usual one is kept as the last, since an effect that pushes for long makes these m, c, k worthless.
+fn nearer(usual: &[Vec<f64>], near: &[f64]) -> Vec<Vec<f64>> {
+    let nearer = |start: &Vec<f64>| [near, &start[near.len()..]].concat();
+    let last = usual.iter().take(usize::from(usual.len() > 1)).cloned();
+    usual.iter().map(nearer).chain(last).collect()
 }
 
 /// Of every interval.

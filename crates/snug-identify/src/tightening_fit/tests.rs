@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use super::*;
+use crate::solve_from_starts;
 use snug_campaign::{
     Conditions, Correction, Intersample, Motion, NoiseFloor, NoiseSource, Rig, TighteningId,
     TimeBase,
@@ -228,8 +229,8 @@ fn on_the_general_road(
 ) -> Estimate {
     let whitening = Whitening::of(subject.tightening, settings.fitted_output);
     let mut attempt = Attempt::new(subject, whitening.as_ref(), settings).unwrap();
-    if let Some(near) = attempt.near.take().filter(|_| from_the_same_start) {
-        attempt.starts = vec![near];
+    if !from_the_same_start {
+        attempt.starts = vec![attempt.usual_start.clone()];
     }
     attempt.estimate(subject, settings).unwrap()
 }
