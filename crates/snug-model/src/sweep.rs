@@ -241,8 +241,20 @@ impl<'r, R: Real> Sweep<'r, R> {
         let part = self.placed..(self.placed + PART).min(self.measured.len());
         let grid = part.start * self.substeps..part.end * self.substeps + 1;
         for (lane, record) in &self.arriving {
-            place(&mut self.measured, *lane, &record.measured, &part);
-            place(&mut self.torque_nm, *lane, &record.torque_nm, &grid);
+            place(
+                self.zero,
+                &mut self.measured,
+                *lane,
+                &record.measured,
+                &part,
+            );
+            place(
+                self.zero,
+                &mut self.torque_nm,
+                *lane,
+                &record.torque_nm,
+                &grid,
+            );
         }
         self.placed = part.end;
     }
@@ -276,13 +288,22 @@ const PART: usize = 64;
 
 /// Puts part of a signal into its lane.
 ///
-/// By itself, so that it is not compiled for wide registers: it would become scatters, which take several times as long as
-/// one store after the other.
-#[inline(never)]
-fn place<R: Real>(side_by_side: &mut [R], lane: usize, signal: &[f64], part: &Range<usize>) {
-    let values = signal.get(part.start..).unwrap_or_default();
+/// Whole registers are read, changed and written: what is read streams ahead into the nearest cache, where the store of a
+/// single number would have to wait for its line.
+#[inline(always)]
+fn place<R: Real>(
+    zero: R,
+    side_by_side: &mut [R],
+    lane: usize,
+    signal: &[f64],
+    part: &Range<usize>,
+) {
+    let (own, values) = (
+        zero.only(lane),
+        signal.get(part.start..).unwrap_or_default(),
+    );
     for (point, &value) in side_by_side[part.clone()].iter_mut().zip(values) {
-        point.lanes_mut()[lane] = value;
+        *point = R::choose(own, zero.constant(value), *point);
     }
 }
 
