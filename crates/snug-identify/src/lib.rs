@@ -21,6 +21,7 @@ mod integrated_noise;
 mod least_squares;
 mod linearization;
 mod pooled;
+mod race;
 mod residual;
 mod residual_noise;
 mod rough_starts;

@@ -64,6 +64,13 @@ struct Evaluation {
 /// Part of a step over which its bending is measured.
 const BEND_SHARE: f64 = 0.1;
 
+/// Where a step's bending is measured.
+pub(crate) fn further_along(parameters: &[f64], direction: &[f64]) -> Vec<f64> {
+    let mut further = parameters.to_vec();
+    add_scaled(&mut further, BEND_SHARE, direction);
+    further
+}
+
 impl<R: Residual> DenseResidual<R> {
     /// Wraps `residual_function` and makes room for m residuals and the m × n matrix J.
     pub fn new(residual_function: R) -> Self {
@@ -82,6 +89,11 @@ impl<R: Residual> DenseResidual<R> {
             }),
             ahead: vec![0.0; m],
         }
+    }
+
+    /// The residual function itself.
+    pub(crate) fn residual_function_mut(&mut self) -> &mut R {
+        &mut self.residual_function
     }
 
     /// Gives the residual function back.
@@ -147,8 +159,7 @@ impl<R: Residual> LeastSquares for DenseResidual<R> {
             return Err(EvaluationError::NotFinite);
         };
         let ahead = &mut self.ahead;
-        let mut further = parameters.to_vec();
-        add_scaled(&mut further, BEND_SHARE, direction);
+        let further = further_along(parameters, direction);
         self.residual_function.evaluate(&further, ahead, None)?;
         for (ahead, here) in ahead.iter_mut().zip(&here.residual) {
             *ahead = (*ahead - here) / BEND_SHARE;

@@ -4,11 +4,8 @@
 //! the work. Only the ends of the best rough fits are worth a fit of every sample.
 
 use crate::fit::Work;
-use crate::starts::race;
-use crate::{
-    Constraints, DenseResidual, IdentifyError, IdentifySettings, Settings, Subject,
-    TighteningResidual,
-};
+use crate::race::{Rules, race};
+use crate::{Constraints, IdentifyError, IdentifySettings, Settings, Subject, TighteningResidual};
 use snug_campaign::{Intersample, Quantity};
 use snug_model::Input;
 
@@ -20,11 +17,14 @@ const LONGEST_INTERVAL_S: f64 = 1e-3;
 const ROUGH_TOLERANCE: f64 = 1e-3;
 /// Most steps of a rough fit: what takes longer crawls.
 const MOST_STEPS: usize = 150;
-/// Steps after which rough fits are compared for the first time.
-const HEAT: usize = 40;
 /// Ends are worth a fit of every sample up to this multiple of the lowest rough cost, and at most so many.
 const WORTH: f64 = 1.2;
 const MOST_ENDS: usize = 2;
+/// Of the race between rough fits.
+const RULES: Rules = Rules {
+    heat: 40,
+    worth: WORTH,
+};
 /// Rough costs that agree to this share are those of one valley.
 const SAME_VALLEY: f64 = 1e-3;
 
@@ -53,15 +53,15 @@ pub(crate) fn try_roughly(
         max_iterations: MOST_STEPS.min(settings.solver.max_iterations),
         ..settings.solver.clone()
     };
-    let mut problem = DenseResidual::new(TighteningResidual::new(
+    let residual = TighteningResidual::new(
         subject.model,
         &rough.input,
         &rough.measured,
         quantity,
         None,
         settings.unscored_samples.div_ceil(rough.factor),
-    ));
-    let (mut ends, work) = race(&mut problem, starts, set, &solver, (HEAT, WORTH))?;
+    );
+    let (mut ends, work) = race(&residual, starts, set, &solver, RULES)?;
     ends.retain(|end| end.cost.is_finite());
     ends.dedup_by(|next, kept| (next.cost / kept.cost - 1.0).abs() < SAME_VALLEY);
     let Some(lowest) = ends.first().map(|end| end.cost) else {

@@ -173,6 +173,11 @@ impl<'a> Search<'a> {
         self.here.cost
     }
 
+    /// Whether it asks for nothing more.
+    pub fn has_ended(&self) -> bool {
+        matches!(self.stage, Stage::Ended(_))
+    }
+
     /// Steps tried so far.
     pub fn steps(&self) -> usize {
         self.work.iterations

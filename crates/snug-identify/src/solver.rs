@@ -27,21 +27,29 @@ pub(crate) fn advance(
     steps: usize,
 ) -> bool {
     while search.steps() <= steps {
-        match search.ask() {
-            Ask::Linearization { at, into } => {
-                let outcome = problem.linearize(at, into);
-                search.linearized(outcome);
-            }
-            Ask::Cost { at } => {
-                let outcome = problem.cost(at);
-                search.costed(outcome);
-            }
-            Ask::Bending { at, along, into } => {
-                let outcome = problem.bending(at, along, into);
-                search.bent(outcome);
-            }
-            Ask::Nothing => return true,
+        if answer(search, problem) {
+            return true;
         }
+    }
+    false
+}
+
+/// Answers what a search asks next; returns whether it has ended.
+pub(crate) fn answer(search: &mut Search<'_>, problem: &mut dyn LeastSquares) -> bool {
+    match search.ask() {
+        Ask::Linearization { at, into } => {
+            let outcome = problem.linearize(at, into);
+            search.linearized(outcome);
+        }
+        Ask::Cost { at } => {
+            let outcome = problem.cost(at);
+            search.costed(outcome);
+        }
+        Ask::Bending { at, along, into } => {
+            let outcome = problem.bending(at, along, into);
+            search.bent(outcome);
+        }
+        Ask::Nothing => return true,
     }
     false
 }

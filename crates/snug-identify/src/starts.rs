@@ -1,6 +1,4 @@
 use crate::fit::{Fit, Status, Work};
-use crate::search::Search;
-use crate::solver::advance;
 use crate::{Constraints, IdentifyError, LeastSquares, Settings, solve};
 
 /// Fits from every start and keeps the best: the lowest cost among those that ended at an optimum, else among all.
@@ -35,47 +33,6 @@ pub(crate) fn best(ends: Vec<Fit>, work: Work) -> Result<Fit, IdentifyError> {
     let best = ends.into_iter().reduce(better);
     best.map(|fit| Fit { work, ..fit })
         .ok_or(IdentifyError::NoStart)
-}
-
-/// Fits from several starts that race: every one makes `heat` steps, then the lowest goes on to its end, and of the others
-/// those that lie below `worth` times the lowest end by then. A search that is left behind crawls, mostly along a valley
-/// whose bottom another has found already.
-///
-/// The ends that were reached, best first, and the work of all starts together.
-///
-/// # Errors
-/// As [`solve`].
-pub(crate) fn race(
-    problem: &mut dyn LeastSquares,
-    starts: &[Vec<f64>],
-    constraints: &Constraints,
-    settings: &Settings,
-    (heat, worth): (usize, f64),
-) -> Result<(Vec<Fit>, Work), IdentifyError> {
-    let (n, m) = (problem.parameter_count(), problem.residual_count());
-    let mut ends: Vec<Fit> = Vec::new();
-    let mut running = Vec::new();
-    for start in starts {
-        let mut search = Search::new(n, start, constraints, settings)?;
-        match advance(&mut search, problem, heat) {
-            true => ends.push(search.finish(m)),
-            false => running.push(search),
-        }
-    }
-    running.sort_by(|one, other| one.cost().total_cmp(&other.cost()));
-    let mut work = Work::default();
-    for mut search in running {
-        let is_behind = |end: &Fit| search.cost() > worth * end.cost;
-        if ends.iter().any(is_behind) {
-            work.add(search.work());
-            continue;
-        }
-        advance(&mut search, problem, usize::MAX);
-        ends.push(search.finish(m));
-    }
-    ends.iter().for_each(|end| work.add(&end.work));
-    ends.sort_by(|one, other| one.cost.total_cmp(&other.cost));
-    Ok((ends, work))
 }
 
 /// Whether `fit` is more useful than `other`; costs that agree to 1e-9 count as equal.

@@ -3,12 +3,13 @@
 use crate::base_fits::{self, BaseFit};
 use crate::base_noise::{self, Settled};
 use crate::integral_start::integral_start;
+use crate::race::{Rules, race};
 use crate::residual_noise::{OwnedNoise, noise_of};
 use crate::rough_starts::{Tried, try_roughly};
-use crate::starts::{best, race};
+use crate::starts::best;
 use crate::{
-    ConstraintKind, Constraints, Covariance, DenseResidual, Fit, IdentifyError, Settings,
-    Simulation, Status, TighteningResidual, Whitening, convex_set,
+    ConstraintKind, Constraints, Covariance, Fit, IdentifyError, Settings, Simulation, Status,
+    TighteningResidual, Whitening, convex_set,
 };
 use serde::{Deserialize, Serialize};
 use snug_campaign::{
@@ -112,8 +113,11 @@ pub fn identify_all(
         .collect()
 }
 
-/// Of fits of every sample: the steps after which they are compared, and how far above the lowest end one is left behind.
-const RACE: (usize, f64) = (20, 1.0);
+/// Of the race between fits of every sample.
+const RULES: Rules = Rules {
+    heat: 20,
+    worth: 1.0,
+};
 
 /// Mean square of a whitened residual beyond which a fit may have ended in the wrong valley.
 const FAR_OFF: f64 = 2.0;
@@ -197,7 +201,7 @@ impl<'a> Attempt<'a> {
     /// A fit by itself. Of several starts those that lead on in a rough fit are followed to the end; all of them where
     /// that comes to nothing, or leaves so much that a lower valley may have been missed.
     fn fit(
-        &mut self,
+        &self,
         subject: &Subject<'_>,
         settings: &IdentifySettings,
     ) -> Result<Fit, IdentifyError> {
@@ -206,9 +210,8 @@ impl<'a> Attempt<'a> {
             _ => try_roughly(subject, &self.starts, &self.set, settings)?,
         };
         let is_whitened = self.residual.is_whitened();
-        let mut problem = DenseResidual::new(&mut self.residual);
-        let mut race_from =
-            |starts: &[Vec<f64>]| race(&mut problem, starts, &self.set, &settings.solver, RACE);
+        let race_from =
+            |starts: &[Vec<f64>]| race(&self.residual, starts, &self.set, &settings.solver, RULES);
         let Some(Tried { starts, mut work }) = tried else {
             let (ends, work) = race_from(&self.starts)?;
             return best(ends, work);
@@ -260,11 +263,16 @@ fn starts(model: &Model) -> Vec<Vec<f64>> {
 /// The same starts with m, c, k that explain the tightening as far as it can be without an effect: from values of other
 /// tightenings, a search first takes what m, c, k lack for the effect, and wanders.
 ///
-/// Of several starts the usual one is kept as the last, since an effect that pushes for long makes these m, c, k worthless.
+/// Several starts are kept as they are, too: an effect that acts for long makes such m, c, k worthless, and who tries
+/// several starts side by side hardly notices as many more.
 fn nearer(usual: &[Vec<f64>], near: &[f64]) -> Vec<Vec<f64>> {
     let nearer = |start: &Vec<f64>| [near, &start[near.len()..]].concat();
-    let last = usual.iter().take(usize::from(usual.len() > 1)).cloned();
-    usual.iter().map(nearer).chain(last).collect()
+    let kept = if usual.len() > 1 { usual } else { &[] };
+    usual
+        .iter()
+        .map(nearer)
+        .chain(kept.iter().cloned())
+        .collect()
 }
 
 /// Of every interval.

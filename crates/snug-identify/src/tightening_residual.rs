@@ -1,8 +1,9 @@
 use crate::{EvaluationError, IdentifyError, Residual, Whitening};
 use snug_campaign::Quantity;
-use snug_model::{Input, Model, ScoredRecord};
+use snug_model::{Input, Model, Run, ScoredRecord};
 
 /// Measured minus simulated output of one tightening over the model's free parameters, whitened where the noise is known.
+#[derive(Clone)]
 pub struct TighteningResidual<'a> {
     model: &'a Model,
     input: &'a Input,
@@ -12,6 +13,17 @@ pub struct TighteningResidual<'a> {
     unscored: usize,
     free: Vec<usize>,
     values: Vec<f64>,
+    output: Vec<f64>,
+    sensitivity: Vec<f64>,
+    foreseen: Foreseen,
+}
+
+/// A simulation that was made before it was asked for.
+#[derive(Clone, Default)]
+struct Foreseen {
+    /// Of all parameters.
+    values: Vec<f64>,
+    with_slopes: bool,
     output: Vec<f64>,
     sensitivity: Vec<f64>,
 }
@@ -37,6 +49,7 @@ impl<'a> TighteningResidual<'a> {
             values: model.parameters().iter().map(|p| p.value).collect(),
             output: Vec::new(),
             sensitivity: Vec::new(),
+            foreseen: Foreseen::default(),
             free,
         }
     }
@@ -190,9 +203,40 @@ impl TighteningResidual<'_> {
         weighted
     }
 
+    /// Room for a simulation with these free values, which whoever makes it may make beside others: if the residual is asked
+    /// for there next, with slopes or without as said here, it is at hand.
+    pub(crate) fn foresee(&mut self, free_values: &[f64], with_slopes: bool) -> Run<'_> {
+        let (samples, columns) = (self.samples(), self.free.len());
+        let values = self.all_values(free_values).to_vec();
+        self.foreseen.values = values;
+        self.foreseen.with_slopes = with_slopes;
+        self.foreseen.output.resize(samples, 0.0);
+        self.foreseen.sensitivity.resize(samples * columns, 0.0);
+        Run {
+            model: self.model,
+            values: &self.foreseen.values,
+            input: self.input,
+            quantity: self.quantity,
+            output: &mut self.foreseen.output,
+            sensitivity: &mut self.foreseen.sensitivity,
+        }
+    }
+
     /// Measured − simulated of every sample and, where asked, its Jacobian (column-major, samples × free).
     fn subtract(&self, residual: &mut [f64], jacobian: Option<&mut [f64]>) {
+        let foreseen = &self.foreseen;
+        let is_foreseen =
+            foreseen.values == self.values && foreseen.with_slopes == jacobian.is_some();
+        if is_foreseen {
+            residual.copy_from_slice(&foreseen.output);
+        }
         match jacobian {
+            Some(jacobian) if is_foreseen => {
+                for (slope, simulated) in jacobian.iter_mut().zip(&foreseen.sensitivity) {
+                    *slope = -simulated;
+                }
+            }
+            None if is_foreseen => {}
             Some(jacobian) => {
                 self.model.sensitivities(
                     &self.values,

@@ -2,12 +2,12 @@
 #![allow(clippy::unwrap_used)]
 
 use super::*;
-use crate::solve_from_starts;
+use crate::{DenseResidual, Residual, solve_from_starts};
 use snug_campaign::{
     Conditions, Correction, Intersample, Motion, NoiseFloor, NoiseSource, Rig, TighteningId,
     TimeBase,
 };
-use snug_model::Effect;
+use snug_model::{Effect, Run, simulate_side_by_side};
 
 const RIG: Rig = Rig {
     lever_arm_m: 0.33,
@@ -362,4 +362,34 @@ fn a_fit_without_the_fitted_output_leaves_the_others_alone() {
         found.iter().filter(|one| one.is_ok()).count(),
         all.len() - 1
     );
+}
+
+/// Searches that race are answered by simulations side by side; a fit may not depend on how many still run.
+#[test]
+fn what_is_simulated_beforehand_has_the_same_bits() {
+    let mut one = simulated(1, &plan());
+    one.model = Model::new(RIG, &[Effect::MaxwellBranch]).unwrap();
+    let (subject, settings) = (one.subject(), IdentifySettings::default());
+    let whitening = Whitening::of(subject.tightening, settings.fitted_output);
+    let attempt = Attempt::new(&subject, whitening.as_ref(), &settings).unwrap();
+    let free = attempt.residual.free().to_vec();
+    for with_slopes in [true, false] {
+        let evaluate = |mut residual: TighteningResidual<'_>, start: &[f64]| {
+            let count = residual.residual_count();
+            let (mut r, mut slopes) = (vec![0.0; count], vec![0.0; count * free.len()]);
+            let asked = with_slopes.then_some(&mut slopes[..]);
+            residual.evaluate(start, &mut r, asked).unwrap();
+            (r, slopes)
+        };
+        let mut prepared = vec![attempt.residual.clone(); attempt.starts.len()];
+        let mut runs: Vec<Run<'_>> = (prepared.iter_mut().zip(&attempt.starts))
+            .map(|(residual, start)| residual.foresee(start, with_slopes))
+            .collect();
+        simulate_side_by_side(&mut runs, if with_slopes { &free } else { &[] });
+        assert!(prepared.len() > 2);
+        for (residual, start) in prepared.into_iter().zip(&attempt.starts) {
+            let alone = evaluate(attempt.residual.clone(), start);
+            assert_eq!(evaluate(residual, start), alone);
+        }
+    }
 }
