@@ -2,6 +2,7 @@
 
 use snug_campaign::Quantity;
 use snug_diagnose::Case;
+use std::collections::BTreeMap;
 
 /// Tightenings that are judged by one measure.
 pub(crate) struct Comparable {
@@ -16,15 +17,17 @@ pub(crate) struct Comparable {
 /// A pooled residual has one unit: multiples of the noise, or the output's own. One tightening whose noise could not be
 /// measured would take that unit away from all.
 pub(crate) fn comparable(cases: Vec<Case>) -> Comparable {
-    let measure = |case: &Case| (case.quantity, case.has_noise());
-    let alike = |wanted| cases.iter().filter(|case| measure(case) == wanted).count();
-    let largest = cases
-        .iter()
-        .map(measure)
-        .max_by_key(|&one| (alike(one), one.1));
+    let measures: Vec<(Quantity, bool)> = (cases.iter())
+        .map(|case| (case.quantity, case.has_noise()))
+        .collect();
+    let mut alike: BTreeMap<(Quantity, bool), usize> = BTreeMap::new();
+    for &measure in &measures {
+        *alike.entry(measure).or_default() += 1;
+    }
+    let largest = (measures.iter().copied()).max_by_key(|one| (alike[one], one.1));
     let all = cases.len();
-    let kept: Vec<Case> = (cases.into_iter())
-        .filter(|case| Some(measure(case)) == largest)
+    let kept: Vec<Case> = (cases.into_iter().zip(measures))
+        .filter_map(|(case, measure)| (Some(measure) == largest).then_some(case))
         .collect();
     let remark = match (largest, all - kept.len()) {
         (None, _) | (_, 0) => None,
