@@ -14,13 +14,13 @@ use crate::channel::Channel;
 use crate::faults::{self, Window};
 use crate::integration::complete;
 use crate::locate::{Located, locate, place};
-use crate::quality::{non_finite::Missing, spikes};
+use crate::quality::{free_flight::FreeFlight, non_finite::Missing, spikes};
 use crate::quiet;
 use crate::quiet_measurement::{QuietMeasurement, measure};
 use crate::remarks::Remarks;
 use crate::signals::Signals;
 use crate::torque_target::peak_torque_nm;
-use snug_campaign::{Finding, Segment};
+use snug_campaign::{Finding, Quantity, Segment};
 use std::ops::Range;
 
 /// Prepares one segment; `start_s` and `length_s` are the window's.
@@ -78,27 +78,44 @@ pub(crate) fn prepare(
     })
 }
 
-/// Mends spikes in every channel, reports and returns them.
+/// Mends spikes in every channel, reports and returns them. What the tool's free flight through a gap explains stays.
 fn repair_spikes(
     context: &Context<'_>,
     signals: &mut Signals,
     remarks: &mut Remarks,
 ) -> Vec<Range<usize>> {
-    let mut found = Vec::new();
+    let flight = FreeFlight::new(&signals.torque_nm, context.rig);
+    let mut mended = Vec::new();
     for (channel, samples) in signals.channels_mut() {
-        let spikes = spikes::repair(samples, context.settings.quality.spike_sd);
-        if let Some(first) = spikes.first() {
-            let message = format!(
-                "{} spikes of at most 3 samples in {}, the first at {:.4} s; bridged by straight lines",
-                spikes.len(),
-                channel.name(),
-                first.start as f64 * context.interval_s
-            );
+        let flies = channel == Channel::Motion(Quantity::Acceleration);
+        let spikes = spikes::repair(
+            samples,
+            context.settings.quality.spike_sd,
+            |index, level, value, tolerance| {
+                flies && flight.explains(index, level, value, tolerance)
+            },
+        );
+        let told = |spikes: &[Range<usize>]| {
+            let first_s = spikes.first()?.start as f64 * context.interval_s;
+            let name = channel.name();
+            Some(format!(
+                "{} of at most 3 samples in {name}, the first at {first_s:.4} s",
+                spikes.len()
+            ))
+        };
+        if let Some(spikes) = told(&spikes.mended) {
+            let message = format!("spikes: {spikes}; bridged by straight lines");
             remarks.repaired("spikes", Some(channel), message);
         }
-        found.extend(spikes);
+        if let Some(drops) = told(&spikes.explained) {
+            let message = format!(
+                "drops of the hand's force: {drops}; left as they are, for so the tool moves through a small gap in the grip"
+            );
+            remarks.note("free_flight", Some(channel), message);
+        }
+        mended.extend(spikes.mended);
     }
-    found
+    mended
 }
 
 /// The quiet part, or a note that it is too short to be measured.

@@ -10,39 +10,62 @@ const NEIGHBOURHOOD: usize = 50;
 /// Median of |x_i − x_{i−1}| for white noise of unit standard deviation: √2 · Φ⁻¹(3/4).
 const MEDIAN_ABSOLUTE_DIFFERENCE: f64 = 0.953_872_552_417_469;
 
-/// Replaces spikes by a straight line between their neighbours and says where they were.
+/// Where a channel left its course and came back.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct Spikes {
+    /// Bridged by straight lines.
+    pub(crate) mended: Vec<Range<usize>>,
+    /// Left as they are, because the tool may have moved so.
+    pub(crate) explained: Vec<Range<usize>>,
+}
+
+/// Replaces spikes by a straight line between their neighbours and says where they were, but for those that
+/// `explains(index, level before, value, tolerance)` at every sample.
 ///
 /// A spike leaves and returns within three samples: the jump into it and the jump out of it have opposite signs and both
-/// exceed `threshold_sd` standard deviations of the local sample-to-sample noise. A step (torque released) does not
-/// return, so it is none.
-pub(crate) fn repair(samples: &mut [f64], threshold_sd: f64) -> Vec<Range<usize>> {
+/// exceed `threshold_sd` standard deviations of the local sample-to-sample noise; the tolerance is half of that. A step
+/// (torque released) does not return, so it is none.
+pub(crate) fn repair(
+    samples: &mut [f64],
+    threshold_sd: f64,
+    explains: impl Fn(usize, f64, f64, f64) -> bool,
+) -> Spikes {
     let candidates = {
         let typical = typical_difference(samples, 0..samples.len());
         (1..samples.len())
             .filter(|&index| (samples[index] - samples[index - 1]).abs() > threshold_sd * typical)
             .collect::<Vec<_>>()
     };
-    let mut found: Vec<Range<usize>> = Vec::new();
+    let mut found = Spikes::default();
+    let mut behind = 0;
     for start in candidates {
-        if found.last().is_some_and(|spike| start <= spike.end) {
+        if start <= behind {
             continue;
         }
-        if let Some(end) = spike_end(samples, start, threshold_sd) {
-            let (before, after) = (samples[start - 1], samples[end]);
-            let steps = (end - start + 1) as f64;
-            for (step, sample) in samples[start..end].iter_mut().enumerate() {
-                *sample = before + (after - before) * (step + 1) as f64 / steps;
-            }
-            found.push(start..end);
+        let around =
+            start.saturating_sub(NEIGHBOURHOOD)..(start + NEIGHBOURHOOD).min(samples.len());
+        let threshold = threshold_sd * typical_difference(samples, around);
+        let Some(end) = spike_end(samples, start, threshold) else {
+            continue;
+        };
+        behind = end;
+        let (before, after) = (samples[start - 1], samples[end]);
+        let is_explained = |index: usize| explains(index, before, samples[index], 0.5 * threshold);
+        if (start..end).all(is_explained) {
+            found.explained.push(start..end);
+            continue;
         }
+        let steps = (end - start + 1) as f64;
+        for (step, sample) in samples[start..end].iter_mut().enumerate() {
+            *sample = before + (after - before) * (step + 1) as f64 / steps;
+        }
+        found.mended.push(start..end);
     }
     found
 }
 
 /// One past the spike that begins with the jump into `start`, if it is one.
-fn spike_end(samples: &[f64], start: usize, threshold_sd: f64) -> Option<usize> {
-    let around = start.saturating_sub(NEIGHBOURHOOD)..(start + NEIGHBOURHOOD).min(samples.len());
-    let threshold = threshold_sd * typical_difference(samples, around);
+fn spike_end(samples: &[f64], start: usize, threshold: f64) -> Option<usize> {
     let jump = samples[start] - samples[start - 1];
     if jump.abs() <= threshold {
         return None;
@@ -74,7 +97,9 @@ fn typical_difference(samples: &[f64], range: Range<usize>) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::quality::free_flight::FreeFlight;
     use crate::synthetic::{ONSET, SEGMENT, acceleration, coloured_noise, pulse, white_noise};
+    use snug_campaign::Rig;
 
     fn measured(seed: u64) -> [Vec<f64>; 2] {
         let torque = pulse(40.0);
@@ -87,20 +112,24 @@ mod tests {
         ]
     }
 
+    fn unexplained(samples: &mut [f64]) -> Spikes {
+        repair(samples, 12.0, |_, _, _, _| false)
+    }
+
     #[test]
     fn clean_channels_have_no_spikes() {
         for seed in 0..20 {
             for mut samples in measured(seed) {
                 let before = samples.clone();
-                assert!(repair(&mut samples, 12.0).is_empty(), "seed {seed}");
+                assert_eq!(unexplained(&mut samples), Spikes::default(), "seed {seed}");
                 assert_eq!(samples, before);
             }
         }
         // A torque that is released within one sample is a step, and silence has no noise to compare with.
         let mut step = white_noise(1000, 0.02, 1);
         step[300..600].iter_mut().for_each(|x| *x += 30.0);
-        assert!(repair(&mut step, 12.0).is_empty());
-        assert!(repair(&mut pulse(30.0), 12.0).is_empty());
+        assert_eq!(unexplained(&mut step), Spikes::default());
+        assert_eq!(unexplained(&mut pulse(30.0)), Spikes::default());
     }
 
     #[test]
@@ -110,13 +139,34 @@ mod tests {
         torque[500] += 4.0;
         torque[ONSET + 300] -= 6.0;
         torque[ONSET + 301] -= 7.0;
-        let spikes = repair(&mut torque, 12.0);
-        assert_eq!(spikes, vec![500..501, ONSET + 300..ONSET + 302]);
+        let spikes = unexplained(&mut torque);
+        assert_eq!(spikes.mended, vec![500..501, ONSET + 300..ONSET + 302]);
         for (mended, clean) in torque.iter().zip(&clean) {
             assert!(
                 (mended - clean).abs() < 0.15,
                 "within the noise of the line's ends"
             );
         }
+    }
+
+    /// Swinging back at −8 rad/s² with no torque, the tool crosses a gap within two samples, and the hand's force with it;
+    /// electrical spikes go the other way, or too far.
+    #[test]
+    fn free_flight_through_a_gap_is_no_spike() {
+        let rig = Rig {
+            lever_arm_m: 0.33,
+            known_inertia_kg_m2: 0.1,
+        };
+        let mut measured = white_noise(1000, 0.5, 3);
+        let flight = FreeFlight::new(&white_noise(1000, 0.02, 4), rig);
+        measured[400..600].iter_mut().for_each(|a| *a -= 9.0);
+        measured[500..502].iter_mut().for_each(|a| *a += 9.0);
+        measured[450] -= 9.0;
+        measured[550] += 27.0;
+        let spikes = repair(&mut measured, 8.0, |index, level, value, tolerance| {
+            flight.explains(index, level, value, tolerance)
+        });
+        assert_eq!(spikes.explained, vec![500..502]);
+        assert_eq!(spikes.mended, vec![450..451, 550..551]);
     }
 }
