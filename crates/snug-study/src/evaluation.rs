@@ -68,7 +68,8 @@ fn identified(
         |estimate, measures| {
             let values: Vec<f64> = estimate.parameters.iter().map(|p| p.value).collect();
             let mut rejections = preparation_rejections(prepared, model, input, &values);
-            rejections.extend(study.selection.rejections(preset, estimate, measures));
+            let selection = &study.selection;
+            rejections.extend(selection.rejections(preset, model.scale(), estimate, measures));
             rejections
         },
     )

@@ -1,6 +1,7 @@
 use crate::StudyError;
 use serde::{Deserialize, Serialize};
 use snug_campaign::{Estimate, FitMeasures, FitStatus, Rejection};
+use snug_model::{BASE_PARAMETERS, Scale};
 use snug_preprocess::Preset;
 
 /// When a tightening counts in the statistics.
@@ -61,11 +62,14 @@ impl SelectionSettings {
 
     /// Why a fitted tightening is not selected, beside what preparation found.
     ///
-    /// `snug`: no free optimum, or a fit below the limit that is not the noise's doing. `thesis`: the original's rules, in its order: overdamped by
-    /// its own check (which also fires for k < 0 or a negative total mass), fit at or below the limit, mass not positive.
+    /// `snug`: no free optimum, or a fit below the limit that is not the noise's doing. A hand has mass, damper and spring;
+    /// another rig may lack damper or spring, and a fit that leaves one at nothing is no worse for it. `thesis`: the
+    /// original's rules, in its order: overdamped by its own check (which also fires for k < 0 or a negative total mass),
+    /// fit at or below the limit, mass not positive.
     pub fn rejections(
         &self,
         preset: Preset,
+        scale: Scale,
         estimate: &Estimate,
         measures: &FitMeasures,
     ) -> Vec<Rejection> {
@@ -78,7 +82,12 @@ impl SelectionSettings {
             Preset::Snug => {
                 match estimate.status {
                     FitStatus::Converged => {}
-                    FitStatus::ConvergedAtConstraint => rejections.push(Rejection::AtConstraint),
+                    FitStatus::ConvergedAtConstraint => {
+                        let mut active = estimate.active_constraints.iter();
+                        if !active.all(|active| can_be_lacking(scale, active)) {
+                            rejections.push(Rejection::AtConstraint);
+                        }
+                    }
                     _ => rejections.push(Rejection::NotIdentified),
                 }
                 if measures.error_over_noise.is_none() {
@@ -110,4 +119,11 @@ impl SelectionSettings {
         }
         rejections
     }
+}
+
+/// Whether an active constraint only says that a rig has no damper or no spring.
+fn can_be_lacking(scale: Scale, active: &str) -> bool {
+    let [_, damping, stiffness] = BASE_PARAMETERS;
+    let at_least = |name: &str| active.strip_prefix(name) == Some(" minimum");
+    matches!(scale, Scale::Rig { .. }) && (at_least(damping) || at_least(stiffness))
 }
