@@ -26,7 +26,7 @@ const EVERY: [(Hidden, [f64; 3]); 22] = [
     (Hidden::CoulombFriction, [0.10, 0.32, 3.0]),
     (Hidden::QuadraticDamping, [0.21, 0.82, 3.0]),
     (Hidden::DirectionalDamping, [0.16, 0.53, 3.0]),
-    (Hidden::Backlash, [0.02, 0.10, 1.0]),
+    (Hidden::Backlash, [0.005, 0.10, 1.0]),
     (Hidden::MaxwellBranch, [0.18, 0.59, 3.0]),
     (Hidden::SecondMass, [0.20, 0.79, 3.0]),
     (Hidden::GripSlip, [0.17, 0.53, 3.0]),

@@ -285,7 +285,7 @@ impl<'a> Hypothesis<'a> {
 }
 
 /// Averages over `reach` samples to either side, fewer at the ends.
-fn blur(signal: &mut [f64], reach: usize) {
+pub(crate) fn blur(signal: &mut [f64], reach: usize) {
     let last = signal.len();
     let mut sums = vec![0.0; last + 1];
     let mut sum = 0.0;

@@ -25,10 +25,12 @@ const ROUGH: PooledSettings = PooledSettings {
     cost_tolerance: 1e-4,
 };
 
-/// Samples to either side over which residuals are averaged where starts are tried, and on the way from there to the end:
-/// 8 and 2 ms at 10 kHz.
+/// Samples to either side over which residuals are averaged where starts are tried: 8 ms at 10 kHz.
 const AFAR: usize = 80;
-const NEARBY: usize = 20;
+
+/// The same on the way from there to the end. Where the grip meets the edge of a gap, the acceleration jumps from one
+/// sample to the next: a fit that is a few samples off sees the jump only when it is spread over as many.
+const NEARER: [usize; 4] = [20, 8, 3, 1];
 
 /// Tightenings on which starts are tried.
 const FEW: usize = 8;
@@ -112,9 +114,11 @@ fn from_afar(
     start: &Start,
     settings: &PooledSettings,
 ) -> Result<PooledFit, DiagnoseError> {
-    let afar = hypothesis.fit_blurred(start, &ROUGH, AFAR)?;
-    let nearby = hypothesis.fit_blurred(&Start::at(&afar), &ROUGH, NEARBY)?;
-    hypothesis.fit(&Start::at(&nearby), settings)
+    let mut reached = hypothesis.fit_blurred(start, &ROUGH, AFAR)?;
+    for reach in NEARER {
+        reached = hypothesis.fit_blurred(&Start::at(&reached), &ROUGH, reach)?;
+    }
+    hypothesis.fit(&Start::at(&reached), settings)
 }
 
 /// The start that leads lowest on a few tightenings, as seen from afar: their shared sizes, and every tightening's own

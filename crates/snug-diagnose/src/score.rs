@@ -7,7 +7,7 @@ use crate::DiagnoseError;
 use crate::column::{Column, directions};
 use crate::dense::dot;
 use crate::fitted::Fitted;
-use crate::hypothesis::{Hypothesis, Room};
+use crate::hypothesis::{Hypothesis, Room, blur};
 use crate::nuisance::{Nuisance, coordinates};
 use crate::simulated::Asked;
 use crate::units::Units;
@@ -28,6 +28,10 @@ pub(crate) struct Scorer<'a, 'h> {
 
 /// Samples on either side over which the torque is averaged for the signatures.
 const NOISE_REACH: usize = 5;
+
+/// Samples on either side over which the signatures themselves are averaged. A model without a gap in the grip knows the
+/// instant at which the grip crosses it to a millisecond only, and there the acceleration jumps.
+const INSTANT_REACH: usize = 10;
 
 /// Tightenings that are simulated side by side, which bounds the memory.
 const TOGETHER: usize = 8;
@@ -214,7 +218,9 @@ impl<'a, 'h> Scorer<'a, 'h> {
         let mut signatures: Vec<Vec<f64>> = Vec::new();
         let mut along_bias = Vec::new();
         for signature in of_columns {
-            let mut z = hypothesis.weigh_signal(member, signature);
+            let mut expected = signature.to_vec();
+            blur(&mut expected, INSTANT_REACH);
+            let mut z = hypothesis.weigh_signal(member, &expected);
             nuisance.project(&mut z);
             let (mut scores, mut variances) = (Vec::new(), Vec::new());
             let mut information = 0.0;

@@ -31,7 +31,7 @@ impl Law for Backlash {
                 name: "gap_m",
                 meaning: "gap to either side",
                 unit: "m",
-                starts: &[0.0005, 4e-5, 0.00012, 0.0015, 0.004],
+                starts: &[0.0005, 1.3e-5, 4e-5, 0.00012, 0.0015, 0.004],
                 minimum: 0.0,
                 maximum: 0.005,
                 limits: (0.0, 0.05),
