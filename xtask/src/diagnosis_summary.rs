@@ -171,8 +171,13 @@ fn called(effect: &str, expression: Option<&String>) -> String {
 
 /// An effect of the model by its name, a term in no catalogue by what it is.
 fn called_in(diagnosis: &Diagnosis, effect: &str) -> String {
-    let found = diagnosis.added.iter().find(|known| known.effect == effect);
-    called(effect, found.and_then(|known| known.expression.as_ref()))
+    called(effect, diagnosis.expression(effect))
+}
+
+/// Effects that a diagnosis knows as a sentence lists them.
+fn names_in(diagnosis: &Diagnosis, effects: &[String]) -> String {
+    let names = effects.iter().map(|effect| called_in(diagnosis, effect));
+    names.collect::<Vec<_>>().join(", ")
 }
 
 fn shortened(text: &str, columns: usize) -> String {
@@ -205,7 +210,7 @@ fn added(page: &mut Page, diagnosis: &Diagnosis) {
         if !effect.twins.is_empty() {
             evidence.push(format!(
                 "these data cannot tell it from {}",
-                effect.twins.join(", ")
+                names_in(diagnosis, &effect.twins)
             ));
         }
         if !evidence.is_empty() {

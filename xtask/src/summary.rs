@@ -162,11 +162,7 @@ fn called(column: &str, result: &CampaignResult) -> String {
     let Some(told) = result.meanings.iter().find(|told| told.name == column) else {
         return column.to_owned();
     };
-    let effect = told.effect.replace('_', " ");
-    let words = match told.meaning == effect {
-        true => effect,
-        false => format!("{effect}: {}", told.meaning),
-    };
+    let words = told.words();
     let estimates = result
         .tightenings
         .iter()

@@ -119,6 +119,17 @@ pub struct ParameterMeaning {
     pub meaning: String,
 }
 
+impl ParameterMeaning {
+    /// Effect and parameter: `coulomb friction: friction force`; of an effect that is called like its only parameter once.
+    pub fn words(&self) -> String {
+        let effect = self.effect.replace('_', " ");
+        match self.meaning == effect {
+            true => effect,
+            false => format!("{effect}: {}", self.meaning),
+        }
+    }
+}
+
 /// A campaign, evaluated.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct CampaignResult {

@@ -98,6 +98,27 @@ pub struct RankedEffect {
     pub explanation: Vec<String>,
 }
 
+impl RankedEffect {
+    /// What speaks against it, whatever it explains.
+    pub fn doubt(&self) -> Option<Doubt> {
+        let mut sizes = self.parameters.iter();
+        match (self.plausible, sizes.all(EffectParameter::is_plausible)) {
+            (true, _) => None,
+            (false, true) => Some(Doubt::NotSettled),
+            (false, false) => Some(Doubt::ImplausibleSize),
+        }
+    }
+}
+
+/// Why a candidate may not be what it seems.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Doubt {
+    /// Its fit did not settle.
+    NotSettled,
+    /// One of its sizes is beyond what is physically plausible.
+    ImplausibleSize,
+}
+
 /// An effect in the model, with the evidence for it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct AddedEffect {
@@ -319,4 +340,14 @@ pub struct Diagnosis {
     pub showcase: Option<Showcase>,
     /// How much work it was.
     pub work: WorkDone,
+}
+
+impl Diagnosis {
+    /// The formula of a term that is in no catalogue, added or ranked; nothing for an effect that has a name of its own.
+    pub fn expression(&self, effect: &str) -> Option<&String> {
+        let added = self.added.iter().map(|one| (&one.effect, &one.expression));
+        let ranked = self.ranking.iter();
+        let mut known = added.chain(ranked.map(|one| (&one.effect, &one.expression)));
+        known.find(|(name, _)| *name == effect)?.1.as_ref()
+    }
 }

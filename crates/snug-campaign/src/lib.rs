@@ -24,7 +24,7 @@ pub use campaign::{
 pub use comparison::{Comparison, Misfit, TighteningMisfit};
 pub use conditions::Conditions;
 pub use diagnosis::{
-    AddedEffect, CorrectedEffect, Detectability, Diagnosis, EffectParameter, Experiment,
+    AddedEffect, CorrectedEffect, Detectability, Diagnosis, Doubt, EffectParameter, Experiment,
     NegativeControl, NoiseStatement, RankedEffect, Removal, Rung, Showcase, UnlistedTerm, Verdict,
     WorkDone,
 };

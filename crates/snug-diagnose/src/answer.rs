@@ -1,7 +1,7 @@
 //! What the data answer: the climb told as a diagnosis.
 
 use crate::cases::Cases;
-use crate::climb::{Addition, Attempt, Climb, misfit, misfits};
+use crate::climb::{Addition, Attempt, Climb, misfit, misfits, twins};
 use crate::experiment::separating_experiment;
 use crate::fitted::{AT_FLOOR, Fitted};
 use crate::ranking::{Candidate, Ranking};
@@ -152,6 +152,7 @@ impl Examination<'_> {
             after: climb.last(),
             additions: &climb.additions,
             chosen: climb.chosen.map(|index| &climb.ranking.candidates[index]),
+            twins: (climb.chosen).map_or_else(Vec::new, |index| twins(&climb.ranking, index)),
             ranking,
             stopped: climb.stopped,
             impossible: &climb.ranking.impossible,
@@ -198,7 +199,11 @@ impl Examination<'_> {
         if added_unlisted {
             return Verdict::UnlistedEffect;
         }
-        if last.is_weighted && last.error() > AT_FLOOR && repeatable.is_some_and(|r| r > REPEATS) {
+        let floor = match self.climb.additions.is_empty() {
+            true => AT_FLOOR,
+            false => BESIDE_EFFECTS,
+        };
+        if last.is_weighted && last.error() > floor && repeatable.is_some_and(|r| r > REPEATS) {
             return Verdict::UnlistedEffect;
         }
         match self.climb.is_promising(self.settings) {
@@ -237,7 +242,7 @@ impl Examination<'_> {
         let sizes = parameters(self.question.cases, &candidate.fitted, candidate.effect);
         let supported = candidate.is_supported(self.settings);
         let twins = match supported {
-            true => crate::climb::twins(ranking, index),
+            true => twins(ranking, index),
             false => Vec::new(),
         };
         RankedEffect {
@@ -347,6 +352,10 @@ impl Examination<'_> {
         })
     }
 }
+
+/// Error over noise below which what repeats beside effects that were added is their own: the instants at which the grip
+/// sets in are never quite right.
+const BESIDE_EFFECTS: f64 = 1.05;
 
 /// Share of the misfit that must repeat before it is called an effect.
 const REPEATS: f64 = 0.2;

@@ -176,7 +176,8 @@ pub(crate) const EQUAL: f64 = 2.0;
 /// Share of what a candidate explains that another must explain, too, to be its twin.
 const AS_MUCH: f64 = 0.5;
 
-/// Supported candidates that these data cannot tell from the one at `index`.
+/// Candidates that these data cannot tell from the one at `index`. A term in no catalogue is no twin of an effect: of
+/// equals the effect that is known is named.
 pub(crate) fn twins(ranking: &Ranking, index: usize) -> Vec<Effect> {
     let chosen = &ranking.candidates[index];
     ranking
@@ -184,7 +185,7 @@ pub(crate) fn twins(ranking: &Ranking, index: usize) -> Vec<Effect> {
         .iter()
         .filter(|other| {
             other.effect != chosen.effect
-                && !is_unlisted(other.effect)
+                && (is_unlisted(chosen.effect) || !is_unlisted(other.effect))
                 && other.gains_clearly()
                 && other.gain() > AS_MUCH * chosen.gain()
                 && chosen.ahead_of(other).abs() < EQUAL

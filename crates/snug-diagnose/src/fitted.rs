@@ -6,6 +6,7 @@ use crate::torque_noise::passed_on;
 use crate::units::Units;
 use snug_identify::PooledFit;
 use snug_model::{BASE_PARAMETERS, Effect};
+use snug_statistics::descriptive::median;
 
 /// What a unit says about the parameters around the optimum: squared residual, gradient and curvature.
 #[derive(Debug, Clone)]
@@ -205,6 +206,26 @@ impl Fitted {
             .collect()
     }
 
+    /// How many parameters of the base model have hardly anything left to do beside this fit's effects, where beside those
+    /// of one of `others` they have.
+    pub fn makes_superfluous(&self, others: &[&Self]) -> usize {
+        let free = self.own_names.len() - self.own_effect_count;
+        let size = |fitted: &Self, column: usize| {
+            let sizes: Vec<f64> = fitted.own.iter().map(|own| own[column].abs()).collect();
+            median(&sizes).unwrap_or(0.0)
+        };
+        let is_needed = |column: usize, largest: f64| size(self, column) >= HARDLY * largest;
+        let largest = |column| {
+            others
+                .iter()
+                .map(|other| size(other, column))
+                .fold(0.0, f64::max)
+        };
+        (0..free)
+            .filter(|&column| !is_needed(column, largest(column)))
+            .count()
+    }
+
     /// Free parameters of the base model, the mean over records; none where there are many tightenings.
     pub fn base(&self) -> Vec<(String, f64)> {
         if self.units.are_whole() {
@@ -332,6 +353,9 @@ impl Fitted {
         }
     }
 }
+
+/// Share of a parameter that is hardly anything.
+const HARDLY: f64 = 0.1;
 
 /// Error over noise below which nothing but noise is left to look for.
 pub(crate) const AT_FLOOR: f64 = 1.02;

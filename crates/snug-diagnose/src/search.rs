@@ -113,18 +113,26 @@ impl Search<'_> {
         )
     }
 
-    /// The best candidate, or a supported catalogue effect that is as good.
+    /// The best candidate, or a supported one that is as good and the likelier story: an effect of the catalogue, else the
+    /// term that makes most of the base model superfluous.
     fn single(&self, ranking: &Ranking, best: usize) -> usize {
-        match self.listed(ranking) {
-            Some(listed)
-                if ranking.candidates[best].ahead_of(&ranking.candidates[listed]) < EQUAL
-                    && !self
-                        .leaves_more(&ranking.candidates[listed], &ranking.candidates[best]) =>
-            {
-                listed
-            }
-            _ => best,
+        let all = &ranking.candidates;
+        let is_equal = |other: usize| {
+            all[best].ahead_of(&all[other]) < EQUAL && !self.leaves_more(&all[other], &all[best])
+        };
+        if let Some(listed) = self.listed(ranking).filter(|&listed| is_equal(listed)) {
+            return listed;
         }
+        let equals: Vec<usize> = (best..all.len())
+            .filter(|&other| all[other].is_supported(self.settings) && is_equal(other))
+            .collect();
+        let fits: Vec<&Fitted> = equals.iter().map(|&one| &all[one].fitted).collect();
+        // Of several the first, which is the last that is asked.
+        let likeliest = equals
+            .into_iter()
+            .rev()
+            .max_by_key(|&one| all[one].fitted.makes_superfluous(&fits));
+        likeliest.unwrap_or(best)
     }
 
     /// Whether `one` plainly leaves more than `other` of a long record, whose few stretches hardly make that a statistic.
@@ -169,9 +177,28 @@ impl Search<'_> {
         // Two catalogue effects that leave as little as one unlisted term are the likelier story.
         let as_good = is_unlisted(one.effect) && one.ahead_of(&together) < EQUAL;
         Ok(match better || as_good {
-            true => vec![step(ranking, seed, current), second],
+            true => self.larger_first(current, ranking, seed, second),
             false => alone,
         })
+    }
+
+    /// A pair as two steps, the one that explains more by itself first.
+    fn larger_first(
+        &self,
+        current: &Fitted,
+        ranking: &Ranking,
+        seed: usize,
+        second: Step,
+    ) -> Vec<Step> {
+        let (addition, both) = second;
+        let all = ranking.candidates.iter();
+        match all.take(seed).position(|c| c.effect == addition.effect) {
+            Some(larger) => {
+                let (smaller, _) = step(ranking, seed, current);
+                vec![step(ranking, larger, current), (smaller, both)]
+            }
+            None => vec![step(ranking, seed, current), (addition, both)],
+        }
     }
 
     /// The two catalogue effects that together explain most: where the first stands in the ranking, both, the second.

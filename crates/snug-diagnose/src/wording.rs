@@ -21,6 +21,8 @@ pub(crate) struct Situation<'a> {
     pub additions: &'a [Addition],
     /// The candidate that is supported and not in the model.
     pub chosen: Option<&'a Candidate>,
+    /// What these data cannot tell from it.
+    pub twins: Vec<Effect>,
     pub ranking: &'a [RankedEffect],
     pub stopped: Option<Stop>,
     /// Candidates that cannot be simulated on this rig.
@@ -35,9 +37,7 @@ impl Situation<'_> {
     /// its twin.
     pub fn twin_pair(&self) -> Option<(&Fitted, Effect)> {
         if let Some(chosen) = self.chosen {
-            let first = self.ranking.first()?;
-            let twin = Effect::named(first.twins.first()?)?;
-            return Some((&chosen.fitted, twin));
+            return Some((&chosen.fitted, *self.twins.first()?));
         }
         let added = self.additions.last()?;
         let twin = *added.twins.first()?;
@@ -110,13 +110,12 @@ pub(crate) fn spoken(effect: Effect) -> String {
 }
 
 /// An effect that these data cannot tell from others is named with them.
-fn with_twins(name: String, twins: &[String]) -> String {
+fn with_twins(effect: Effect, twins: &[Effect]) -> String {
+    let names = std::iter::once(&effect).chain(twins);
+    let names: Vec<String> = names.map(|&effect| spoken(effect)).collect();
     match twins {
-        [] => name,
-        some => format!(
-            "{name} or {} (these data cannot tell which)",
-            some.join(" or ")
-        ),
+        [] => names.concat(),
+        _ => format!("{} (these data cannot tell which)", names.join(" or ")),
     }
 }
 
@@ -162,10 +161,7 @@ pub(crate) fn headline(situation: &Situation<'_>) -> String {
     let after = error(situation.after);
     let fell = fall(situation.before, situation.after);
     let added: Vec<String> = (situation.additions.iter())
-        .map(|one| {
-            let twins: Vec<String> = one.twins.iter().map(|&twin| spoken(twin)).collect();
-            with_twins(spoken(one.effect), &twins)
-        })
+        .map(|one| with_twins(one.effect, &one.twins))
         .collect();
     if situation.stopped == Some(Stop::Interrupted) {
         return match added.as_slice() {
@@ -181,13 +177,13 @@ pub(crate) fn headline(situation: &Situation<'_>) -> String {
     }
     match (situation.verdict, situation.chosen) {
         (Verdict::MissingEffect | Verdict::UnlistedEffect, Some(chosen)) => {
-            let name = spoken(chosen.effect);
+            let name = with_twins(chosen.effect, &situation.twins);
             let falls = fall(situation.after, &chosen.fitted);
             let what = match is_unlisted(chosen.effect) {
                 true => format!(
                     "A law that is not in the catalogue is missing, best described as {name}"
                 ),
-                false => format!("The model lacks {}", with_twins(name, &twins(situation))),
+                false => format!("The model lacks {name}"),
             };
             format!("{what}: with it the error falls {falls}.")
         }
@@ -272,7 +268,7 @@ fn what_speaks_for_the_chosen(situation: &Situation<'_>) -> Vec<String> {
         evidence(&name, first.heldout_gain, first.p_family, situation),
         format!("Its size: {}.", sizes(&first.parameters)),
     ];
-    let twins = twins(situation);
+    let twins: Vec<String> = situation.twins.iter().map(|&twin| spoken(twin)).collect();
     if !twins.is_empty() {
         reasons.push(format!(
             "These data cannot tell it from {}; they are named together.",
@@ -335,14 +331,6 @@ fn correction(one: &CorrectedEffect) -> String {
         ),
         None => taken_out,
     }
-}
-
-/// What these data cannot tell from the effect that is missing.
-fn twins(situation: &Situation<'_>) -> Vec<String> {
-    let first = situation.ranking.first();
-    let twins = first.map_or(&[][..], |first| &first.twins);
-    let spoken = |twin: &String| Effect::named(twin).map_or_else(|| twin.replace('_', " "), spoken);
-    twins.iter().map(spoken).collect()
 }
 
 fn evidence(name: &str, gain: f64, p: f64, situation: &Situation<'_>) -> String {

@@ -1,5 +1,7 @@
 //! Names of effects and their units as people write them.
 
+use snug_campaign::Diagnosis;
+
 /// `cubic_stiffness` as `cubic stiffness`; an expression stays as it is.
 pub fn effect_name(name: &str) -> String {
     if name.contains(['*', '^', '(', '+', '/']) {
@@ -17,10 +19,15 @@ pub fn called(effect: &str, expression: Option<&String>) -> String {
     )
 }
 
-/// Names as a sentence lists them.
-pub fn effect_names(names: &[String]) -> String {
-    let names: Vec<String> = names.iter().map(|name| effect_name(name)).collect();
-    names.join(", ")
+/// The same of one that the diagnosis knows.
+pub fn called_in(diagnosis: &Diagnosis, effect: &str) -> String {
+    called(effect, diagnosis.expression(effect))
+}
+
+/// Effects that the diagnosis knows as a sentence lists them.
+pub fn names_in(diagnosis: &Diagnosis, effects: &[String]) -> String {
+    let names = effects.iter().map(|effect| called_in(diagnosis, effect));
+    names.collect::<Vec<_>>().join(", ")
 }
 
 /// `N/m^3` as `N/m³`; nothing for a pure number.

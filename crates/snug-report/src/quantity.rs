@@ -1,8 +1,8 @@
 //! What a column name means: `stiffness_n_per_m` is read as "stiffness k" in N/m.
 
-use crate::effect_name::{effect_name, unit_text};
+use crate::effect_name::unit_text;
 use crate::signal_unit;
-use snug_campaign::CampaignResult;
+use snug_campaign::{CampaignResult, ParameterMeaning};
 
 /// How a quantity is called on the page.
 #[derive(Debug, Clone, PartialEq)]
@@ -77,22 +77,12 @@ fn as_declared(column: &str, result: &CampaignResult) -> QuantityName {
         .filter_map(|tightening| tightening.estimate.as_ref())
         .find_map(|estimate| estimate.parameter(column))
         .map(|parameter| parameter.unit.clone());
+    let of_effect = result.meanings.iter().find(|told| told.name == column);
     QuantityName {
-        words: of_effect(column, result).unwrap_or_else(|| stem.replace('_', " ")),
+        words: of_effect.map_or_else(|| stem.replace('_', " "), ParameterMeaning::words),
         symbol: "",
         unit: signal_unit::effect_parameter(&result.units, declared.unwrap_or(suffix_unit)),
     }
-}
-
-/// A parameter of one of the model's effects in words: `coulomb friction: friction force`.
-fn of_effect(column: &str, result: &CampaignResult) -> Option<String> {
-    let told = result.meanings.iter().find(|told| told.name == column)?;
-    let effect = effect_name(&told.effect);
-    // An effect with one parameter may be called like it.
-    Some(match told.meaning == effect {
-        true => effect,
-        false => format!("{effect}: {}", told.meaning),
-    })
 }
 
 /// A factor or method of the statistics in words.

@@ -1,6 +1,6 @@
 use super::size::{self, sized};
-use super::{Page, called, shortened};
-use snug_campaign::{Diagnosis, EffectParameter, RankedEffect, Verdict};
+use super::{Page, called, names_in, shortened};
+use snug_campaign::{Diagnosis, Doubt, RankedEffect, Verdict};
 
 /// Candidates shown; the report lists all. Behind the very first, neither terms in no catalogue nor what could be chance.
 const CANDIDATES: usize = 8;
@@ -50,7 +50,11 @@ pub fn ranking(page: &mut Page, diagnosis: &Diagnosis) {
         "effect", "removes", "chance", "size [95 % interval]"
     ));
     for (place, candidate) in candidates {
-        row(page, candidate, place == 0);
+        row(page, candidate);
+        if place == 0 && !candidate.twins.is_empty() {
+            let twins = names_in(diagnosis, &candidate.twins);
+            page.paragraph("      cannot be told from ", &twins);
+        }
     }
     let unlisted = diagnosis
         .ranking
@@ -70,7 +74,7 @@ pub fn ranking(page: &mut Page, diagnosis: &Diagnosis) {
     );
 }
 
-fn row(page: &mut Page, candidate: &RankedEffect, with_twins: bool) {
+fn row(page: &mut Page, candidate: &RankedEffect) {
     let name = called(&candidate.effect, candidate.expression.as_ref());
     let gain = size::share(candidate.heldout_gain, candidate.heldout_gain_error);
     let lead = format!(
@@ -79,16 +83,8 @@ fn row(page: &mut Page, candidate: &RankedEffect, with_twins: bool) {
         size::p_value(candidate.p_family)
     );
     let mut sizes: Vec<String> = candidate.parameters.iter().map(sized).collect();
-    if !candidate.plausible
-        && candidate
-            .parameters
-            .iter()
-            .all(EffectParameter::is_plausible)
-    {
+    if candidate.doubt() == Some(Doubt::NotSettled) {
         sizes.push("the fit did not settle".into());
     }
     page.paragraph(&lead, &sizes.join("; "));
-    if with_twins && !candidate.twins.is_empty() {
-        page.paragraph("      cannot be told from ", &candidate.twins.join(", "));
-    }
 }

@@ -1,5 +1,5 @@
 use super::DiagnosisSection;
-use crate::effect_name::{called, effect_name, unit_text};
+use crate::effect_name::{called_in, unit_text};
 use crate::figure::{Axis, Bar, Dot, Figure, Mark, Segment, captioned, legend};
 use crate::number::{percent, plain, significant};
 use maud::{Markup, html};
@@ -83,7 +83,7 @@ fn promised(diagnosis: &Diagnosis) -> Markup {
         .and_then(|first| Some((first, first.error_over_noise?)));
     html! {
         @if let Some((first, error)) = first {
-            p { "With " strong { (effect_name(&first.effect)) } " in the model, the error would be " strong { (significant(error, 4)) }
+            p { "With " strong { (called_in(diagnosis, &first.effect)) } " in the model, the error would be " strong { (significant(error, 4)) }
                 " times the noise." }
         }
     }
@@ -102,11 +102,7 @@ fn output_unit(diagnosis: &Diagnosis) -> String {
 
 /// What each rung changes against the one before.
 fn names(diagnosis: &Diagnosis) -> Vec<String> {
-    let known = |effect: &String| {
-        let added = diagnosis.added.iter();
-        let found = added.clone().find(|known| known.effect == *effect);
-        called(effect, found.and_then(|known| known.expression.as_ref()))
-    };
+    let known = |effect: &String| called_in(diagnosis, effect);
     let mut before: &[String] = &[];
     let mut names = Vec::new();
     for (place, rung) in diagnosis.ladder.iter().enumerate() {

@@ -1,12 +1,12 @@
 use super::DiagnosisSection;
-use crate::effect_name::{called, effect_names};
+use crate::effect_name::{called, names_in};
 use crate::effect_words::{
     LEVEL, UNSURE, by_chance, parameter_name, sentence, share_with_error, sizes,
 };
 use crate::figure::{Axis, Bar, Figure, Mark, Segment, captioned, legend};
 use crate::number::{fixed, p_value, plain, significant};
 use maud::{Markup, html};
-use snug_campaign::{CampaignResult, Diagnosis, EffectParameter, RankedEffect, Verdict};
+use snug_campaign::{CampaignResult, Diagnosis, Doubt, RankedEffect, Verdict};
 
 /// What could be missing, best first.
 pub const SECTION: DiagnosisSection = DiagnosisSection {
@@ -27,6 +27,11 @@ fn render(diagnosis: &Diagnosis, result: &CampaignResult) -> Option<Markup> {
     }
     let (shown, rest) = parted(diagnosis);
     let unlisted = rest.iter().filter(|candidate| candidate.unlisted).count();
+    // Twins are a question of the first only.
+    let twins = |place| match place {
+        0 => names_in(diagnosis, &shown[0].twins),
+        _ => String::new(),
+    };
     let model = if diagnosis.added.is_empty() {
         "the model"
     } else {
@@ -43,14 +48,16 @@ fn render(diagnosis: &Diagnosis, result: &CampaignResult) -> Option<Markup> {
         (figure(&shown))
         p { "A candidate is believed when chance alone would do as well in fewer than " (fixed(100.0 * LEVEL, 0))
             " of 100 cases (p below " (LEVEL) "); that already allows for the number of candidates. Open a row for what it is, how it shows and what to check." }
-        div.candidates { @for (place, candidate) in shown.iter().enumerate() { (entry(candidate, place == 0, result)) } }
+        div.candidates { @for (place, candidate) in shown.iter().enumerate() {
+            (entry(candidate, &twins(place), result))
+        } }
         @if !rest.is_empty() {
             details {
                 summary {
                     (rest.len()) " more were tried"
                     @if unlisted > 0 { "; terms that are in no catalogue among them: " (unlisted) }
                 }
-                div.candidates { @for candidate in &rest { (entry(candidate, false, result)) } }
+                div.candidates { @for candidate in &rest { (entry(candidate, "", result)) } }
             }
         }
     })
@@ -184,18 +191,14 @@ fn bar(row: usize, candidate: &RankedEffect, (low, high): (f64, f64)) -> Bar {
 
 /// What speaks against a candidate, whatever it explains.
 fn against(candidate: &RankedEffect) -> Option<&'static str> {
-    if candidate.plausible {
-        return None;
-    }
-    let mut parameters = candidate.parameters.iter();
-    Some(match parameters.all(EffectParameter::is_plausible) {
-        true => "fit did not settle",
-        false => "size not plausible",
+    Some(match candidate.doubt()? {
+        Doubt::NotSettled => "fit did not settle",
+        Doubt::ImplausibleSize => "size not plausible",
     })
 }
 
-/// A row of the candidates; twins are a question of the first only.
-fn entry(candidate: &RankedEffect, with_twins: bool, result: &CampaignResult) -> Markup {
+/// A row of the candidates, with what these data cannot tell from it.
+fn entry(candidate: &RankedEffect, twins: &str, result: &CampaignResult) -> Markup {
     html! {
         details.candidate {
             summary {
@@ -203,16 +206,16 @@ fn entry(candidate: &RankedEffect, with_twins: bool, result: &CampaignResult) ->
                 " " span.gain { (share_with_error(candidate.heldout_gain, candidate.heldout_gain_error)) }
                 " " span.chance { "p " (p_value(Some(candidate.p_family))) }
                 " " span.sizes { (sizes(&candidate.parameters, result)) }
-                @if with_twins && !candidate.twins.is_empty() { " " span.tag.twins { "not to be told from " (effect_names(&candidate.twins)) } }
+                @if !twins.is_empty() { " " span.tag.twins { "not to be told from " (twins) } }
                 @if candidate.unlisted { " " span.tag.unlisted { "in no catalogue" } }
                 @if let Some(against) = against(candidate) { " " span.tag.implausible { (against) } }
             }
-            (evidence(candidate, with_twins, result))
+            (evidence(candidate, twins, result))
         }
     }
 }
 
-fn evidence(candidate: &RankedEffect, with_twins: bool, result: &CampaignResult) -> Markup {
+fn evidence(candidate: &RankedEffect, twins: &str, result: &CampaignResult) -> Markup {
     html! {
         ul { @for line in &candidate.explanation { li { (sentence(line)) } } }
         ul.note {
@@ -222,8 +225,8 @@ fn evidence(candidate: &RankedEffect, with_twins: bool, result: &CampaignResult)
             @if candidate.behind_first > 0.0 {
                 li { "The first candidate explains more by " (significant(candidate.behind_first, 2)) " standard deviations over tightenings." }
             }
-            @if with_twins && !candidate.twins.is_empty() {
-                li { "These data cannot tell it from " (effect_names(&candidate.twins)) "." }
+            @if !twins.is_empty() {
+                li { "These data cannot tell it from " (twins) "." }
             }
             @if let Some(against) = against(candidate) {
                 li { "What speaks against it: " (against) "." }

@@ -1,5 +1,5 @@
 use super::DiagnosisSection;
-use crate::effect_name::{called, effect_name, effect_names, unit_text};
+use crate::effect_name::{called, effect_name, names_in, unit_text};
 use crate::effect_words::{by_chance, sentence, share_with_error, sizes};
 use crate::number::{fixed, percent, significant};
 use maud::{Markup, html};
@@ -24,7 +24,7 @@ fn render(diagnosis: &Diagnosis, result: &CampaignResult) -> Option<Markup> {
         }
         @if !diagnosis.added.is_empty() {
             h3 { "What the model has beyond mass, damper and spring" }
-            div.effects { @for effect in &diagnosis.added { (added(effect, result)) } }
+            div.effects { @for effect in &diagnosis.added { (added(effect, diagnosis, result)) } }
         }
         (missing(diagnosis, result))
         (unlisted(diagnosis))
@@ -56,7 +56,7 @@ fn word(diagnosis: &Diagnosis) -> &'static str {
     }
 }
 
-fn added(effect: &AddedEffect, result: &CampaignResult) -> Markup {
+fn added(effect: &AddedEffect, diagnosis: &Diagnosis, result: &CampaignResult) -> Markup {
     html! {
         div.effect {
             h4 { (called(&effect.effect, effect.expression.as_ref())) " " span.nature { (effect.kind) } }
@@ -72,7 +72,7 @@ fn added(effect: &AddedEffect, result: &CampaignResult) -> Markup {
                 p { "Without it, the squared error would " (growth(needed)) "." }
             }
             @if !effect.twins.is_empty() {
-                p.attention { "These data cannot tell it from " strong { (effect_names(&effect.twins)) } "." }
+                p.attention { "These data cannot tell it from " strong { (names_in(diagnosis, &effect.twins)) } "." }
             }
             (implausible(&effect.parameters))
             @if !effect.explanation.is_empty() {
