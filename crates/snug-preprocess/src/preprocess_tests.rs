@@ -244,6 +244,18 @@ fn faults_that_are_mended_or_noted() {
         r.torque_nm[SEGMENT + 15_100] = f64::INFINITY
     });
     used_with("spikes", |r| accelerations(r)[SEGMENT + 15_100] += 200.0);
+    let flown = used_with("free_flight", |r| {
+        let is_free = |&index: &usize| r.torque_nm[index].abs() < 0.1;
+        let after = (SEGMENT + 15_000..SEGMENT + 18_000).filter(is_free);
+        let size = |index: usize| r.motion.acceleration_rad_per_s2.as_ref().unwrap()[index].abs();
+        let swing = after.max_by(|&a, &b| size(a).total_cmp(&size(b))).unwrap();
+        accelerations(r)[swing..swing + 2].fill(0.0);
+    });
+    let measured = flown.tightening.motion.acceleration_rad_per_s2.unwrap();
+    assert!(
+        measured.windows(2).any(|pair| pair[0] == pair[1]),
+        "two samples of 0"
+    );
     used_with("truncated_segment", |r| {
         accelerations(r).truncate(SEGMENT + 18_000)
     });

@@ -85,14 +85,19 @@ fn repair_spikes(
     remarks: &mut Remarks,
 ) -> Vec<Range<usize>> {
     let flight = FreeFlight::new(&signals.torque_nm, context.rig);
+    let mut flown: Vec<Range<usize>> = Vec::new();
     let mut mended = Vec::new();
     for (channel, samples) in signals.channels_mut() {
-        let flies = channel == Channel::Motion(Quantity::Acceleration);
         let spikes = spikes::repair(
             samples,
             context.settings.quality.spike_sd,
-            |index, level, value, tolerance| {
-                flies && flight.explains(index, level, value, tolerance)
+            |index, level, value, tolerance| match channel {
+                Channel::Motion(Quantity::Acceleration) => {
+                    flight.explains(index, level, value, tolerance)
+                }
+                // The hand's force drops while the tool flies.
+                Channel::GripForce => flown.iter().any(|flown| flown.contains(&index)),
+                _ => false,
             },
         );
         let told = |spikes: &[Range<usize>]| {
@@ -113,6 +118,7 @@ fn repair_spikes(
             );
             remarks.note("free_flight", Some(channel), message);
         }
+        flown.extend(spikes.explained);
         mended.extend(spikes.mended);
     }
     mended
