@@ -76,6 +76,10 @@ pub(crate) fn separating_experiment(
     let tightenings = (distance > 1e-3).then(|| (TELLING / distance).ceil().max(1.0) as usize);
     let between = [chosen, second].map(spoken);
     let statement = match tightenings {
+        Some(1) => format!(
+            "To tell {} from {}: one more tightening {} is enough.",
+            between[0], between[1], change.words
+        ),
         Some(number) if number <= 10_000 => format!(
             "To tell {} from {}: make about {number} more tightenings {}.",
             between[0], between[1], change.words

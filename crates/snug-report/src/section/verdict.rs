@@ -1,4 +1,4 @@
-use super::DiagnosisSection;
+use super::{DiagnosisSection, counted};
 use crate::effect_name::{called, effect_name, names_in, unit_text};
 use crate::effect_words::{by_chance, sentence, share_with_error, sizes};
 use crate::number::{fixed, percent, significant};
@@ -234,7 +234,8 @@ fn basis(diagnosis: &Diagnosis) -> String {
             format!(" (standard deviation {} rad/s²)", significant(noise, 3))
         });
     format!(
-        "{} tightenings took part; model and measurement are compared in the {}, against {source}{size}.",
-        diagnosis.tightenings, diagnosis.compared_output
+        "{} took part; model and measurement are compared in the {}, against {source}{size}.",
+        counted(diagnosis.tightenings, "tightening"),
+        diagnosis.compared_output
     )
 }
