@@ -209,21 +209,20 @@ impl Fitted {
     /// How many parameters of the base model have hardly anything left to do beside this fit's effects, where beside those
     /// of one of `others` they have.
     pub fn makes_superfluous(&self, others: &[&Self]) -> usize {
-        let free = self.own_names.len() - self.own_effect_count;
         let size = |fitted: &Self, column: usize| {
             let sizes: Vec<f64> = fitted.own.iter().map(|own| own[column].abs()).collect();
             median(&sizes).unwrap_or(0.0)
         };
-        let is_needed = |column: usize, largest: f64| size(self, column) >= HARDLY * largest;
-        let largest = |column| {
-            others
-                .iter()
-                .map(|other| size(other, column))
-                .fold(0.0, f64::max)
+        let is_superfluous = |&column: &usize| {
+            let sizes = others.iter().map(|other| size(other, column));
+            size(self, column) < HARDLY * sizes.fold(0.0, f64::max)
         };
-        (0..free)
-            .filter(|&column| !is_needed(column, largest(column)))
-            .count()
+        (0..self.free_base_count()).filter(is_superfluous).count()
+    }
+
+    /// How many of each tightening's own parameters, the first of them, are the base model's.
+    fn free_base_count(&self) -> usize {
+        self.own_names.len() - self.own_effect_count
     }
 
     /// Free parameters of the base model, the mean over records; none where there are many tightenings.
@@ -233,8 +232,7 @@ impl Fitted {
         }
         let count = self.own.len() as f64;
         let mean = |column: usize| self.own.iter().map(|own| own[column]).sum::<f64>() / count;
-        let free = self.own_names.len() - self.own_effect_count;
-        let names = self.own_names[..free].iter().enumerate();
+        let names = self.own_names[..self.free_base_count()].iter().enumerate();
         names
             .map(|(column, name)| (name.clone(), mean(column)))
             .collect()

@@ -167,10 +167,14 @@ impl<'a, 'h> Scorer<'a, 'h> {
         let of_columns: Vec<Vec<Vec<f64>>> = (columns.par_iter())
             .map(|column| {
                 let other = others.iter().find(|(effect, _)| *effect == column.effect);
-                other.map_or_else(
+                let mut signatures = other.map_or_else(
                     || plain.iter().map(|plain| vec![0.0; plain.len()]).collect(),
                     |(_, other)| column.signatures(other, &asked, &plain),
-                )
+                );
+                for signature in &mut signatures {
+                    blur(signature, INSTANT_REACH);
+                }
+                signatures
             })
             .collect();
         (members.par_iter().enumerate())
@@ -218,9 +222,7 @@ impl<'a, 'h> Scorer<'a, 'h> {
         let mut signatures: Vec<Vec<f64>> = Vec::new();
         let mut along_bias = Vec::new();
         for signature in of_columns {
-            let mut expected = signature.to_vec();
-            blur(&mut expected, INSTANT_REACH);
-            let mut z = hypothesis.weigh_signal(member, &expected);
+            let mut z = hypothesis.weigh_signal(member, signature);
             nuisance.project(&mut z);
             let (mut scores, mut variances) = (Vec::new(), Vec::new());
             let mut information = 0.0;

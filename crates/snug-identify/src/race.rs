@@ -6,7 +6,7 @@
 use crate::fit::Work;
 use crate::residual::further_along;
 use crate::search::{Ask, Search};
-use crate::solver::{advance, answer};
+use crate::solver::answer;
 use crate::{
     Constraints, DenseResidual, Fit, IdentifyError, Residual, Settings, TighteningResidual,
 };
@@ -51,7 +51,7 @@ pub(crate) fn race(
             work.add(entrant.search.work());
             continue;
         }
-        advance(&mut entrant.search, &mut entrant.problem, usize::MAX);
+        while !answer(&mut entrant.search, &mut entrant.problem) {}
         let end = entrant.search.finish(m);
         work.add(&end.work);
         ends.push(end);

@@ -16,22 +16,8 @@ pub fn solve(
     settings: &Settings,
 ) -> Result<Fit, IdentifyError> {
     let mut search = Search::new(problem.parameter_count(), start, constraints, settings)?;
-    advance(&mut search, problem, usize::MAX);
+    while !answer(&mut search, problem) {}
     Ok(search.finish(problem.residual_count()))
-}
-
-/// Answers what a search asks until it ends or has made this many steps; returns whether it has ended.
-pub(crate) fn advance(
-    search: &mut Search<'_>,
-    problem: &mut dyn LeastSquares,
-    steps: usize,
-) -> bool {
-    while search.steps() <= steps {
-        if answer(search, problem) {
-            return true;
-        }
-    }
-    false
 }
 
 /// Answers what a search asks next; returns whether it has ended.
