@@ -1,14 +1,11 @@
 use crate::band_limited;
 use crate::restart::Restarts;
+use crate::slope;
 use snug_campaign::Intersample;
 use std::sync::OnceLock;
 
 /// How much finer than the samples a band-limited input is represented.
 const BAND_LIMITED_SUBSTEPS: usize = 8;
-/// Time on either side over which the slope of the torque is taken \[s\]: a shut-off takes longer.
-const SLOPE_REACH_S: f64 = 2.5e-3;
-/// The fewest samples on either side.
-const LEAST_SLOPE_REACH: usize = 5;
 
 /// The input (torque) of one simulation, prepared once and used for every trial of the parameters.
 ///
@@ -201,42 +198,13 @@ impl Input {
 
     /// Slope of the torque \[Nm/s\] and how fast it changes \[Nm/s²\] at `time_s` after the first sample.
     ///
-    /// Straight between the grid points' own slopes, which are those of the cubics that fit the samples within 2.5 ms on
-    /// either side best (Savitzky & Golay 1964): a slope from one neighbour to the other would be mostly noise, which a lag
-    /// of several milliseconds multiplies.
+    /// Straight between the grid points' own slopes, which are taken over as many milliseconds as the torque's course
+    /// allows: a slope from one neighbour to the other would be mostly noise, which a lag of several milliseconds
+    /// multiplies.
     pub fn slope_at(&self, time_s: f64) -> (f64, f64) {
-        let slopes = self.slopes.get_or_init(|| self.fitted_slopes());
+        let slopes = (self.slopes)
+            .get_or_init(|| slope::slopes(&self.grid, self.grid_interval_s, self.substeps));
         self.straight(time_s, |index| slopes[index])
-    }
-
-    /// With sums over j on both sides of i, j in units of the reach: (S₆ Σ j y − S₄ Σ j³ y)/(S₂ S₆ − S₄²) per reach, where
-    /// Sₙ = Σ jⁿ; over fewer points near the ends, and the slope of a straight line where they are too few for a cubic.
-    fn fitted_slopes(&self) -> Vec<f64> {
-        let last = self.grid.len().saturating_sub(1);
-        let whole = ((SLOPE_REACH_S / self.grid_interval_s).round() as usize)
-            .max(LEAST_SLOPE_REACH * self.substeps);
-        (0..self.grid.len())
-            .map(|index| {
-                let reach = whole.min(index).min(last - index).max(1);
-                let [mut s2, mut s4, mut s6, mut along, mut along_cubed] = [0.0; 5];
-                for j in 1..=reach {
-                    let (before, after) = (index.saturating_sub(j), (index + j).min(last));
-                    let difference = self.grid[after] - self.grid[before];
-                    let j = j as f64 / reach as f64;
-                    let width = (after - before) as f64 / reach as f64;
-                    s2 += j * width;
-                    s4 += j.powi(3) * width;
-                    s6 += j.powi(5) * width;
-                    along += j * difference;
-                    along_cubed += j.powi(3) * difference;
-                }
-                let slope = match reach < LEAST_SLOPE_REACH {
-                    true => along / s2.max(f64::MIN_POSITIVE),
-                    false => (s6 * along - s4 * along_cubed) / (s2 * s6 - s4 * s4),
-                };
-                slope / (reach as f64 * self.grid_interval_s)
-            })
-            .collect()
     }
 
     /// Value and slope at `time_s` of the line through `of(index)` at the grid points; the ends are held.
@@ -369,22 +337,5 @@ mod tests {
             .sum();
         // Σ of 19 800 products of spread 0.7 and mean 0; a line to the next sample would give −19 800.
         assert!(product.abs() < 4.0 * 0.8 * 19_800_f64.sqrt(), "{product}");
-    }
-
-    #[test]
-    fn slopes_of_a_cubic_are_exact_and_noise_hardly_disturbs_them() {
-        let cubic: Vec<f64> = (0..200).map(|i| (0.01 * f64::from(i)).powi(3)).collect();
-        let input = Input::new(&cubic, 0.01, Intersample::Linear);
-        let (slope, change) = input.slope_at(1.23);
-        assert!(
-            (slope - 3.0 * 1.23 * 1.23).abs() < 1e-12 && (change - 6.0 * 1.235).abs() < 1e-9,
-            "{slope} {change}"
-        );
-        let noise = Input::new(&noise(20_000), 1.0, Intersample::Linear);
-        // Savitzky & Golay 1964, table for 11 points: (300, −294, −532, −503, −296, 0, …)/5148.
-        let table = [300.0, -294.0, -532.0, -503.0, -296.0].map(|c: f64| c / 5148.0);
-        let expected = 2.0 * table.iter().map(|c| c * c).sum::<f64>();
-        let found = power((100..19_900).map(|i| noise.slope_at(i as f64).0));
-        assert!((found / expected - 1.0).abs() < 0.1, "{found}");
     }
 }

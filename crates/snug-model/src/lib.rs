@@ -37,6 +37,7 @@ mod scale;
 mod sensors;
 mod settings;
 mod side_by_side;
+mod slope;
 mod sweep;
 mod zeroed;
 

@@ -1,6 +1,6 @@
 //! The logged torque y is the acting torque T through a first-order lag: τ y' = T − y, so T = y + τ y' acts.
 //!
-//! y' is the slope between neighbouring samples' midpoints, which a noisy torque amplifies by τ over the sampling interval.
+//! y' is taken over as many milliseconds as the torque's course allows, since τ multiplies its noise.
 //! Parameter: tau_s \[s\], 0 to 0.02. Excited by fast torque changes (shut-off). In the residual it follows dT/dt, with an echo
 //! of d²T/dt² that a plain delay does not have. Source: low-pass filter of the torque channel.
 
