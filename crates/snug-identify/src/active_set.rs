@@ -1,25 +1,9 @@
 //! Newton's method on the optimality conditions of a conic program with a given active set.
 
-use crate::conic_program::ConicProgram;
+use crate::conic_program::{Candidate, ConicProgram};
 use crate::dense::{add_scaled, dot, norm};
-use crate::faces::Face;
 use faer::Mat;
 use faer::linalg::solvers::Solve;
-
-/// A face that holds with equality, and how hard it presses.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Active {
-    pub face: usize,
-    /// Lagrange multiplier of g ≤ 0.
-    pub multiplier: f64,
-}
-
-/// A point of the program with its active faces.
-#[derive(Debug, Clone)]
-pub(crate) struct Candidate {
-    pub z: Vec<f64>,
-    pub active: Vec<Active>,
-}
 
 /// What is wrong with a candidate as a solution.
 pub(crate) enum Defect {
@@ -37,12 +21,6 @@ const NEWTON_LIMIT: usize = 25;
 const TOLERANCE: f64 = 1e-11;
 
 impl ConicProgram {
-    fn face(&self, index: usize) -> &Face {
-        self.faces[index]
-            .as_ref()
-            .expect("only finite faces become active")
-    }
-
     /// Solves ∇f + Σ μ ∇g = 0, g = 0 from `candidate`; returns the Newton steps taken, or `None` when they do not
     /// converge (dependent faces, a cone's tip).
     pub fn polish(&self, candidate: &mut Candidate) -> Option<usize> {
@@ -112,15 +90,6 @@ impl ConicProgram {
             entry.multiplier += right[(n + index, 0)] / lengths[index];
         }
         Some(square.sqrt())
-    }
-
-    /// P z + q.
-    pub fn slope(&self, z: &[f64]) -> Vec<f64> {
-        let mut slope = self.gradient.clone();
-        for (column, &value) in self.hessian.chunks_exact(z.len()).zip(z) {
-            add_scaled(&mut slope, value, column);
-        }
-        slope
     }
 
     /// Checks the optimality conditions of a polished candidate. The program is convex: what passes is its solution.

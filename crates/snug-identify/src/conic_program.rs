@@ -1,13 +1,7 @@
-//! The conic program of a step that meets the constraints: solved by Clarabel, made exact on its active set.
+//! The conic program of a step that meets the constraints, and points of it.
 
-use crate::active_set::{Active, Candidate, Defect};
-use crate::dense::norm;
+use crate::dense::add_scaled;
 use crate::faces::Face;
-use crate::fit::Work;
-use clarabel::algebra::CscMatrix;
-use clarabel::solver::{
-    DefaultSettings, DefaultSettingsBuilder, DefaultSolver, IPSolver, SolverStatus, SupportedConeT,
-};
 
 /// Minimise ½ zᵀ P z + qᵀ z over the faces; the parameters are p + unit ∘ z.
 pub(crate) struct ConicProgram {
@@ -19,258 +13,34 @@ pub(crate) struct ConicProgram {
 }
 
 impl ConicProgram {
-    /// The program's solution. `free` is the minimiser without constraints, `expected` the faces active last time.
-    ///
-    /// A point that satisfies the optimality conditions on the expected faces is the solution of a convex program, so
-    /// Clarabel is asked only when it does not. `None` when no point better than z = 0 was found.
-    pub fn solve(&self, free: &[f64], expected: &[usize], work: &mut Work) -> Option<Candidate> {
-        if !expected.is_empty() {
-            let start = self.at_rest(expected);
-            if let Some(found) = self.exact(start, 0, work) {
-                return Some(found);
-            }
-        }
-        let interior = self.interior_point(free, expected, work)?;
-        // A cone touched along an edge of bounds depends on them: without it the same point is found.
-        let mut edges = interior.clone();
-        (edges.active).retain(|entry| matches!(self.faces[entry.face], Some(Face::Plane { .. })));
-        for start in [&interior, &edges] {
-            if let Some(found) = self.exact(start.clone(), 2 * self.faces.len(), work) {
-                return Some(found);
-            }
-        }
-        tracing::debug!("conic step kept at interior-point accuracy");
-        self.pulled_inside(interior)
+    /// A face that a point can lie on.
+    pub fn face(&self, index: usize) -> &Face {
+        self.faces[index]
+            .as_ref()
+            .expect("only finite faces become active")
     }
 
-    fn at_rest(&self, faces: &[usize]) -> Candidate {
-        Candidate {
-            z: vec![0.0; self.gradient.len()],
-            active: faces
-                .iter()
-                .map(|&face| Active {
-                    face,
-                    multiplier: 0.0,
-                })
-                .collect(),
+    /// P z + q.
+    pub fn slope(&self, z: &[f64]) -> Vec<f64> {
+        let mut slope = self.gradient.clone();
+        for (column, &value) in self.hessian.chunks_exact(z.len()).zip(z) {
+            add_scaled(&mut slope, value, column);
         }
-    }
-
-    /// Polishes the candidate and mends its active set, at most `repairs` times.
-    fn exact(&self, start: Candidate, repairs: usize, work: &mut Work) -> Option<Candidate> {
-        let mut guess = start;
-        for _ in 0..=repairs {
-            let mut candidate = guess.clone();
-            let Some(steps) = self.polish(&mut candidate) else {
-                let implied = self.implied(&guess)?;
-                guess.active.remove(implied);
-                continue;
-            };
-            work.polish_steps += steps;
-            match self.defect(&candidate) {
-                Defect::None => return self.is_stationary(&candidate).then_some(candidate),
-                Defect::Pulling(index) => {
-                    guess.active.remove(index);
-                }
-                Defect::Violated(face) if guess.active.iter().all(|entry| entry.face != face) => {
-                    let multiplier = 0.0;
-                    guess.active.push(Active { face, multiplier });
-                }
-                Defect::Violated(_) => return None,
-            }
-        }
-        None
-    }
-
-    /// Of dependent faces, the one to leave out: a cone, else the one that presses least.
-    fn implied(&self, guess: &Candidate) -> Option<usize> {
-        let is_cone = |entry: &Active| matches!(self.faces[entry.face], Some(Face::Cone(_)));
-        guess.active.iter().position(is_cone).or_else(|| {
-            let entries = guess.active.iter().enumerate();
-            let weakest = entries.min_by(|a, b| a.1.multiplier.total_cmp(&b.1.multiplier));
-            weakest.map(|(index, _)| index)
-        })
-    }
-
-    /// Clarabel on the faces that matter: those the free step violates, then any its solution violates.
-    fn interior_point(
-        &self,
-        free: &[f64],
-        expected: &[usize],
-        work: &mut Work,
-    ) -> Option<Candidate> {
-        let mut scratch = vec![0.0; free.len()];
-        let outside = |face: &Option<Face>, z: &[f64], allowed: f64, scratch: &mut [f64]| {
-            face.as_ref()
-                .is_some_and(|face| face.distance(z, scratch) > allowed)
-        };
-        let mut chosen: Vec<usize> = (0..self.faces.len())
-            .filter(|index| {
-                expected.contains(index) || outside(&self.faces[*index], free, 0.0, &mut scratch)
-            })
-            .collect();
-        loop {
-            let candidate = self.clarabel(&chosen, work)?;
-            let allowed = 1e-7 * (1.0 + norm(&candidate.z));
-            let before = chosen.len();
-            for (index, face) in self.faces.iter().enumerate() {
-                if !chosen.contains(&index) && outside(face, &candidate.z, allowed, &mut scratch) {
-                    chosen.push(index);
-                }
-            }
-            if chosen.len() == before {
-                return Some(candidate);
-            }
-        }
-    }
-
-    /// One conic program over the chosen faces, with the faces that press harder than they are away as active set.
-    fn clarabel(&self, chosen: &[usize], work: &mut Work) -> Option<Candidate> {
-        let n = self.gradient.len();
-        let (rows, limits, cones) = self.standard_form(chosen);
-        let hessian = upper_triangle(&self.hessian, n);
-        let matrix = columns(&rows, n);
-        for settings in [fast_settings(), careful_settings()] {
-            work.conic_solves += 1;
-            let program =
-                DefaultSolver::new(&hessian, &self.gradient, &matrix, &limits, &cones, settings);
-            let Ok(mut solver) = program else { continue };
-            solver.solve();
-            let solution = &solver.solution;
-            let usable = match solution.status {
-                SolverStatus::Solved => true,
-                SolverStatus::AlmostSolved => solution.x.iter().all(|x| x.is_finite()),
-                _ => false,
-            };
-            if usable {
-                return Some(self.with_active_set(chosen, solution.x.clone(), &solution.z));
-            }
-            tracing::debug!(status = ?solution.status, "conic program repeated with careful settings");
-        }
-        None
-    }
-
-    fn with_active_set(&self, chosen: &[usize], z: Vec<f64>, duals: &[f64]) -> Candidate {
-        let mut scratch = vec![0.0; z.len()];
-        let mut active = Vec::new();
-        let mut row = 0;
-        for &index in chosen {
-            let Some(face) = &self.faces[index] else {
-                continue;
-            };
-            // The first dual of a second-order cone is the multiplier of ‖x‖ − t ≤ 0.
-            let multiplier = duals[row];
-            row += face.row_count();
-            let away = -face.distance(&z, &mut scratch);
-            if multiplier * norm(&scratch) > away {
-                active.push(Active {
-                    face: index,
-                    multiplier,
-                });
-            }
-        }
-        Candidate { z, active }
-    }
-
-    /// b − A z in the cones: rows of A, b, and the cones in the order of `chosen`.
-    fn standard_form(
-        &self,
-        chosen: &[usize],
-    ) -> (Vec<Vec<f64>>, Vec<f64>, Vec<SupportedConeT<f64>>) {
-        let (mut rows, mut limits, mut cones) = (Vec::new(), Vec::new(), Vec::new());
-        for face in chosen
-            .iter()
-            .filter_map(|&index| self.faces[index].as_ref())
-        {
-            match face {
-                Face::Plane { normal, limit } => {
-                    rows.push(normal.clone());
-                    limits.push(*limit);
-                    cones.push(SupportedConeT::NonnegativeConeT(1));
-                }
-                Face::Cone(cone) => {
-                    for (constant, slope) in cone.constants.iter().zip(&cone.slopes) {
-                        rows.push(slope.iter().map(|value| -value).collect());
-                        limits.push(*constant);
-                    }
-                    cones.push(SupportedConeT::SecondOrderConeT(3));
-                }
-            }
-        }
-        (rows, limits, cones)
-    }
-
-    /// The last point on the way from z = 0 to the candidate that no face forbids. An interior point misses by little,
-    /// so the first cuts are small.
-    fn pulled_inside(&self, candidate: Candidate) -> Option<Candidate> {
-        let mut scratch = vec![0.0; candidate.z.len()];
-        let cuts = (0..15).map(|cut| 1e-8 * 4.0_f64.powi(cut));
-        for cut in cuts.chain([1.0]) {
-            let z: Vec<f64> = candidate
-                .z
-                .iter()
-                .map(|value| (1.0 - cut) * value)
-                .collect();
-            let allowed = 1e-12 * (1.0 + norm(&z));
-            if (self.faces.iter().flatten()).all(|face| face.distance(&z, &mut scratch) <= allowed)
-            {
-                let active = candidate.active;
-                return Some(Candidate { z, active });
-            }
-        }
-        None
+        slope
     }
 }
 
-impl Face {
-    fn row_count(&self) -> usize {
-        match self {
-            Face::Plane { .. } => 1,
-            Face::Cone(_) => 3,
-        }
-    }
+/// A face that holds with equality, and how hard it presses.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Active {
+    pub face: usize,
+    /// Lagrange multiplier of g ≤ 0.
+    pub multiplier: f64,
 }
 
-/// Relative accuracy 1e-10: tighter settings end in `AlmostSolved`; the polish does the rest.
-fn careful_settings() -> DefaultSettings<f64> {
-    DefaultSettingsBuilder::default()
-        .verbose(false)
-        .presolve_enable(false)
-        .tol_gap_abs(1e-10)
-        .tol_gap_rel(1e-10)
-        .tol_feas(1e-10)
-        .build()
-        .expect("these settings are valid")
+/// A point of the program with its active faces.
+#[derive(Debug, Clone)]
+pub(crate) struct Candidate {
+    pub z: Vec<f64>,
+    pub active: Vec<Active>,
 }
-
-/// The same without equilibration and refinement, which a balanced program of this size does not need.
-fn fast_settings() -> DefaultSettings<f64> {
-    let mut settings = careful_settings();
-    settings.equilibrate_enable = false;
-    settings.iterative_refinement_enable = false;
-    settings
-}
-
-fn upper_triangle(matrix: &[f64], n: usize) -> CscMatrix<f64> {
-    let starts = (0..=n).map(|column| column * (column + 1) / 2).collect();
-    let rows = (0..n).flat_map(|column| 0..=column).collect();
-    let values = (0..n)
-        .flat_map(|column| matrix[column * n..=column * n + column].iter().copied())
-        .collect();
-    CscMatrix::new(n, n, starts, rows, values)
-}
-
-fn columns(rows: &[Vec<f64>], n: usize) -> CscMatrix<f64> {
-    let m = rows.len();
-    let values = (0..n).flat_map(|column| rows.iter().map(move |row| row[column]));
-    CscMatrix::new(
-        m,
-        n,
-        (0..=n).map(|column| column * m).collect(),
-        (0..n).flat_map(|_| 0..m).collect(),
-        values.collect(),
-    )
-}
-
-#[cfg(test)]
-mod tests;

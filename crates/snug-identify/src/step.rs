@@ -1,7 +1,6 @@
 //! One Levenberg–Marquardt step: free, or from the conic program where the free one leaves the constraints.
 
-use crate::active_set::Active;
-use crate::conic_program::ConicProgram;
+use crate::conic_program::{Active, ConicProgram};
 use crate::dense::{
     add_scaled, dot, norm, solve_upper, solve_upper_transposed, triangularize, upper_times,
 };

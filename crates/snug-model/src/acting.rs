@@ -1,7 +1,8 @@
 //! Which effects act where, sorted once per simulation.
 
-use crate::assembly::{MAXIMUM_OWN_STATES, Part};
+use crate::assembly::Part;
 use crate::effect::{Deflection, Instant, Law};
+use crate::hooks::{HOOKS, Hook};
 use crate::real::Task;
 use crate::{Effect, Number, Real};
 use std::ops::Range;
@@ -12,64 +13,6 @@ pub struct Actor<'a, N> {
     law: Effect,
     p: &'a [N],
     states: Range<usize>,
-}
-
-/// The hooks of [`Law`] that are asked at every stage of every step.
-#[derive(Debug, Clone, Copy)]
-pub enum Hook {
-    Torque,
-    Support,
-    Deflection,
-    Stiffening,
-    Force,
-    Limit,
-    /// Rates, of effects with states.
-    Moving,
-}
-
-const HOOKS: [Hook; 7] = [
-    Hook::Torque,
-    Hook::Support,
-    Hook::Deflection,
-    Hook::Stiffening,
-    Hook::Force,
-    Hook::Limit,
-    Hook::Moving,
-];
-
-/// The hooks that one effect answers.
-#[derive(Debug, Clone, Copy)]
-pub struct Answers([bool; HOOKS.len()]);
-
-impl Answers {
-    /// Asks once at rest: whether a law answers a hook depends on the law alone.
-    pub fn of(law: Effect) -> Self {
-        let description = law.description();
-        let p: Vec<f64> = (description.parameters.iter())
-            .map(|spec| spec.starts[0])
-            .collect();
-        let own = &[0.0; MAXIMUM_OWN_STATES][..description.states.len()];
-        let at = Instant {
-            torque_nm: 0.0,
-            x_m: 0.0,
-            v_m_per_s: 0.0,
-            since_onset_s: 0.0,
-            lever_arm_m: 1.0,
-        };
-        let still = Deflection {
-            x_m: 0.0,
-            v_m_per_s: 0.0,
-        };
-        Self(HOOKS.map(|hook| match hook {
-            Hook::Torque => law.torque(&p, &at).is_some(),
-            Hook::Support => law.support(&p, own).is_some(),
-            Hook::Deflection => law.deflection(&p, still).is_some(),
-            Hook::Stiffening => law.stiffening(&p, &at).is_some(),
-            Hook::Force => law.force(&p, &at, own).is_some(),
-            Hook::Limit => law.limit(&p, 0.0).is_some(),
-            Hook::Moving => !own.is_empty(),
-        }))
-    }
 }
 
 /// The effects of one simulation, each hook with those that answer it.
@@ -83,7 +26,7 @@ impl<'a, N: Number> Acting<'a, N> {
         Self(HOOKS.map(|hook| {
             let answering = parts
                 .iter()
-                .filter(|part| part.answers.0[hook as usize])
+                .filter(|part| part.answers.to(hook))
                 .map(|part| Actor {
                     law: part.effect,
                     p: &p[part.parameters.clone()],

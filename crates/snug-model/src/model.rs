@@ -1,16 +1,10 @@
-use crate::acting::Answers;
-use crate::assembly::{Assembly, MAXIMUM_OWN_STATES, Part};
+use crate::assembly::{Assembly, BASE_PARAMETERS, MAXIMUM_FREE, MAXIMUM_OWN_STATES, Part};
 use crate::bench::Bench;
 use crate::effect::{Law, ParameterSpec};
+use crate::hooks::Answers;
 use crate::side_by_side::{Run, simulate_side_by_side};
 use crate::{Effect, Input, ModelError, PlausibleRange, Scale};
 use snug_campaign::{Motion, Parameter, ParameterSource, Quantity, Rig};
-
-/// Free parameters a simulation with sensitivities can carry.
-pub const MAXIMUM_FREE: usize = 16;
-
-/// Names of the base model's parameters, in the order every assembly begins with.
-pub const BASE_PARAMETERS: [&str; 3] = ["mass_kg", "damping_kg_per_s", "stiffness_n_per_m"];
 
 /// m, c, k as the thesis starts them \[kg, kg/s, N/m\].
 pub const THESIS_START: [f64; 3] = [1.76, 38.26, 1837.27];

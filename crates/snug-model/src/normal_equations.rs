@@ -6,7 +6,7 @@
 //! almost for nothing through the adders beside them and spare the covariance a sweep of its own.
 
 use crate::real::Task;
-use crate::sweep::BLOCK;
+use crate::sweep::{BLOCK, Lane};
 use crate::{Real, Sweep};
 use snug_campaign::Quantity;
 
@@ -23,15 +23,54 @@ pub struct NormalEquations {
     pub sums: [f64; 3],
 }
 
+impl<R: Real> Sweep<'_, R> {
+    /// The normal equations of every lane at its own m, c, k.
+    pub fn run(&mut self, values: &[[f64; 3]]) -> Vec<NormalEquations> {
+        let mut found = vec![NormalEquations::default(); R::LANES];
+        self.sum(values, 1, |lane, so_far| found[lane] = so_far);
+        found
+    }
+
+    /// The gradient Jᵀr of every lane, stretch by stretch: the samples in about `stretches` parts of equal length.
+    pub fn scores(&mut self, values: &[[f64; 3]], stretches: usize) -> Vec<Vec<[f64; 3]>> {
+        let mut before = vec![[0.0; 3]; R::LANES];
+        let mut scores = vec![Vec::new(); R::LANES];
+        self.sum(values, stretches, |lane, so_far| {
+            let (now, before) = (so_far.gradient, &mut before[lane]);
+            scores[lane].push(std::array::from_fn(|i| now[i] - before[i]));
+            *before = now;
+        });
+        scores
+    }
+
+    /// Hands what has been summed up to the end of each stretch of each lane to `read`.
+    fn sum(
+        &mut self,
+        values: &[[f64; 3]],
+        stretches: usize,
+        read: impl FnMut(usize, NormalEquations),
+    ) {
+        let stretch = |lane: &Lane| lane.samples.div_ceil(stretches).max(1);
+        let stretches = self.lanes.iter().map(stretch).collect();
+        self.zero.vectorize(Run {
+            sweep: self,
+            values,
+            stretches,
+            read,
+        });
+        self.all_have_arrived();
+    }
+}
+
 /// One run over the samples of all lanes.
-pub(crate) struct Run<'a, 'r, R, F> {
-    pub sweep: &'a mut Sweep<'r, R>,
+struct Run<'a, 'r, R, F> {
+    sweep: &'a mut Sweep<'r, R>,
     /// m, c, k, lane by lane.
-    pub values: &'a [[f64; 3]],
+    values: &'a [[f64; 3]],
     /// Samples of one stretch, lane by lane.
-    pub stretches: Vec<usize>,
+    stretches: Vec<usize>,
     /// Gets a lane's number and what has been summed up to the end of each of its stretches.
-    pub read: F,
+    read: F,
 }
 
 impl<R: Real, F: FnMut(usize, NormalEquations)> Task for Run<'_, '_, R, F> {

@@ -1,9 +1,10 @@
 use crate::Number;
-use crate::acting::{Acting, Hook};
+use crate::acting::Acting;
 use crate::assembly::{Assembly, Part};
 use crate::bench::Bench;
 use crate::effect::{Deflection, Delayed, Instant, Law};
 use crate::history::History;
+use crate::hooks::Hook;
 use crate::number::OfOne;
 
 /// Tool, hand and arm of one simulation: the equations of motion with everything that stays the same worked out once.

@@ -1,9 +1,8 @@
-use crate::assembly::Assembly;
+use crate::assembly::{Assembly, BASE_PARAMETERS, MAXIMUM_FREE};
 use crate::bench::Bench;
 use crate::dual::Dual;
 use crate::effect::Kinematics;
 use crate::lanes::{LaneTask, in_lanes};
-use crate::model::{BASE_PARAMETERS, MAXIMUM_FREE};
 use crate::real::Task;
 use crate::record::Record;
 use crate::{Input, Model, Number, Real, linear};

@@ -1,9 +1,8 @@
 //! The base model swept over the samples of tightenings that stand side by side in the lanes of the vector registers.
 
 use crate::linear::{Constants, Oscillator, Recursion};
-use crate::normal_equations::Run;
 use crate::real::Task;
-use crate::{Input, NormalEquations, Real};
+use crate::{Input, Real};
 use snug_campaign::{Quantity, Rig};
 use std::borrow::Cow;
 use std::ops::Range;
@@ -110,43 +109,6 @@ impl<'r, R: Real> Sweep<'r, R> {
         self.lanes[lane] = Lane::default();
     }
 
-    /// The normal equations of every lane at its own m, c, k.
-    pub fn run(&mut self, values: &[[f64; 3]]) -> Vec<NormalEquations> {
-        let mut found = vec![NormalEquations::default(); R::LANES];
-        self.sum(values, 1, |lane, so_far| found[lane] = so_far);
-        found
-    }
-
-    /// The gradient Jᵀr of every lane, stretch by stretch: the samples in about `stretches` parts of equal length.
-    pub fn scores(&mut self, values: &[[f64; 3]], stretches: usize) -> Vec<Vec<[f64; 3]>> {
-        let mut before = vec![[0.0; 3]; R::LANES];
-        let mut scores = vec![Vec::new(); R::LANES];
-        self.sum(values, stretches, |lane, so_far| {
-            let (now, before) = (so_far.gradient, &mut before[lane]);
-            scores[lane].push(std::array::from_fn(|i| now[i] - before[i]));
-            *before = now;
-        });
-        scores
-    }
-
-    /// Hands what has been summed up to the end of each stretch of each lane to `read`.
-    fn sum(
-        &mut self,
-        values: &[[f64; 3]],
-        stretches: usize,
-        read: impl FnMut(usize, NormalEquations),
-    ) {
-        let stretch = |lane: &Lane| lane.samples.div_ceil(stretches).max(1);
-        let stretches = self.lanes.iter().map(stretch).collect();
-        self.zero.vectorize(Run {
-            sweep: self,
-            values,
-            stretches,
-            read,
-        });
-        self.arriving.clear();
-    }
-
     /// Sample by sample of every lane at its own m, c, k: into `residual` what its record says was measured minus the
     /// simulated acceleration, into `rows` J; zero behind a lane's last sample.
     ///
@@ -161,12 +123,17 @@ impl<'r, R: Real> Sweep<'r, R> {
             residual,
             rows,
         });
-        self.arriving.clear();
+        self.all_have_arrived();
         for (number, lane) in self.lanes.iter().enumerate() {
             let behind = residual[lane.samples..].iter_mut();
             let entries = behind.chain(rows[lane.samples..].as_flattened_mut());
             entries.for_each(|entry| entry.lanes_mut()[number] = 0.0);
         }
+    }
+
+    /// After a run over all samples every signal stands in its lane.
+    pub(crate) fn all_have_arrived(&mut self) {
+        self.arriving.clear();
     }
 
     /// The constants, the recursion and the filtered states at the first scored sample.

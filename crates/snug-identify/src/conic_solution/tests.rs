@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-use super::ConicProgram;
+use crate::conic_program::ConicProgram;
 use crate::dense::dot;
 use crate::faces::faces;
 use crate::fit::Work;

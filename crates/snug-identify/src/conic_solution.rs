@@ -1,0 +1,106 @@
+//! A conic program's solution, exactly: an interior point made exact on its active set.
+
+use crate::active_set::Defect;
+use crate::conic_program::{Active, Candidate, ConicProgram};
+use crate::dense::norm;
+use crate::faces::Face;
+use crate::fit::Work;
+
+impl ConicProgram {
+    /// The program's solution. `free` is the minimiser without constraints, `expected` the faces active last time.
+    ///
+    /// A point that satisfies the optimality conditions on the expected faces is the solution of a convex program, so
+    /// Clarabel is asked only when it does not. `None` when no point better than z = 0 was found.
+    pub fn solve(&self, free: &[f64], expected: &[usize], work: &mut Work) -> Option<Candidate> {
+        if !expected.is_empty() {
+            let start = self.at_rest(expected);
+            if let Some(found) = self.exact(start, 0, work) {
+                return Some(found);
+            }
+        }
+        let interior = self.interior_point(free, expected, work)?;
+        // A cone touched along an edge of bounds depends on them: without it the same point is found.
+        let mut edges = interior.clone();
+        (edges.active).retain(|entry| matches!(self.faces[entry.face], Some(Face::Plane { .. })));
+        for start in [&interior, &edges] {
+            if let Some(found) = self.exact(start.clone(), 2 * self.faces.len(), work) {
+                return Some(found);
+            }
+        }
+        tracing::debug!("conic step kept at interior-point accuracy");
+        self.pulled_inside(interior)
+    }
+
+    fn at_rest(&self, faces: &[usize]) -> Candidate {
+        Candidate {
+            z: vec![0.0; self.gradient.len()],
+            active: faces
+                .iter()
+                .map(|&face| Active {
+                    face,
+                    multiplier: 0.0,
+                })
+                .collect(),
+        }
+    }
+
+    /// Polishes the candidate and mends its active set, at most `repairs` times.
+    fn exact(&self, start: Candidate, repairs: usize, work: &mut Work) -> Option<Candidate> {
+        let mut guess = start;
+        for _ in 0..=repairs {
+            let mut candidate = guess.clone();
+            let Some(steps) = self.polish(&mut candidate) else {
+                let implied = self.implied(&guess)?;
+                guess.active.remove(implied);
+                continue;
+            };
+            work.polish_steps += steps;
+            match self.defect(&candidate) {
+                Defect::None => return self.is_stationary(&candidate).then_some(candidate),
+                Defect::Pulling(index) => {
+                    guess.active.remove(index);
+                }
+                Defect::Violated(face) if guess.active.iter().all(|entry| entry.face != face) => {
+                    let multiplier = 0.0;
+                    guess.active.push(Active { face, multiplier });
+                }
+                Defect::Violated(_) => return None,
+            }
+        }
+        None
+    }
+
+    /// Of dependent faces, the one to leave out: a cone, else the one that presses least.
+    fn implied(&self, guess: &Candidate) -> Option<usize> {
+        let is_cone = |entry: &Active| matches!(self.faces[entry.face], Some(Face::Cone(_)));
+        guess.active.iter().position(is_cone).or_else(|| {
+            let entries = guess.active.iter().enumerate();
+            let weakest = entries.min_by(|a, b| a.1.multiplier.total_cmp(&b.1.multiplier));
+            weakest.map(|(index, _)| index)
+        })
+    }
+
+    /// The last point on the way from z = 0 to the candidate that no face forbids. An interior point misses by little,
+    /// so the first cuts are small.
+    fn pulled_inside(&self, candidate: Candidate) -> Option<Candidate> {
+        let mut scratch = vec![0.0; candidate.z.len()];
+        let cuts = (0..15).map(|cut| 1e-8 * 4.0_f64.powi(cut));
+        for cut in cuts.chain([1.0]) {
+            let z: Vec<f64> = candidate
+                .z
+                .iter()
+                .map(|value| (1.0 - cut) * value)
+                .collect();
+            let allowed = 1e-12 * (1.0 + norm(&z));
+            if (self.faces.iter().flatten()).all(|face| face.distance(&z, &mut scratch) <= allowed)
+            {
+                let active = candidate.active;
+                return Some(Candidate { z, active });
+            }
+        }
+        None
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,133 @@
+//! An assembly's answer to the torque: exact where the motion is the base model's, by Runge–Kutta where it is not, as its
+//! sensors show it.
+
+use crate::acting_torque::ActingTorque;
+use crate::assembly::{Assembly, MAXIMUM_OWN_STATES};
+use crate::bench::Bench;
+use crate::effect::Kinematics;
+use crate::linear::{self, Oscillator, Response};
+use crate::real::Task;
+use crate::sensors::Sensors;
+use crate::zeroed::Zeroed;
+use crate::{Number, Real, runge_kutta};
+
+impl Assembly {
+    /// The base model's constants of motion, for parameters that begin with m, c, k.
+    #[inline(always)]
+    pub(crate) fn oscillator<R: Real>(values: &[R], bench: &Bench<'_, R>) -> Oscillator<R> {
+        let square = bench.lever_arm_m * bench.lever_arm_m;
+        Oscillator {
+            inertia_kg_m2: values[0] * square + bench.known_inertia_kg_m2,
+            damping_nm_s_per_rad: values[1] * square,
+            stiffness_nm_per_rad: values[2] * square,
+        }
+    }
+
+    /// Simulates and hands every sample's measured motion to `sample`.
+    pub(crate) fn respond<N: Number>(
+        &self,
+        p: &[N],
+        bench: &Bench<'_, N::Real>,
+        sample: impl FnMut(usize, &Kinematics<N>),
+    ) {
+        debug_assert_eq!(p.len(), self.parameter_count);
+        let acting_torque = &ActingTorque::new(&self.parts, p, bench);
+        let on_bench = OnBench {
+            assembly: self,
+            p,
+            bench,
+            acting_torque,
+            sample,
+        };
+        let zero = bench.zero;
+        if self.moves_as_base() && !bench.is_restarted() {
+            return zero.vectorize(Exact(on_bench));
+        }
+        match self.own_state_count {
+            0 => zero.vectorize(Stepped::<N, _, 0>(on_bench)),
+            1 => zero.vectorize(Stepped::<N, _, 1>(on_bench)),
+            2 => zero.vectorize(Stepped::<N, _, 2>(on_bench)),
+            _ => zero.vectorize(Stepped::<N, _, MAXIMUM_OWN_STATES>(on_bench)),
+        }
+    }
+}
+
+/// One simulation, ready to run.
+struct OnBench<'a, N: Number, F> {
+    assembly: &'a Assembly,
+    p: &'a [N],
+    bench: &'a Bench<'a, N::Real>,
+    acting_torque: &'a ActingTorque<'a, N>,
+    sample: F,
+}
+
+impl<'a, N: Number, F: FnMut(usize, &Kinematics<N>)> OnBench<'a, N, F> {
+    /// What is done with the true motion of every sample: the sensors see it, and `sample` gets what they show.
+    #[inline(always)]
+    fn seen(self) -> impl FnMut(usize, Kinematics<N>) + use<'a, N, F> {
+        let Self {
+            assembly,
+            p,
+            bench,
+            acting_torque,
+            mut sample,
+        } = self;
+        let mut sensors = Sensors::new(assembly, p, bench, acting_torque);
+        let mut zeroed = sensors.are_heard().then(|| Zeroed::new(bench)).flatten();
+        #[inline(always)]
+        move |index, motion| {
+            let seen = sensors.sample(index, motion);
+            match &mut zeroed {
+                Some(zeroed) => zeroed.sample(index, seen, &mut sample),
+                None => sample(index, &seen),
+            }
+        }
+    }
+}
+
+/// The true motion by the exact recursion: it is the base model's.
+struct Exact<'a, N: Number, F>(OnBench<'a, N, F>);
+
+impl<N: Number, F: FnMut(usize, &Kinematics<N>)> Task for Exact<'_, N, F> {
+    type Output = ();
+    #[inline(always)]
+    fn run(self) {
+        let (p, bench) = (self.0.p, self.0.bench);
+        let values = [p[0].value(), p[1].value(), p[2].value()];
+        let square = bench.lever_arm_m * bench.lever_arm_m;
+        // m, c, k enter through I, C, K, each times l².
+        let base = [p[0].times(square), p[1].times(square), p[2].times(square)];
+        let mut seen = self.0.seen();
+        linear::respond(
+            &Assembly::oscillator(&values, bench),
+            bench,
+            #[inline(always)]
+            |index, response| seen(index, with_slopes(response, &base)),
+        );
+    }
+}
+
+/// The true motion by Runge–Kutta.
+struct Stepped<'a, N: Number, F, const X: usize>(OnBench<'a, N, F>);
+
+impl<N: Number, F: FnMut(usize, &Kinematics<N>), const X: usize> Task for Stepped<'_, N, F, X> {
+    type Output = ();
+    #[inline(always)]
+    fn run(self) {
+        let (assembly, p) = (self.0.assembly, self.0.p);
+        let (bench, acting_torque) = (self.0.bench, self.0.acting_torque);
+        let seen = self.0.seen();
+        runge_kutta::respond::<N, X>(assembly, p, bench, acting_torque, seen);
+    }
+}
+
+/// The exact recursion's response, which depends on I, C, K.
+#[inline(always)]
+fn with_slopes<N: Number>(response: &Response<N::Real>, base: &[N; 3]) -> Kinematics<N> {
+    let (motion, slopes) = (&response.motion, &response.sensitivity);
+    Kinematics {
+        displacement_rad: N::chain_of(base, motion[0], &slopes[0]),
+        velocity_rad_per_s: N::chain_of(base, motion[1], &slopes[1]),
+        acceleration_rad_per_s2: N::chain_of(base, motion[2], &slopes[2]),
+    }
+}
