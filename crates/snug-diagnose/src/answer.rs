@@ -143,16 +143,18 @@ impl Examination<'_> {
         corrected: &'s [CorrectedEffect],
     ) -> Situation<'s> {
         let climb = &self.climb;
+        let units = Units::of(self.question.cases);
         Situation {
             verb: self.question.goal.verb(),
             verdict,
             tightenings: self.question.cases.len(),
-            units: Units::of(self.question.cases),
+            units,
             before: &climb.rungs[0],
             after: climb.last(),
             additions: &climb.additions,
             chosen: climb.chosen.map(|index| &climb.ranking.candidates[index]),
-            twins: (climb.chosen).map_or_else(Vec::new, |index| twins(&climb.ranking, index)),
+            twins: (climb.chosen)
+                .map_or_else(Vec::new, |index| twins(&climb.ranking, index, &units)),
             ranking,
             stopped: climb.stopped,
             impossible: &climb.ranking.impossible,
@@ -242,7 +244,7 @@ impl Examination<'_> {
         let sizes = parameters(self.question.cases, &candidate.fitted, candidate.effect);
         let supported = candidate.is_supported(self.settings);
         let twins = match supported {
-            true => twins(ranking, index),
+            true => twins(ranking, index, &Units::of(self.question.cases)),
             false => Vec::new(),
         };
         RankedEffect {

@@ -3,6 +3,7 @@
 use crate::DiagnoseSettings;
 use crate::fitted::{AT_FLOOR, Fitted};
 use crate::ranking::{Candidate, Ranking};
+use crate::units::Units;
 use crate::unlisted::is_unlisted;
 use snug_model::Effect;
 
@@ -176,9 +177,17 @@ pub(crate) const EQUAL: f64 = 2.0;
 /// Share of what a candidate explains that another must explain, too, to be its twin.
 const AS_MUCH: f64 = 0.5;
 
+/// Growth of the squared residual of a long record that is no matter of chance.
+const PLAINLY_MORE: f64 = 1.3;
+
+/// Whether `one` plainly leaves more than `other` of a long record, whose few stretches hardly make that a statistic.
+pub(crate) fn leaves_more(one: &Fitted, other: &Fitted, units: &Units) -> bool {
+    !units.are_whole() && one.squares() > PLAINLY_MORE * other.squares()
+}
+
 /// Candidates that these data cannot tell from the one at `index`. A term in no catalogue is no twin of an effect: of
 /// equals the effect that is known is named.
-pub(crate) fn twins(ranking: &Ranking, index: usize) -> Vec<Effect> {
+pub(crate) fn twins(ranking: &Ranking, index: usize, units: &Units) -> Vec<Effect> {
     let chosen = &ranking.candidates[index];
     ranking
         .candidates
@@ -189,6 +198,7 @@ pub(crate) fn twins(ranking: &Ranking, index: usize) -> Vec<Effect> {
                 && other.gains_clearly()
                 && other.gain() > AS_MUCH * chosen.gain()
                 && chosen.ahead_of(other).abs() < EQUAL
+                && !leaves_more(&other.fitted, &chosen.fitted, units)
         })
         .map(|other| other.effect)
         .collect()

@@ -2,7 +2,7 @@
 
 use crate::applicability::candidates;
 use crate::cases::Cases;
-use crate::climb::{Addition, Climb, EQUAL, justified, misfit, twins};
+use crate::climb::{Addition, Climb, EQUAL, justified, leaves_more, misfit, twins};
 use crate::fitted::Fitted;
 use crate::ranking::{Candidate, Ranking, gains, rank};
 use crate::refit::fit_effects;
@@ -58,7 +58,7 @@ impl Search<'_> {
             let ranking = self.rank_these(climb.last(), effect)?;
             let index = ranking.candidates.iter().position(|c| c.effect == effect);
             let Some(index) = index else { continue };
-            let (addition, fitted) = step(&ranking, index, climb.last());
+            let (addition, fitted) = self.step(&ranking, index, climb.last());
             climb.add(addition, self.settled(&fitted)?);
         }
         climb.ranking = self.rank(climb.last(), self.settings.control_campaigns)?;
@@ -118,7 +118,8 @@ impl Search<'_> {
     fn single(&self, ranking: &Ranking, best: usize) -> usize {
         let all = &ranking.candidates;
         let is_equal = |other: usize| {
-            all[best].ahead_of(&all[other]) < EQUAL && !self.leaves_more(&all[other], &all[best])
+            all[best].ahead_of(&all[other]) < EQUAL
+                && !leaves_more(&all[other].fitted, &all[best].fitted, &self.units)
         };
         if let Some(listed) = self.listed(ranking).filter(|&listed| is_equal(listed)) {
             return listed;
@@ -133,11 +134,6 @@ impl Search<'_> {
             .rev()
             .max_by_key(|&one| all[one].fitted.makes_superfluous(&fits));
         likeliest.unwrap_or(best)
-    }
-
-    /// Whether `one` plainly leaves more than `other` of a long record, whose few stretches hardly make that a statistic.
-    fn leaves_more(&self, one: &Candidate, other: &Candidate) -> bool {
-        !self.units.are_whole() && one.fitted.squares() > PLAINLY_MORE * other.fitted.squares()
     }
 
     /// The first supported effect of the catalogue.
@@ -163,7 +159,7 @@ impl Search<'_> {
             && (!left.is_weighted || left.scale() > 1.0 + 2.0 * self.settings.smallest_gain);
         let half = |listed: usize| ranking.candidates[listed].gain() > 0.5 * winner.gain();
         let challenged = is_unlisted(winner.effect) && self.listed(ranking).is_some_and(half);
-        let alone = vec![step(ranking, single, current)];
+        let alone = vec![self.step(ranking, single, current)];
         // In stretches of one long record the next rung shows as much, for a third of the work.
         let pays = room > 1 && self.units.are_whole();
         if !pays || !(challenged || leaves_much) {
@@ -194,10 +190,10 @@ impl Search<'_> {
         let all = ranking.candidates.iter();
         match all.take(seed).position(|c| c.effect == addition.effect) {
             Some(larger) => {
-                let (smaller, _) = step(ranking, seed, current);
-                vec![step(ranking, larger, current), (smaller, both)]
+                let (smaller, _) = self.step(ranking, seed, current);
+                vec![self.step(ranking, larger, current), (smaller, both)]
             }
-            None => vec![step(ranking, seed, current), (addition, both)],
+            None => vec![self.step(ranking, seed, current), (addition, both)],
         }
     }
 
@@ -234,28 +230,26 @@ impl Search<'_> {
             let mut together = next.candidates[second].clone();
             together.gains = gains(&heldout, &together.fitted);
             if (pair.as_ref()).is_none_or(|(_, known, _)| together.gain() > known.gain()) {
-                pair = Some((seed, together, step(&next, second, first)));
+                pair = Some((seed, together, self.step(&next, second, first)));
             }
         }
         Ok(pair)
+    }
+
+    fn step(&self, ranking: &Ranking, index: usize, current: &Fitted) -> Step {
+        let candidate = &ranking.candidates[index];
+        let addition = Addition {
+            effect: candidate.effect,
+            p_family: candidate.p_family,
+            heldout_gain: candidate.gain() / misfit(current),
+            twins: twins(ranking, index, &self.units),
+        };
+        (addition, candidate.fitted.clone())
     }
 }
 
 type Step = (Addition, Fitted);
 
-fn step(ranking: &Ranking, index: usize, current: &Fitted) -> Step {
-    let candidate = &ranking.candidates[index];
-    let addition = Addition {
-        effect: candidate.effect,
-        p_family: candidate.p_family,
-        heldout_gain: candidate.gain() / misfit(current),
-        twins: twins(ranking, index),
-    };
-    (addition, candidate.fitted.clone())
-}
-
-/// Growth of the squared residual of a long record that is no matter of chance.
-const PLAINLY_MORE: f64 = 1.3;
 /// Share of the misfit left by one effect beyond which two are tried together.
 const MUCH_LEFT: f64 = 0.1;
 /// Effects from which a second is looked for.

@@ -1,7 +1,7 @@
 //! After the climb: whether each added term is still needed, and what would do in its place.
 
 use crate::DiagnoseError;
-use crate::climb::{Attempt, Climb, EQUAL};
+use crate::climb::{Attempt, Climb, EQUAL, leaves_more};
 use crate::evidence::clearness;
 use crate::fitted::Fitted;
 use crate::ranking::gains;
@@ -91,5 +91,5 @@ fn does_as_well(
         return Ok(false);
     };
     let lost: Vec<f64> = gains(heldout, &swapped).iter().map(|gain| -gain).collect();
-    Ok(clearness(&lost, full.scale()) < EQUAL)
+    Ok(clearness(&lost, full.scale()) < EQUAL && !leaves_more(&swapped, full, &search.units))
 }
