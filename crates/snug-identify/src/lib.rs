@@ -16,6 +16,7 @@ mod error;
 mod faces;
 mod fit;
 mod fixed_uncertainty;
+mod guided_starts;
 mod identifiability;
 mod integral_start;
 mod integrated_noise;

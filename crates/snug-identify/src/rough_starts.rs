@@ -3,11 +3,11 @@
 //! Which valley a start leads to shows on a record of a few hundred samples as well as on the whole one, for a fraction of
 //! the work. Only the ends of the best rough fits are worth a fit of every sample.
 
-use crate::fit::Work;
+use crate::fit::{Fit, Work};
 use crate::race::{Rules, race};
 use crate::{Constraints, IdentifyError, IdentifySettings, Settings, Subject, TighteningResidual};
 use snug_campaign::{Intersample, Quantity};
-use snug_model::Input;
+use snug_model::{Input, Model};
 
 /// Samples that a rough record should have: its noise is then still small beside a whole tightening's motion.
 const ENOUGH_SAMPLES: usize = 375;
@@ -18,7 +18,7 @@ const ROUGH_TOLERANCE: f64 = 1e-3;
 /// Most steps of a rough fit: what takes longer crawls.
 const MOST_STEPS: usize = 150;
 /// Ends are worth a fit of every sample up to this multiple of the lowest rough cost, and at most so many.
-const WORTH: f64 = 1.2;
+pub(crate) const WORTH: f64 = 1.2;
 const MOST_ENDS: usize = 2;
 /// Of the race between rough fits.
 const RULES: Rules = Rules {
@@ -44,44 +44,24 @@ pub(crate) fn try_roughly(
     set: &Constraints,
     settings: &IdentifySettings,
 ) -> Result<Option<Tried>, IdentifyError> {
-    let quantity = settings.fitted_output;
-    let Some(rough) = RoughRecord::of(subject, quantity) else {
-        return Ok(None);
-    };
-    let solver = Settings {
-        gradient_tolerance: ROUGH_TOLERANCE.max(settings.solver.gradient_tolerance),
-        max_iterations: MOST_STEPS.min(settings.solver.max_iterations),
-        ..settings.solver.clone()
-    };
-    let residual = TighteningResidual::new(
-        subject.model,
-        &rough.input,
-        &rough.measured,
-        quantity,
-        None,
-        settings.unscored_samples.div_ceil(rough.factor),
-    );
-    let (mut ends, work) = race(&residual, starts, set, &solver, RULES)?;
-    ends.retain(|end| end.cost.is_finite());
-    ends.dedup_by(|next, kept| (next.cost / kept.cost - 1.0).abs() < SAME_VALLEY);
-    let Some(lowest) = ends.first().map(|end| end.cost) else {
-        return Ok(None);
-    };
-    let worthy = ends.into_iter().filter(|end| end.cost <= WORTH * lowest);
-    let starts = worthy.map(|end| end.values).take(MOST_ENDS).collect();
-    Ok(Some(Tried { starts, work }))
+    match RoughRecord::of(subject, settings.fitted_output) {
+        Some(rough) => rough.try_from(starts, subject, set, settings),
+        None => Ok(None),
+    }
 }
 
 /// A tightening with every few samples replaced by their mean.
-struct RoughRecord {
+pub(crate) struct RoughRecord {
     /// Samples that became one.
     factor: usize,
-    input: Input,
+    /// The torque.
+    pub input: Input,
     measured: Vec<f64>,
 }
 
 impl RoughRecord {
-    fn of(subject: &Subject<'_>, quantity: Quantity) -> Option<Self> {
+    /// Of the tightening's torque and `quantity`.
+    pub fn of(subject: &Subject<'_>, quantity: Quantity) -> Option<Self> {
         let (input, measured) = (subject.input, subject.tightening.motion.get(quantity)?);
         let interval_s = input.grid_interval_s() * input.substeps() as f64;
         let shortest = (LONGEST_INTERVAL_S / interval_s) as usize;
@@ -107,6 +87,60 @@ impl RoughRecord {
             measured: means(measured, factor),
         })
     }
+
+    /// Another signal of the same tightening.
+    pub fn means_of(&self, signal: &[f64]) -> Vec<f64> {
+        means(signal, self.factor)
+    }
+
+    /// Measured minus simulated under `input`, which is this record's own or one with restarts.
+    pub fn residual<'r>(
+        &'r self,
+        model: &'r Model,
+        input: &'r Input,
+        settings: &IdentifySettings,
+    ) -> TighteningResidual<'r> {
+        let unscored = settings.unscored_samples.div_ceil(self.factor);
+        let quantity = settings.fitted_output;
+        TighteningResidual::new(model, input, &self.measured, quantity, None, unscored)
+    }
+
+    /// The ends of rough fits from `starts` that are worth a fit of every sample; `None` where no fit has one.
+    pub fn try_from(
+        &self,
+        starts: &[Vec<f64>],
+        subject: &Subject<'_>,
+        set: &Constraints,
+        settings: &IdentifySettings,
+    ) -> Result<Option<Tried>, IdentifyError> {
+        let residual = self.residual(subject.model, &self.input, settings);
+        let solver = rough_solver(settings, ROUGH_TOLERANCE, MOST_STEPS);
+        let (ends, work) = race(&residual, starts, set, &solver, RULES)?;
+        let starts = apart(ends, MOST_ENDS);
+        Ok((!starts.is_empty()).then_some(Tried { starts, work }))
+    }
+}
+
+/// Settings of a fit that need not go far.
+pub(crate) fn rough_solver(
+    settings: &IdentifySettings,
+    tolerance: f64,
+    most_steps: usize,
+) -> Settings {
+    Settings {
+        gradient_tolerance: tolerance.max(settings.solver.gradient_tolerance),
+        max_iterations: most_steps.min(settings.solver.max_iterations),
+        ..settings.solver.clone()
+    }
+}
+
+/// Of `ends`, lowest first, one of every valley whose cost is worth it, at most so many.
+pub(crate) fn apart(mut ends: Vec<Fit>, most: usize) -> Vec<Vec<f64>> {
+    ends.retain(|end| end.cost.is_finite());
+    ends.dedup_by(|next, kept| (next.cost / kept.cost - 1.0).abs() < SAME_VALLEY);
+    let lowest = ends.first().map_or(f64::NAN, |end| end.cost);
+    let worthy = ends.into_iter().filter(|end| end.cost <= WORTH * lowest);
+    worthy.map(|end| end.values).take(most).collect()
 }
 
 /// Of every `factor` samples; what is left over at the end is left out.

@@ -2,21 +2,23 @@
 
 use crate::base_fits::{self, BaseFit};
 use crate::base_noise::{self, Settled};
+use crate::fit::Work;
+use crate::guided_starts::try_guided;
 use crate::integral_start::integral_start;
 use crate::race::{Rules, race};
 use crate::residual_noise::{OwnedNoise, noise_of};
 use crate::rough_starts::{Tried, try_roughly};
 use crate::starts::best;
 use crate::{
-    ConstraintKind, Constraints, Covariance, Fit, IdentifyError, Settings, Simulation, Status,
-    TighteningResidual, Whitening, convex_set,
+    ConstraintKind, Constraints, Covariance, Fit, IdentifyError, ResidualNoise, Settings,
+    Simulation, Status, TighteningResidual, Whitening, convex_set,
 };
 use serde::{Deserialize, Serialize};
 use snug_campaign::{
     Estimate, FitStatus, Identifiability, Interval, Parameter, ParameterEstimate, Quantity,
     Tightening,
 };
-use snug_model::{Input, Model, NormalEquations};
+use snug_model::{BASE_PARAMETERS, Input, Model, NormalEquations};
 
 /// How tightenings are identified.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -121,6 +123,10 @@ const RULES: Rules = Rules {
 
 /// Mean square of a whitened residual beyond which a fit may have ended in the wrong valley.
 const FAR_OFF: f64 = 2.0;
+/// Mean square of a whitened residual up to which it is hardly more than noise.
+const CLOSE: f64 = 1.1;
+/// Standard errors that an effect's parameter is away from zero when the effect is surely there.
+const SURE: f64 = 8.0;
 
 /// A tightening on its way to an estimate.
 struct Attempt<'a> {
@@ -128,6 +134,8 @@ struct Attempt<'a> {
     set: Constraints,
     /// In the order of preference.
     starts: Vec<Vec<f64>>,
+    /// The first so many differ in the effects' parameters; what follows are the same again with other m, c, k.
+    distinct_starts: usize,
     usual_start: Vec<f64>,
     outcome: Option<Result<Fit, IdentifyError>>,
     latest: Option<([f64; 3], NormalEquations)>,
@@ -160,6 +168,7 @@ impl<'a> Attempt<'a> {
             residual,
             set: convex_set(subject.model, &settings.constraints),
             starts: near.map_or_else(|| usual.clone(), |near| nearer(&usual, &near)),
+            distinct_starts: usual.len(),
             usual_start: usual.into_iter().next().unwrap_or_default(),
             outcome: None,
             latest: None,
@@ -198,36 +207,69 @@ impl<'a> Attempt<'a> {
         })
     }
 
-    /// A fit by itself. Of several starts those that lead on in a rough fit are followed to the end; all of them where
-    /// that comes to nothing, or leaves so much that a lower valley may have been missed.
+    /// A fit by itself. Of several starts, what they lead to along the measured motion is tried first; that is the answer
+    /// where it leaves no doubt. Otherwise those that lead on in a rough fit are followed to the end as well; all of them
+    /// where that comes to nothing, or leaves so much that a lower valley may have been missed.
     fn fit(
         &self,
         subject: &Subject<'_>,
         settings: &IdentifySettings,
     ) -> Result<Fit, IdentifyError> {
-        let tried = match self.starts.len() {
-            0 | 1 => None,
-            _ => try_roughly(subject, &self.starts, &self.set, settings)?,
+        let (mut ends, mut work): (Vec<Fit>, Work) = Default::default();
+        let mut follow = |starts: &[Vec<f64>], before: &Work| {
+            let (more, on_all) = race(&self.residual, starts, &self.set, &settings.solver, RULES)?;
+            ends.extend(more);
+            work.add(before);
+            work.add(&on_all);
+            best(ends.clone(), work)
         };
-        let is_whitened = self.residual.is_whitened();
-        let race_from =
-            |starts: &[Vec<f64>]| race(&self.residual, starts, &self.set, &settings.solver, RULES);
-        let Some(Tried { starts, mut work }) = tried else {
-            let (ends, work) = race_from(&self.starts)?;
-            return best(ends, work);
-        };
-        let (mut ends, on_all) = race_from(&starts)?;
-        work.add(&on_all);
-        let fit = best(ends.clone(), work)?;
-        let noise = fit.residual_count as f64;
-        let is_far_off = is_whitened && fit.sum_of_squares() > FAR_OFF * noise;
-        if fit.status.is_converged() && !is_far_off {
-            return Ok(fit);
+        if self.starts.len() > 1 {
+            if let Some(guided) = self.guided(subject, settings)? {
+                let fit = follow(&guided.starts, &guided.work)?;
+                if self.is_beyond_doubt(&fit) {
+                    return Ok(fit);
+                }
+            }
+            if let Some(tried) = try_roughly(subject, &self.starts, &self.set, settings)? {
+                let fit = follow(&tried.starts, &tried.work)?;
+                if fit.status.is_converged() && !self.is_far_off(&fit) {
+                    return Ok(fit);
+                }
+            }
         }
-        let (more_ends, once_more) = race_from(&self.starts)?;
-        work.add(&once_more);
-        ends.extend(more_ends);
-        best(ends, work)
+        follow(&self.starts, &Work::default())
+    }
+
+    /// What the starts lead to along the measured motion, which needs no m, c, k from elsewhere; only where the noise is
+    /// known, since nothing else says when a fit is good enough.
+    fn guided(
+        &self,
+        subject: &Subject<'_>,
+        settings: &IdentifySettings,
+    ) -> Result<Option<Tried>, IdentifyError> {
+        if !self.residual.is_whitened() {
+            return Ok(None);
+        }
+        let distinct = &self.starts[..self.distinct_starts];
+        try_guided(subject, distinct, &self.set, settings)
+    }
+
+    /// Whether a fit leaves hardly more than noise, inside the constraints, and the effects are surely there: another
+    /// valley may then be as low by chance, but not lower by much.
+    fn is_beyond_doubt(&self, fit: &Fit) -> bool {
+        let is_close = fit.sum_of_squares() < CLOSE * fit.residual_count as f64;
+        let errors = fit.covariance(ResidualNoise::Unit).standard_errors;
+        let of_effects = (self.residual.free().iter().zip(&fit.values).zip(&errors))
+            .filter(|((index, _), _)| **index >= BASE_PARAMETERS.len());
+        let mut of_effects =
+            of_effects.map(|((_, value), error)| error.is_some_and(|e| value.abs() > SURE * e));
+        fit.status == Status::Converged && is_close && of_effects.all(|is_sure| is_sure)
+    }
+
+    /// Whether a fit whose noise is known leaves far more than that.
+    fn is_far_off(&self, fit: &Fit) -> bool {
+        let noise = fit.residual_count as f64;
+        self.residual.is_whitened() && fit.sum_of_squares() > FAR_OFF * noise
     }
 
     /// The estimate with its covariance, after a fit if that is still to be made.

@@ -332,6 +332,63 @@ fn rough_starts_lead_to_the_best_optimum_of_all() {
     }
 }
 
+/// A tightening during which the operator pushes with `force_n` from 0.12 s to 0.18 s, fitted with that effect.
+fn pushed(number: u32, force_n: f64) -> Simulated {
+    let mut one = simulated(number, &plan());
+    one.model = Model::new(RIG, &[Effect::VoluntaryPush]).unwrap();
+    let [m, c, k] = USUAL;
+    let motion = (one.model).simulate(&[m, c, k, force_n, 0.12, 0.06], &one.input);
+    let noise = coloured(number, &plan(), &[-0.6, 0.2]);
+    let exact = motion.acceleration_rad_per_s2.unwrap();
+    let acceleration: Vec<f64> = exact.iter().zip(noise).map(|(a, n)| a + n).collect();
+    let velocity = integrated(&acceleration);
+    one.tightening.motion = Motion {
+        displacement_rad: Some(integrated(&velocity)),
+        velocity_rad_per_s: Some(velocity),
+        acceleration_rad_per_s2: Some(acceleration),
+    };
+    one
+}
+
+/// Along the measured motion the truth is found from starts far away, and the fit from there is taken for the answer; an
+/// effect that is not there never is.
+#[test]
+fn starts_led_along_the_motion_end_at_an_effect_that_is_there() {
+    let [m, c, k] = USUAL;
+    let settings = IdentifySettings::default();
+    for (number, force_n) in [(1, 20.0), (2, -35.0), (3, 0.0)] {
+        let one = pushed(number, force_n);
+        let subject = one.subject();
+        let whitening = Whitening::of(subject.tightening, settings.fitted_output);
+        let attempt = Attempt::new(&subject, whitening.as_ref(), &settings).unwrap();
+        let guided = attempt.guided(&subject, &settings).unwrap().unwrap();
+        let ends = race(
+            &attempt.residual,
+            &guided.starts,
+            &attempt.set,
+            &settings.solver,
+            RULES,
+        );
+        let fit = best(ends.unwrap().0, guided.work).unwrap();
+        let is_there = force_n != 0.0;
+        assert_eq!(
+            attempt.is_beyond_doubt(&fit),
+            is_there,
+            "{force_n}: {fit:?}"
+        );
+        let answer = attempt.fit(&subject, &settings).unwrap();
+        assert!(answer.cost <= fit.cost);
+        if is_there {
+            assert_eq!(answer.values, fit.values);
+            let errors = fit.covariance(ResidualNoise::Unit).standard_errors;
+            let truth = [m, c, k, force_n, 0.12, 0.06];
+            for ((found, truth), error) in fit.values.iter().zip(truth).zip(errors) {
+                assert!((found - truth).abs() < 4.0 * error.unwrap(), "{fit:?}");
+            }
+        }
+    }
+}
+
 #[test]
 fn what_is_unusual_is_there() {
     let all = all();
