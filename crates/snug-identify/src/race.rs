@@ -36,7 +36,7 @@ pub(crate) fn race(
     let (n, m) = (residual.parameter_count(), residual.residual_count());
     let entrant = |start: &Vec<f64>| {
         Ok(Entrant {
-            search: Search::new(n, start, constraints, settings)?,
+            search: Search::new(n, start, constraints, settings)?.of_measurement(),
             problem: DenseResidual::new(residual.clone()),
         })
     };

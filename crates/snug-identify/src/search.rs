@@ -16,15 +16,40 @@ const TRUSTED_STEPS: usize = 20;
 const LONG_FIT: usize = 400;
 /// Share of its scale that a parameter keeps per step then.
 const SHORT_MEMORY: f64 = 0.5;
-/// A trial that promises no more than this share of the cost, a fraction of a hundredth of a standard error, ...
-const LITTLE_PROMISE: f64 = 1e-8;
-/// ... and keeps less than this share of its promise is idle: the cost does not follow its derivatives, as where a kink or
-/// the noise of the input makes it rugged.
-const LITTLE_GAIN: f64 = 0.1;
-/// Idle trials in a row after which the fit rests; a search that has to find its damping anew makes fewer.
-const MOST_IDLE: usize = 12;
-/// Optimality accepted when rounding forbids better.
+/// Relative change of the parameters accepted when rounding forbids a smaller one.
 const ROUGH_TOLERANCE: f64 = 1e-5;
+
+/// When a search rests because the cost does not follow its derivatives, as where a kink or the noise of the input makes it
+/// rugged.
+struct Patience {
+    /// A trial promises little when it promises no more than this share of the cost, ...
+    promise: f64,
+    /// ... and is idle when it keeps less than this share of that.
+    gain: f64,
+    /// A trial that keeps this share of a little promise is hope: idle ones are counted anew.
+    hope: f64,
+    /// Idle trials after which the search rests; one that has to find its damping anew makes fewer.
+    trials: usize,
+    /// Share of the cost that an undamped step may still promise at an optimum when the search has to rest.
+    optimum: f64,
+}
+
+/// For as many digits as the cost can tell.
+const THOROUGH: Patience = Patience {
+    promise: 1e-8,
+    gain: 0.1,
+    hope: 0.1,
+    trials: 12,
+    optimum: 1e-10,
+};
+/// For what can be told from chance: 1e-7 of the cost is two hundredths of a standard error in 3000 samples.
+const SHORT: Patience = Patience {
+    promise: 1e-7,
+    gain: 0.5,
+    hope: f64::INFINITY,
+    trials: 8,
+    optimum: 1e-7,
+};
 
 /// What a search needs to know before it can go on.
 pub(crate) enum Ask<'s> {
@@ -66,6 +91,7 @@ pub(crate) struct Search<'a> {
     stage: Stage,
     constraints: &'a Constraints,
     settings: &'a Settings,
+    patience: Patience,
     values: Vec<f64>,
     here: Linearization,
     there: Linearization,
@@ -82,7 +108,7 @@ pub(crate) struct Search<'a> {
     bending: Vec<f64>,
     trusted_steps: usize,
     last_decrement: f64,
-    /// Trials in a row that brought nothing.
+    /// Idle trials since one gave hope.
     idle_trials: usize,
     work: Work,
 }
@@ -123,6 +149,7 @@ impl<'a> Search<'a> {
             stage: Stage::Start,
             constraints,
             settings,
+            patience: THOROUGH,
             values,
             here: Linearization::new(n),
             there: Linearization::new(n),
@@ -138,6 +165,14 @@ impl<'a> Search<'a> {
             idle_trials: 0,
             work,
         })
+    }
+
+    /// Rests where a rugged cost leaves nothing to gain but what cannot be told from chance.
+    pub fn of_measurement(self) -> Self {
+        Self {
+            patience: SHORT,
+            ..self
+        }
     }
 
     /// What is to be evaluated next.
@@ -238,7 +273,7 @@ impl<'a> Search<'a> {
             if self.work.iterations == self.settings.max_iterations {
                 return self.stage = Stage::Ended(Status::IterationLimit);
             }
-            if self.idle_trials >= MOST_IDLE {
+            if self.idle_trials >= self.patience.trials {
                 return self.stage = Stage::Ended(self.end_of_decrease());
             }
             if self.find_step() {
@@ -349,10 +384,10 @@ impl<'a> Search<'a> {
 
     /// Counts a trial with this gain if it was idle; one that the cost cannot resolve says nothing either way.
     fn note_trial(&mut self, gain: f64) {
-        let promises_little = self.stepper.step.predicted < LITTLE_PROMISE * self.here.cost;
-        if !promises_little || gain >= LITTLE_GAIN {
+        let promises_little = self.stepper.step.predicted < self.patience.promise * self.here.cost;
+        if !promises_little || gain >= self.patience.hope {
             self.idle_trials = 0;
-        } else if !self.is_unresolved() {
+        } else if gain < self.patience.gain && !self.is_unresolved() {
             self.idle_trials += 1;
         }
     }
@@ -381,15 +416,16 @@ impl<'a> Search<'a> {
         !self.is_unresolved() && moves && self.damping < MOST_DAMPING
     }
 
-    /// No step decreases the cost: at the optimum as far as rounding allows, or stuck.
+    /// No step decreases the cost: at the optimum as far as rounding or a rugged cost allows, or stuck.
     fn end_of_decrease(&mut self) -> Status {
         self.damping = NO_DAMPING;
         if !self.find_step() {
             return Status::Stalled;
         }
-        let length = (2.0 * self.here.cost).sqrt();
         let step = &self.stepper.step;
-        if step.decrement <= ROUGH_TOLERANCE * length || step.relative_change <= ROUGH_TOLERANCE {
+        let promises_little =
+            0.5 * step.decrement.powi(2) <= self.patience.optimum * self.here.cost;
+        if promises_little || step.relative_change <= ROUGH_TOLERANCE {
             self.converged()
         } else {
             Status::Stalled
