@@ -187,7 +187,7 @@ impl Examination<'_> {
             return Verdict::Undecided;
         }
         if self.climb.ranking.candidates.is_empty() {
-            return match last.is_weighted && last.error() < AT_FLOOR {
+            return match last.is_at_floor() {
                 true => Verdict::Adequate,
                 false => Verdict::Undecided,
             };

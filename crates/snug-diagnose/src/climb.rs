@@ -1,6 +1,7 @@
 //! What a climb leaves: its rungs, what was added and why, what is still missing and why it stopped.
 
 use crate::DiagnoseSettings;
+use crate::evidence::agreement;
 use crate::fitted::{AT_FLOOR, Fitted};
 use crate::ranking::{Candidate, Ranking};
 use crate::units::Units;
@@ -117,6 +118,11 @@ impl Candidate {
         self.p_family <= settings.level && self.gains_clearly()
     }
 
+    /// Whether of a long record it plainly leaves more than `other`.
+    pub fn falls_short_of(&self, other: &Self, units: &Units) -> bool {
+        leaves_more(&self.fitted, &other.fitted, &other.beyond(self), units)
+    }
+
     /// Whether held-out tightenings gain, and by more than one would expect of their scatter.
     fn gains_clearly(&self) -> bool {
         self.gain() > 0.0 && self.clearness() > 1.0
@@ -180,9 +186,12 @@ const AS_MUCH: f64 = 0.5;
 /// Growth of the squared residual of a long record that is no matter of chance.
 const PLAINLY_MORE: f64 = 1.3;
 
-/// Whether `one` plainly leaves more than `other` of a long record, whose few stretches hardly make that a statistic.
-pub(crate) fn leaves_more(one: &Fitted, other: &Fitted, units: &Units) -> bool {
-    !units.are_whole() && one.squares() > PLAINLY_MORE * other.squares()
+/// Whether `one` plainly leaves more than `other` of a long record, by `lost` in each stretch: its few stretches hardly
+/// make a statistic of their sum, and what wins one of them by much and loses most is another effect.
+pub(crate) fn leaves_more(one: &Fitted, other: &Fitted, lost: &[f64], units: &Units) -> bool {
+    !units.are_whole()
+        && (one.squares() > PLAINLY_MORE * other.squares()
+            || agreement(lost, other.scale()) > EQUAL)
 }
 
 /// Candidates that these data cannot tell from the one at `index`. A term in no catalogue is no twin of an effect: of
@@ -198,7 +207,7 @@ pub(crate) fn twins(ranking: &Ranking, index: usize, units: &Units) -> Vec<Effec
                 && other.gains_clearly()
                 && other.gain() > AS_MUCH * chosen.gain()
                 && chosen.ahead_of(other).abs() < EQUAL
-                && !leaves_more(&other.fitted, &chosen.fitted, units)
+                && !other.falls_short_of(chosen, units)
         })
         .map(|other| other.effect)
         .collect()

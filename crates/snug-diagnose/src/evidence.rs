@@ -24,6 +24,19 @@ pub(crate) fn clearness(values: &[f64], scale: f64) -> f64 {
     plain.max(bounded)
 }
 
+/// Standard deviations by which most x exceed 0, whatever a loud one says: Σ of the bounded x over their length.
+pub(crate) fn agreement(values: &[f64], scale: f64) -> f64 {
+    let within_chance = CHANCE * scale;
+    let bounded: Vec<f64> = values
+        .iter()
+        .map(|x| x / (x * x + within_chance * within_chance).sqrt())
+        .collect();
+    match dot(&bounded, &bounded).sqrt() {
+        0.0 => 0.0,
+        length => bounded.iter().sum::<f64>() / length,
+    }
+}
+
 /// Chance of a Σ x so clearly above 0 where each x is as likely to be below as above.
 pub(crate) fn chance(values: &[f64], scale: f64) -> f64 {
     let (plain, bounded) = statistics(values, scale);
@@ -41,16 +54,9 @@ fn statistics(values: &[f64], scale: f64) -> (f64, f64) {
         return (0.0, 0.0);
     }
     let plain = sum / spread_of_sum(values);
-    let within_chance = CHANCE * scale;
-    let bounded: Vec<f64> = values
-        .iter()
-        .map(|x| x / (x * x + within_chance * within_chance).sqrt())
-        .collect();
-    let length = dot(&bounded, &bounded).sqrt();
-    if sum > 0.0 && length > 0.0 {
-        (plain, bounded.iter().sum::<f64>() / length)
-    } else {
-        (plain, plain)
+    match sum > 0.0 {
+        true => (plain, agreement(values, scale)),
+        false => (plain, plain),
     }
 }
 
@@ -67,6 +73,14 @@ mod tests {
             "the plain statistic sees one unit only"
         );
         assert!(clearness(&values, 1.0) > 4.0);
+    }
+
+    #[test]
+    fn what_most_say_is_heard_beside_one_loud_unit_that_says_the_contrary() {
+        let mut values = vec![20.0; 20];
+        values[0] = -1e5;
+        assert!(clearness(&values, 1.0) < 0.0);
+        assert!(agreement(&values, 1.0) > 3.0);
     }
 
     #[test]

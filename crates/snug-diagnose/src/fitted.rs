@@ -190,6 +190,11 @@ impl Fitted {
         (self.squares() / (self.count() - lost.min(self.count() - 1)) as f64).sqrt()
     }
 
+    /// Whether what it leaves is the noise.
+    pub fn is_at_floor(&self) -> bool {
+        self.is_weighted && self.error() < AT_FLOOR
+    }
+
     pub fn own_named(&self, member: usize) -> Vec<(String, f64)> {
         self.own_names
             .iter()

@@ -39,9 +39,13 @@ impl Candidate {
 
     /// Standard deviations by which it explains more than `other`.
     pub fn ahead_of(&self, other: &Self) -> f64 {
+        clearness(&self.beyond(other), self.fitted.scale())
+    }
+
+    /// By how much it explains more than `other` of each unit.
+    pub fn beyond(&self, other: &Self) -> Vec<f64> {
         let pairs = self.gains.iter().zip(&other.gains);
-        let differences: Vec<f64> = pairs.map(|(own, other)| own - other).collect();
-        clearness(&differences, self.fitted.scale())
+        pairs.map(|(own, other)| own - other).collect()
     }
 
     /// Chance of so clear a gain in held-out units, among `family` candidates (Bonferroni): for effects that push

@@ -2,7 +2,7 @@
 
 use crate::applicability::candidates;
 use crate::cases::Cases;
-use crate::climb::{Addition, Climb, EQUAL, justified, leaves_more, misfit, twins};
+use crate::climb::{Addition, Climb, EQUAL, justified, misfit, twins};
 use crate::fitted::Fitted;
 use crate::ranking::{Candidate, Ranking, gains, rank};
 use crate::refit::fit_effects;
@@ -119,7 +119,7 @@ impl Search<'_> {
         let all = &ranking.candidates;
         let is_equal = |other: usize| {
             all[best].ahead_of(&all[other]) < EQUAL
-                && !leaves_more(&all[other].fitted, &all[best].fitted, &self.units)
+                && !all[other].falls_short_of(&all[best], &self.units)
         };
         if let Some(listed) = self.listed(ranking).filter(|&listed| is_equal(listed)) {
             return listed;
@@ -154,9 +154,7 @@ impl Search<'_> {
     ) -> Result<Vec<Step>, DiagnoseError> {
         let winner = &ranking.candidates[best];
         let single = self.single(ranking, best);
-        let left = &ranking.candidates[single].fitted;
-        let leaves_much = misfit(left) > MUCH_LEFT * misfit(current)
-            && (!left.is_weighted || left.scale() > 1.0 + 2.0 * self.settings.smallest_gain);
+        let leaves_much = self.leaves_much(&ranking.candidates[single].fitted, current);
         let half = |listed: usize| ranking.candidates[listed].gain() > 0.5 * winner.gain();
         let challenged = is_unlisted(winner.effect) && self.listed(ranking).is_some_and(half);
         let alone = vec![self.step(ranking, single, current)];
@@ -197,7 +195,16 @@ impl Search<'_> {
         }
     }
 
+    /// Whether `left` is far from the noise for a model that should explain what `current` misses.
+    fn leaves_much(&self, left: &Fitted, current: &Fitted) -> bool {
+        misfit(left) > MUCH_LEFT * misfit(current)
+            && (!left.is_weighted || left.scale() > 1.0 + 2.0 * self.settings.smallest_gain)
+    }
+
     /// The two catalogue effects that together explain most: where the first stands in the ranking, both, the second.
+    ///
+    /// Looked for from the best few; as long as the two found leave much, from the second of them, too: one that explains
+    /// little by itself may be what the best beside it stood in for.
     fn best_pair(
         &self,
         current: &Fitted,
@@ -206,34 +213,56 @@ impl Search<'_> {
         let heldout = current.heldout_beyond_torque_noise();
         let mut pair: Option<(usize, Candidate, Step)> = None;
         let all = ranking.candidates.iter().enumerate();
-        let seeds = all
-            .filter(|(_, c)| !is_unlisted(c.effect) && c.is_supported(self.settings))
-            .take(SEEDS);
-        for (seed, candidate) in seeds {
-            let first = &candidate.fitted;
-            self.watch
-                .begin(&format!("looking ahead from {}", list(&first.effects)))?;
-            let mut seconds = candidates(&self.cases, first, self.custom)?;
-            seconds.retain(|&effect| !is_unlisted(effect));
-            let next = rank(
-                self.cases,
-                first,
-                &seconds,
-                self.units,
-                self.settings,
-                0,
-                self.watch,
-            )?;
-            let Ok(second) = justified(&next, first, self.settings) else {
-                continue;
-            };
-            let mut together = next.candidates[second].clone();
-            together.gains = gains(&heldout, &together.fitted);
-            if (pair.as_ref()).is_none_or(|(_, known, _)| together.gain() > known.gain()) {
-                pair = Some((seed, together, self.step(&next, second, first)));
+        let supported =
+            all.filter(|(_, c)| !is_unlisted(c.effect) && c.is_supported(self.settings));
+        let mut seeds: Vec<usize> = supported.map(|(seed, _)| seed).take(SEEDS).collect();
+        let mut next = 0;
+        while let Some(&seed) = seeds.get(next) {
+            next += 1;
+            if let Some((together, second)) = self.beside(ranking, seed, &heldout)?
+                && (pair.as_ref()).is_none_or(|(_, known, _)| together.gain() > known.gain())
+            {
+                pair = Some((seed, together, second));
+            }
+            if let Some((_, together, (second, _))) = &pair
+                && next == seeds.len()
+                && self.leaves_much(&together.fitted, current)
+            {
+                let mut all = ranking.candidates.iter();
+                let place = all.position(|c| c.effect == second.effect);
+                seeds.extend(place.filter(|place| !seeds.contains(place)));
             }
         }
         Ok(pair)
+    }
+
+    /// What explains most beside the candidate at `seed`, judged by `heldout`, what was left without either.
+    fn beside(
+        &self,
+        ranking: &Ranking,
+        seed: usize,
+        heldout: &[f64],
+    ) -> Result<Option<(Candidate, Step)>, DiagnoseError> {
+        let first = &ranking.candidates[seed].fitted;
+        self.watch
+            .begin(&format!("looking ahead from {}", list(&first.effects)))?;
+        let mut seconds = candidates(&self.cases, first, self.custom)?;
+        seconds.retain(|&effect| !is_unlisted(effect));
+        let next = rank(
+            self.cases,
+            first,
+            &seconds,
+            self.units,
+            self.settings,
+            0,
+            self.watch,
+        )?;
+        let Ok(second) = justified(&next, first, self.settings) else {
+            return Ok(None);
+        };
+        let mut together = next.candidates[second].clone();
+        together.gains = gains(heldout, &together.fitted);
+        Ok(Some((together, self.step(&next, second, first))))
     }
 
     fn step(&self, ranking: &Ranking, index: usize, current: &Fitted) -> Step {

@@ -91,5 +91,8 @@ fn does_as_well(
         return Ok(false);
     };
     let lost: Vec<f64> = gains(heldout, &swapped).iter().map(|gain| -gain).collect();
-    Ok(clearness(&lost, full.scale()) < EQUAL && !leaves_more(&swapped, full, &search.units))
+    Ok(
+        clearness(&lost, full.scale()) < EQUAL
+            && !leaves_more(&swapped, full, &lost, &search.units),
+    )
 }

@@ -188,8 +188,13 @@ pub(crate) fn headline(situation: &Situation<'_>) -> String {
             format!("{what}: with it the error falls {falls}.")
         }
         (Verdict::UnlistedEffect, None) if !added.is_empty() => format!(
-            "Something that is not in the catalogue acts here; {} describes it, and the error falls {fell}.",
-            joined(&added)
+            "Something that is not in the catalogue acts here; {} {} it, and the error falls {fell}.",
+            joined(&added),
+            if added.len() == 1 {
+                "describes"
+            } else {
+                "describe"
+            }
         ),
         (Verdict::UnlistedEffect, None) => format!(
             "Misfit that repeats from tightening to tightening remains ({after}), and no effect of the catalogue explains it."
