@@ -360,7 +360,7 @@ pub(crate) fn stopped(situation: &Situation<'_>) -> Option<String> {
     Some(match situation.stopped? {
         Stop::NothingSupported { best_p } => format!(
             "No further effect is supported: chance alone does as well as the best of the rest in {:.0} of 100 campaigns like this, and an effect is believed below {:.0} of 100 only.",
-            best_p * 100.0,
+            (best_p * 100.0).ceil(),
             situation.settings.level * 100.0
         ),
         Stop::TooSmall { share } => format!(

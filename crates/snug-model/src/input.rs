@@ -279,18 +279,7 @@ fn curved(points: &[f64], time_s: f64, interval_s: f64) -> (f64, f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// Independent values, evenly spread, with a variance of 1 (Knuth's congruential generator).
-    fn noise(count: usize) -> Vec<f64> {
-        let mut state = 11_u64;
-        let mut draw = || {
-            state = state
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1_442_695_040_888_963_407);
-            ((state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5) * 12.0_f64.sqrt()
-        };
-        (0..count).map(|_| draw()).collect()
-    }
+    use crate::even_noise::even_noise;
 
     fn power(values: impl Iterator<Item = f64>) -> f64 {
         let (mut sum, mut count) = (0.0, 0);
@@ -304,7 +293,7 @@ mod tests {
     /// A straight line between two independent samples has half their power in its middle.
     #[test]
     fn a_shift_by_half_a_sample_keeps_the_power_of_noise() {
-        let samples = noise(20_000);
+        let samples = even_noise(20_000);
         let input = Input::new(&samples, 1e-4, Intersample::Linear);
         let shifted = power((100..19_900).map(|i| input.at((i as f64 + 0.5) * 1e-4).0));
         let there = power((100..19_900).map(|i| input.at(i as f64 * 1e-4).0));
@@ -316,7 +305,7 @@ mod tests {
 
     #[test]
     fn a_beginning_ends_on_its_last_sample() {
-        let samples = noise(400);
+        let samples = even_noise(400);
         for intersample in [Intersample::Linear, Intersample::BandLimited] {
             let whole = Input::new(&samples, 0.01, intersample);
             let beginning = whole.beginning(100);
@@ -330,7 +319,7 @@ mod tests {
     /// The slope at a sample says nothing about that sample's noise, so that a small delay cannot take it away.
     #[test]
     fn the_slope_at_a_sample_does_not_know_its_noise() {
-        let samples = noise(20_000);
+        let samples = even_noise(20_000);
         let input = Input::new(&samples, 1.0, Intersample::Linear);
         let product: f64 = (100..19_900)
             .map(|i| input.at(i as f64).1 * samples[i])

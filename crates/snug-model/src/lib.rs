@@ -14,6 +14,8 @@ mod effect;
 mod effects;
 mod error;
 mod euler;
+#[cfg(test)]
+mod even_noise;
 mod exponential;
 mod exponential_function;
 mod expression;

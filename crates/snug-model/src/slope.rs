@@ -139,18 +139,7 @@ fn noise(values: &[f64], substeps: usize) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// Independent values, evenly spread, with a variance of 1 (Knuth's congruential generator).
-    fn noise(count: usize) -> Vec<f64> {
-        let mut state = 11_u64;
-        let mut draw = || {
-            state = state
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1_442_695_040_888_963_407);
-            ((state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5) * 12.0_f64.sqrt()
-        };
-        (0..count).map(|_| draw()).collect()
-    }
+    use crate::even_noise::even_noise;
 
     fn root_mean_square(values: &[f64]) -> f64 {
         (values.iter().map(|v| v * v).sum::<f64>() / values.len() as f64).sqrt()
@@ -174,11 +163,11 @@ mod tests {
         for (weight, expected) in fit.weights.iter().zip(table) {
             assert!((weight - expected).abs() < 1e-14, "{weight} {expected}");
         }
-        let values = noise(20_000);
+        let values = even_noise(20_000);
         let sums = sums(&values);
         let found: Vec<f64> = (5..19_995).map(|i| fit.at(&sums, i)).collect();
         assert!((root_mean_square(&found) / fit.error - 1.0).abs() < 0.05);
-        assert!((super::noise(&values, 1) - 1.0).abs() < 0.1);
+        assert!((noise(&values, 1) - 1.0).abs() < 0.1);
     }
 
     /// A ramp of 700 Nm/s that ends in a kink, with a noise of 0.02 Nm at 10 kHz: far from the kink the slope is as sure as
@@ -186,7 +175,7 @@ mod tests {
     #[test]
     fn a_slope_is_sure_where_the_signal_is_smooth_and_quick_where_it_turns() {
         let ramp = |i: usize| 0.07 * i.min(2000) as f64;
-        let values: Vec<f64> = (noise(4000).iter().enumerate())
+        let values: Vec<f64> = (even_noise(4000).iter().enumerate())
             .map(|(i, noise)| ramp(i) + 0.02 * noise)
             .collect();
         let found = slopes(&values, 1e-4, 1);

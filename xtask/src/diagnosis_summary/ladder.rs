@@ -59,7 +59,7 @@ pub fn ladder(page: &mut Page, diagnosis: &Diagnosis) {
     }
     let bars = match known {
         true => {
-            "Bars begin at the noise and are logarithmic; unseen: error in tightenings that the sizes were not fitted to; "
+            "Bars begin at the noise and are logarithmic; unseen: error in data that the sizes were not fitted to; "
         }
         false => "",
     };

@@ -69,7 +69,7 @@ pub fn ranking(page: &mut Page, diagnosis: &Diagnosis) {
     }
     page.paragraph(
         "  ",
-        "removes: share of the misfit that it takes away in tightenings its size was not fitted to; \
+        "removes: share of the misfit that it takes away in data its size was not fitted to; \
          chance: how often (1 = always) chance alone would put something so strong at the top.",
     );
 }

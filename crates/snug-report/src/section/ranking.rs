@@ -38,7 +38,7 @@ fn render(diagnosis: &Diagnosis, result: &CampaignResult) -> Option<Markup> {
         "the model with the effects above"
     };
     Some(html! {
-        p { "Every candidate was added to " (model) " in turn and judged on tightenings that its size was not fitted to. \
+        p { "Every candidate was added to " (model) " in turn and judged on data that its size was not fitted to. \
             The bar is the share of the misfit that it takes away there; the thin line is one standard error to either side. \
             Below zero, it does harm." }
         @if diagnosis.verdict == Verdict::Adequate {

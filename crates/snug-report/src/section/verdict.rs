@@ -62,7 +62,7 @@ fn added(effect: &AddedEffect, diagnosis: &Diagnosis, result: &CampaignResult) -
             h4 { (called(&effect.effect, effect.expression.as_ref())) " " span.nature { (effect.kind) } }
             p.sizes { (sizes(&effect.parameters, result)) }
             @if let Some(gain) = effect.heldout_gain {
-                p { "It removes " strong { (fixed(100.0 * gain.min(1.0), 0)) "\u{a0}%" } " of the misfit in tightenings that its size was not fitted to." }
+                p { "It removes " strong { (fixed(100.0 * gain.min(1.0), 0)) "\u{a0}%" } " of the misfit in data that its size was not fitted to." }
             }
             @match effect.p_family {
                 Some(p) => p { "How sure: " (by_chance(p)) "." },
@@ -134,7 +134,7 @@ fn candidate(one: &RankedEffect, result: &CampaignResult) -> Markup {
             h4 { (effect_name(&one.effect)) " " span.nature { (one.kind) } }
             p.sizes { (sizes(&one.parameters, result)) }
             p { "It removes " strong { (share_with_error(one.heldout_gain, one.heldout_gain_error)) }
-                " of the misfit in tightenings that its size was not fitted to." }
+                " of the misfit in data that its size was not fitted to." }
             p { "How sure: " (by_chance(one.p_family)) "." }
             (implausible(&one.parameters))
             @if !one.explanation.is_empty() {
