@@ -9,7 +9,7 @@ use crate::sizes::first_parameter;
 use crate::units::Units;
 use crate::{DiagnoseError, DiagnoseSettings};
 use snug_identify::{IdentifyError, PooledFit, PooledSettings};
-use snug_model::{BASE_PARAMETERS, Deflection, Effect, Law, Scope};
+use snug_model::{BASE_PARAMETERS, Effect, Law, Scope};
 use snug_statistics::descriptive::median;
 
 /// When the refit of a candidate stops: its gain is then known to a fraction of what chance does. An effect that is not
@@ -77,10 +77,11 @@ pub(crate) fn refit(
     let end = match starts.as_slice() {
         [] => return fit_effects(cases, &effects, Some(current), units),
         starts if !units.are_whole() => long_record::best_of(&mut hypothesis, starts, &CANDIDATE)?,
-        [only] if current.is_at_floor() || !current.effects.iter().any(lets_go) => {
-            hypothesis.fit(only, &CANDIDATE)?
+        // Beside an effect that lets go, what another one changes moves every instant of contact.
+        [only] if !current.is_at_floor() && current.effects.iter().any(|one| one.lets_go()) => {
+            from_afar(&mut hypothesis, only, &CANDIDATE)?
         }
-        [only] => from_afar(&mut hypothesis, only, &CANDIDATE)?,
+        [only] => hypothesis.fit(only, &CANDIDATE)?,
         several => {
             let start = rough(&hypothesis, current, several)?;
             let end = from_afar(&mut hypothesis, &start, &CANDIDATE)?;
@@ -88,17 +89,6 @@ pub(crate) fn refit(
         }
     };
     Ok(Fitted::new(&hypothesis, end, &units))
-}
-
-/// Whether an effect lets the grip come and go. Beside it, what another effect changes moves every instant of contact.
-fn lets_go(effect: &Effect) -> bool {
-    let at_rest = Deflection {
-        x_m: 0.0,
-        v_m_per_s: 0.0,
-    };
-    let parameters = effect.description().parameters.iter();
-    let starts: Vec<f64> = parameters.map(|spec| spec.starts[0]).collect();
-    effect.deflection(&starts, at_rest).is_some()
 }
 
 fn most_starts(units: &Units, settings: &DiagnoseSettings) -> usize {

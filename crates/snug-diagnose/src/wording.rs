@@ -2,7 +2,7 @@
 
 use crate::DiagnoseSettings;
 use crate::climb::{Addition, Attempt, Stop};
-use crate::fitted::{AT_FLOOR, Fitted};
+use crate::fitted::Fitted;
 use crate::ranking::Candidate;
 use crate::units::Units;
 use crate::unlisted::{declaration, is_unlisted};
@@ -248,7 +248,7 @@ fn what_is_left(situation: &Situation<'_>) -> String {
             self::error(situation.after)
         );
     }
-    if error < AT_FLOOR {
+    if situation.after.is_at_floor() {
         return format!(
             "Over {tightenings} tightenings the model's error is {error:.3} times the sensor noise measured in the quiet part before each pulse; 1 means that only noise is left."
         );

@@ -27,6 +27,7 @@ const RULES: Rules = Rules {
 /// Tries `starts` along the measured motion, and what that leads to on the rough record without guidance; `None` where
 /// another quantity than the acceleration is fitted, which restarts hide, or the rest of the motion is not known.
 pub(crate) fn try_guided(
+    rough: &RoughRecord,
     subject: &Subject<'_>,
     starts: &[Vec<f64>],
     set: &Constraints,
@@ -35,10 +36,7 @@ pub(crate) fn try_guided(
     if settings.fitted_output != Quantity::Acceleration {
         return Ok(None);
     }
-    let Some(rough) = RoughRecord::of(subject, settings.fitted_output) else {
-        return Ok(None);
-    };
-    let Some(guided) = along_motion(&rough, subject) else {
+    let Some(guided) = along_motion(rough, subject) else {
         return Ok(None);
     };
     let residual = rough.residual(subject.model, &guided, settings);

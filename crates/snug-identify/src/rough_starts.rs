@@ -36,20 +36,6 @@ pub(crate) struct Tried {
     pub work: Work,
 }
 
-/// Tries `starts` on a rough record of `subject`; `None` where the record is too short for one, or the simulation is
-/// restarted from the measured motion.
-pub(crate) fn try_roughly(
-    subject: &Subject<'_>,
-    starts: &[Vec<f64>],
-    set: &Constraints,
-    settings: &IdentifySettings,
-) -> Result<Option<Tried>, IdentifyError> {
-    match RoughRecord::of(subject, settings.fitted_output) {
-        Some(rough) => rough.try_from(starts, subject, set, settings),
-        None => Ok(None),
-    }
-}
-
 /// A tightening with every few samples replaced by their mean.
 pub(crate) struct RoughRecord {
     /// Samples that became one.
@@ -60,7 +46,8 @@ pub(crate) struct RoughRecord {
 }
 
 impl RoughRecord {
-    /// Of the tightening's torque and `quantity`.
+    /// Of the tightening's torque and `quantity`; `None` where the record is too short for one, or the simulation is restarted
+    /// from the measured motion.
     pub fn of(subject: &Subject<'_>, quantity: Quantity) -> Option<Self> {
         let (input, measured) = (subject.input, subject.tightening.motion.get(quantity)?);
         let interval_s = input.grid_interval_s() * input.substeps() as f64;

@@ -7,7 +7,7 @@ use crate::guided_starts::try_guided;
 use crate::integral_start::integral_start;
 use crate::race::{Rules, race};
 use crate::residual_noise::{OwnedNoise, noise_of};
-use crate::rough_starts::{Tried, try_roughly};
+use crate::rough_starts::{RoughRecord, Tried};
 use crate::starts::best;
 use crate::{
     ConstraintKind, Constraints, Covariance, Fit, IdentifyError, ResidualNoise, Settings,
@@ -223,14 +223,16 @@ impl<'a> Attempt<'a> {
             work.add(&on_all);
             best(ends.clone(), work)
         };
-        if self.starts.len() > 1 {
-            if let Some(guided) = self.guided(subject, settings)? {
+        if self.starts.len() > 1
+            && let Some(rough) = RoughRecord::of(subject, settings.fitted_output)
+        {
+            if let Some(guided) = self.guided(&rough, subject, settings)? {
                 let fit = follow(&guided.starts, &guided.work)?;
                 if self.is_beyond_doubt(&fit) {
                     return Ok(fit);
                 }
             }
-            if let Some(tried) = try_roughly(subject, &self.starts, &self.set, settings)? {
+            if let Some(tried) = rough.try_from(&self.starts, subject, &self.set, settings)? {
                 let fit = follow(&tried.starts, &tried.work)?;
                 if fit.status.is_converged() && !self.is_far_off(&fit) {
                     return Ok(fit);
@@ -244,6 +246,7 @@ impl<'a> Attempt<'a> {
     /// known, since nothing else says when a fit is good enough.
     fn guided(
         &self,
+        rough: &RoughRecord,
         subject: &Subject<'_>,
         settings: &IdentifySettings,
     ) -> Result<Option<Tried>, IdentifyError> {
@@ -251,7 +254,7 @@ impl<'a> Attempt<'a> {
             return Ok(None);
         }
         let distinct = &self.starts[..self.distinct_starts];
-        try_guided(subject, distinct, &self.set, settings)
+        try_guided(rough, subject, distinct, &self.set, settings)
     }
 
     /// Whether a fit leaves hardly more than noise, inside the constraints, and the effects are surely there: another

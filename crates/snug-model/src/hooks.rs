@@ -60,8 +60,16 @@ impl Answers {
         }))
     }
 
-    /// Whether it answers `hook`.
+    /// Whether the effect answers `hook`.
     pub fn to(&self, hook: Hook) -> bool {
         self.0[hook as usize]
+    }
+}
+
+impl Effect {
+    /// Whether it lets the grip come and go, as play does: the hand's spring and damper act only on what is left of the
+    /// deflection, and the acceleration jumps where contact begins and ends.
+    pub fn lets_go(self) -> bool {
+        Answers::of(self).to(Hook::Deflection)
     }
 }

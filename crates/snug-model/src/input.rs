@@ -58,10 +58,7 @@ impl Input {
     /// What is computed from it knows the torque's course, but hardly the noise of any one sample.
     pub fn smoothed(&self, reach: usize) -> Self {
         let reach = reach * self.substeps;
-        let mut sums = vec![0.0];
-        for value in &self.grid {
-            sums.push(sums[sums.len() - 1] + value);
-        }
+        let sums = slope::sums(&self.grid);
         let last = self.grid.len().saturating_sub(1);
         let mean = |index: usize| {
             let reach = reach.min(index).min(last - index);

@@ -25,7 +25,7 @@ pub(crate) fn slopes(values: &[f64], interval_s: f64, substeps: usize) -> Vec<f6
     let reaches = reaches.map(|reach| reach.max(LEAST_REACH * substeps).min(values.len() - 1));
     let fits = reaches.map(SlopeFit::over);
     let noise = noise(values, substeps) * (substeps as f64).sqrt();
-    let longest = reaches.last().copied().unwrap_or(0);
+    let longest = reaches[reaches.len() - 1];
     let sums = sums(&continued(values, longest));
     (longest..longest + values.len())
         .map(|index| slope_within(&fits, &sums, index, noise) / interval_s)
@@ -34,11 +34,9 @@ pub(crate) fn slopes(values: &[f64], interval_s: f64, substeps: usize) -> Vec<f6
 
 /// The values with `more` before and after them, by reflection in the points at the ends: as if it went on as it came.
 fn continued(values: &[f64], more: usize) -> Vec<f64> {
-    let (Some(first), Some(last)) = (values.first(), values.last()) else {
-        return Vec::new();
-    };
-    let before = (1..=more).rev().map(|j| 2.0 * first - values[j]);
-    let after = (1..=more).map(|j| 2.0 * last - values[values.len() - 1 - j]);
+    let last = values.len() - 1;
+    let before = (1..=more).rev().map(|j| 2.0 * values[0] - values[j]);
+    let after = (1..=more).map(|j| 2.0 * values[last] - values[last - j]);
     before.chain(values.iter().copied()).chain(after).collect()
 }
 
@@ -112,7 +110,7 @@ impl SlopeFit {
 }
 
 /// Sums of all values before each, and of all.
-fn sums(values: &[f64]) -> Vec<f64> {
+pub(crate) fn sums(values: &[f64]) -> Vec<f64> {
     let mut sum = 0.0;
     let all = values.iter().map(|value| {
         sum += value;

@@ -361,7 +361,11 @@ fn starts_led_along_the_motion_end_at_an_effect_that_is_there() {
         let subject = one.subject();
         let whitening = Whitening::of(subject.tightening, settings.fitted_output);
         let attempt = Attempt::new(&subject, whitening.as_ref(), &settings).unwrap();
-        let guided = attempt.guided(&subject, &settings).unwrap().unwrap();
+        let rough = RoughRecord::of(&subject, settings.fitted_output).unwrap();
+        let guided = attempt
+            .guided(&rough, &subject, &settings)
+            .unwrap()
+            .unwrap();
         let ends = race(
             &attempt.residual,
             &guided.starts,
