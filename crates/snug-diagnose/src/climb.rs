@@ -105,7 +105,7 @@ pub(crate) enum Stop {
     /// No candidate reaches the level.
     NothingSupported { best_p: f64 },
     /// The best supported candidate lowers the error by too little to matter.
-    TooSmall { share: f64 },
+    TooSmall { effect: Effect, share: f64 },
     /// The model cannot carry more.
     Full,
     /// Whoever watches ended it; what it reached by then holds, what it would have reached is not known.
@@ -138,10 +138,14 @@ pub(crate) fn justified(
     let supported = |candidate: &Candidate| candidate.is_supported(settings);
     match ranking.candidates.iter().position(supported) {
         Some(index) => {
-            let share = ranking.candidates[index].gain() / current.squares();
+            let candidate = &ranking.candidates[index];
+            let share = candidate.gain() / current.squares();
             match share >= settings.smallest_gain {
                 true => Ok(index),
-                false => Err(Stop::TooSmall { share }),
+                false => Err(Stop::TooSmall {
+                    effect: candidate.effect,
+                    share,
+                }),
             }
         }
         None => {

@@ -363,8 +363,9 @@ pub(crate) fn stopped(situation: &Situation<'_>) -> Option<String> {
             (best_p * 100.0).ceil(),
             situation.settings.level * 100.0
         ),
-        Stop::TooSmall { share } => format!(
-            "The best of the rest would lower the squared error by {:.2} %, less than the {:.0} % that matter here: that much is within reach of noise in the torque signal and of the timing between samples.",
+        Stop::TooSmall { effect, share } => format!(
+            "The best of the rest, {}, would lower the squared error by {:.2} %, less than the {:.0} % that matter here: that much is within reach of noise in the torque signal and of the timing between samples. If it shows at the bench all the same, add it: while it is left out, the sizes found here lean to make up for it.",
+            spoken(effect),
             share * 100.0,
             situation.settings.smallest_gain * 100.0
         ),
