@@ -1,7 +1,10 @@
+mod patience;
+
 use crate::fit::{ActiveConstraint, Fit, Status, Work};
 use crate::identifiability::analyse;
 use crate::step::{NO_DAMPING, Stepper, project};
 use crate::{Constraints, EvaluationError, IdentifyError, Linearization, Settings};
+use patience::{Patience, SHORT, THOROUGH};
 
 /// A decrease below this share of the cost drowns in the cost's rounding.
 const RESOLUTION: f64 = 1e-13;
@@ -16,40 +19,11 @@ const TRUSTED_STEPS: usize = 20;
 const LONG_FIT: usize = 400;
 /// Share of its scale that a parameter keeps per step then.
 const SHORT_MEMORY: f64 = 0.5;
+/// A search crawls when a step leaves more than this share of what the one before had left; near a smooth optimum steps leave
+/// far less.
+const CRAWL: f64 = 0.1;
 /// Relative change of the parameters accepted when rounding forbids a smaller one.
 const ROUGH_TOLERANCE: f64 = 1e-5;
-
-/// When a search rests because the cost does not follow its derivatives, as where a kink or the noise of the input makes it
-/// rugged.
-struct Patience {
-    /// A trial promises little when it promises no more than this share of the cost, ...
-    promise: f64,
-    /// ... and is idle when it keeps less than this share of that.
-    gain: f64,
-    /// A trial that keeps this share of a little promise is hope: idle ones are counted anew.
-    hope: f64,
-    /// Idle trials after which the search rests; one that has to find its damping anew makes fewer.
-    trials: usize,
-    /// Share of the cost that an undamped step may still promise at an optimum when the search has to rest.
-    optimum: f64,
-}
-
-/// For as many digits as the cost can tell.
-const THOROUGH: Patience = Patience {
-    promise: 1e-8,
-    gain: 0.1,
-    hope: 0.1,
-    trials: 12,
-    optimum: 1e-10,
-};
-/// For what can be told from chance: 1e-7 of the cost is two hundredths of a standard error in 3000 samples.
-const SHORT: Patience = Patience {
-    promise: 1e-7,
-    gain: 0.5,
-    hope: f64::INFINITY,
-    trials: 8,
-    optimum: 1e-7,
-};
 
 /// What a search needs to know before it can go on.
 pub(crate) enum Ask<'s> {
@@ -108,6 +82,7 @@ pub(crate) struct Search<'a> {
     bending: Vec<f64>,
     trusted_steps: usize,
     last_decrement: f64,
+    last_promise: f64,
     /// Idle trials since one gave hope.
     idle_trials: usize,
     work: Work,
@@ -162,6 +137,7 @@ impl<'a> Search<'a> {
             bending: vec![0.0; n],
             trusted_steps: 0,
             last_decrement: f64::INFINITY,
+            last_promise: f64::INFINITY,
             idle_trials: 0,
             work,
         })
@@ -203,9 +179,14 @@ impl<'a> Search<'a> {
         &self.values
     }
 
-    /// Lowest cost so far.
+    /// Lowest cost so far; not a number where there is none.
     pub fn cost(&self) -> f64 {
         self.here.cost
+    }
+
+    /// Decrease of the cost that is left by its derivatives, as far as the last step found shows.
+    pub fn promise(&self) -> f64 {
+        0.5 * self.stepper.step.decrement.powi(2)
     }
 
     /// Whether it asks for nothing more.
@@ -230,6 +211,7 @@ impl<'a> Search<'a> {
             (Stage::Start, Ok(())) => self.propose(),
             (Stage::Start, Err(error)) => {
                 tracing::debug!(%error, "no finite residual at the start");
+                self.here.cost = f64::NAN;
                 self.stage = Stage::Ended(Status::Failed);
             }
             (_, Ok(())) if self.is_better(self.there.cost) => {
@@ -346,7 +328,17 @@ impl<'a> Search<'a> {
         }
         let is_still = self.damping <= LITTLE_DAMPING
             && self.stepper.step.relative_change <= self.settings.step_tolerance;
-        (is_small || is_still).then(|| self.converged())
+        (is_small || is_still || self.crawls()).then(|| self.converged())
+    }
+
+    /// Whether derivatives that the cost did not follow before promise little, and hardly less than at the step before.
+    fn crawls(&mut self) -> bool {
+        let promise = self.promise();
+        let before = std::mem::replace(&mut self.last_promise, promise);
+        self.is_hard
+            && !self.stepper.step.is_conic
+            && promise > CRAWL * before
+            && promise <= self.patience.crawling * self.here.cost
     }
 
     /// Converged on the faces that press; where the gradient vanishes none does.
@@ -422,10 +414,8 @@ impl<'a> Search<'a> {
         if !self.find_step() {
             return Status::Stalled;
         }
-        let step = &self.stepper.step;
-        let promises_little =
-            0.5 * step.decrement.powi(2) <= self.patience.optimum * self.here.cost;
-        if promises_little || step.relative_change <= ROUGH_TOLERANCE {
+        let promises_little = self.promise() <= self.patience.optimum * self.here.cost;
+        if promises_little || self.stepper.step.relative_change <= ROUGH_TOLERANCE {
             self.converged()
         } else {
             Status::Stalled
@@ -438,9 +428,10 @@ impl<'a> Search<'a> {
             unreachable!("a search is finished when it asks for nothing more");
         };
         let n = self.values.len();
-        let (cost, factor, rank_tolerance) = match status {
-            Status::Failed => (f64::NAN, vec![0.0; n * n], f64::INFINITY),
-            _ => (self.here.cost, self.here.factor, self.here.rank_tolerance),
+        let cost = self.here.cost;
+        let (factor, rank_tolerance) = match status {
+            Status::Failed => (vec![0.0; n * n], f64::INFINITY),
+            _ => (self.here.factor, self.here.rank_tolerance),
         };
         let pressing: Vec<_> = match status {
             Status::Converged | Status::Failed => Vec::new(),
