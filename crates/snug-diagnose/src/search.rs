@@ -197,14 +197,23 @@ impl Search<'_> {
 
     /// Whether `left` is far from the noise for a model that should explain what `current` misses.
     fn leaves_much(&self, left: &Fitted, current: &Fitted) -> bool {
-        misfit(left) > MUCH_LEFT * misfit(current)
-            && (!left.is_weighted || left.scale() > 1.0 + 2.0 * self.settings.smallest_gain)
+        misfit(left) > MUCH_LEFT * misfit(current) && !self.is_noise(left)
+    }
+
+    /// Whether `left` is next to nothing of what `current` misses, so that no others could be far ahead.
+    fn completes(&self, left: &Fitted, current: &Fitted) -> bool {
+        misfit(left) < LITTLE_LEFT * misfit(current) && self.is_noise(left)
+    }
+
+    /// Whether what is left is within twice what matters of the measured noise.
+    fn is_noise(&self, left: &Fitted) -> bool {
+        left.is_weighted && left.scale() < 1.0 + 2.0 * self.settings.smallest_gain
     }
 
     /// The two catalogue effects that together explain most: where the first stands in the ranking, both, the second.
     ///
-    /// Looked for from the best few; as long as the two found leave much, from the second of them, too: one that explains
-    /// little by itself may be what the best beside it stood in for.
+    /// Looked for from the best few until two are found that leave next to nothing; as long as they leave much, from the
+    /// second of them, too: one that explains little by itself may be what the best beside it stood in for.
     fn best_pair(
         &self,
         current: &Fitted,
@@ -217,7 +226,12 @@ impl Search<'_> {
             all.filter(|(_, c)| !is_unlisted(c.effect) && c.is_supported(self.settings));
         let mut seeds: Vec<usize> = supported.map(|(seed, _)| seed).take(SEEDS).collect();
         let mut next = 0;
-        while let Some(&seed) = seeds.get(next) {
+        let is_complete = |pair: &Option<(usize, Candidate, Step)>| {
+            (pair.as_ref()).is_some_and(|(_, both, _)| self.completes(&both.fitted, current))
+        };
+        while let Some(&seed) = seeds.get(next)
+            && !is_complete(&pair)
+        {
             next += 1;
             if let Some((together, second)) = self.beside(ranking, seed, &heldout)?
                 && (pair.as_ref()).is_none_or(|(_, known, _)| together.gain() > known.gain())
@@ -281,6 +295,8 @@ type Step = (Addition, Fitted);
 
 /// Share of the misfit left by one effect beyond which two are tried together.
 const MUCH_LEFT: f64 = 0.1;
+/// Share of the misfit left by two effects below which no other two are looked for.
+const LITTLE_LEFT: f64 = 0.05;
 /// Effects from which a second is looked for.
 const SEEDS: usize = 3;
 
