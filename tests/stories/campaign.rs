@@ -1,6 +1,6 @@
 //! What the stories share: running a study in a folder of its own, and campaigns to run it on.
 
-use snug_study::{Outcome, Preset, RunSettings, Study, StudyError, run};
+use snug_study::{Outcome, Preset, RunSettings, Study, StudyError, Verb, diagnose, run};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 use tempfile::TempDir;
@@ -31,6 +31,20 @@ pub fn run_on(study: &Study, threads: Option<usize>) -> Result<(Outcome, TempDir
     };
     let outcome = run(study, &settings, &|_| (), &AtomicBool::new(false))?;
     Ok((outcome, out))
+}
+
+/// Asks for a diagnosis; the results are in the folder that comes back, for as long as it lives.
+pub fn diagnose_study(study: &Study, verb: &Verb) -> (Outcome, TempDir) {
+    let out = tempfile::tempdir().unwrap();
+    let settings = RunSettings {
+        out: out.path().to_path_buf(),
+        threads: None,
+    };
+    let outcome = diagnose(study, verb, &settings, &|_| (), &AtomicBool::new(false)).unwrap();
+    for file in ["report.html", "verdict.json", "recording.mcap", "study.ron"] {
+        assert!(out.path().join(file).is_file(), "{verb:?}: {file}");
+    }
+    (outcome, out)
 }
 
 /// The default study on `data` under a preset.

@@ -61,7 +61,7 @@ fn check(fitted_output: Quantity) {
     }
 }
 
-fn count(result: &CampaignResult, truth: &Truth, covered: &mut [usize; 3]) -> usize {
+pub fn count(result: &CampaignResult, truth: &Truth, covered: &mut [usize; 3]) -> usize {
     for tightening in &result.tightenings {
         // A file is named after its label and a number of its own.
         let (label, _) = tightening.id.file.rsplit_once('_').unwrap();

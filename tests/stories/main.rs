@@ -5,6 +5,7 @@
 mod bad_input;
 mod blind;
 mod campaign;
+mod gap;
 mod interruption;
 mod intervals;
 mod layers;

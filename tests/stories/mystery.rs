@@ -1,10 +1,9 @@
 //! The mystery that ships with Snug, solved as the README does: compare, diagnose, add, improve.
 
-use crate::campaign::run_study;
+use crate::campaign::{diagnose_study, run_study};
 use snug_campaign::{Diagnosis, Verdict};
-use snug_study::{Outcome, RunSettings, Study, Verb, diagnose};
+use snug_study::{Outcome, Study, Verb};
 use std::path::{Path, PathBuf};
-use std::sync::atomic::AtomicBool;
 use tempfile::TempDir;
 
 fn fixtures() -> PathBuf {
@@ -28,20 +27,7 @@ fn truth() -> (String, Vec<f64>) {
 }
 
 fn asked(verb: &Verb) -> (Outcome, TempDir) {
-    asked_of(&Study::on(fixtures().join("mystery")), verb)
-}
-
-fn asked_of(study: &Study, verb: &Verb) -> (Outcome, TempDir) {
-    let out = tempfile::tempdir().unwrap();
-    let settings = RunSettings {
-        out: out.path().to_path_buf(),
-        threads: None,
-    };
-    let outcome = diagnose(study, verb, &settings, &|_| (), &AtomicBool::new(false)).unwrap();
-    for file in ["report.html", "verdict.json", "recording.mcap", "study.ron"] {
-        assert!(out.path().join(file).is_file(), "{verb:?}: {file}");
-    }
-    (outcome, out)
+    diagnose_study(&Study::on(fixtures().join("mystery")), verb)
 }
 
 fn diagnosis(outcome: &Outcome) -> &Diagnosis {
@@ -130,7 +116,7 @@ fn improving_finds_it_unasked_and_stops() {
 fn a_law_of_one_s_own_takes_part() {
     let mut study = Study::read(&crate::campaign::study_file("own_law.ron")).unwrap();
     study.model.effects = vec!["grip_damping".into()];
-    let (outcome, _out) = asked_of(&study, &Verb::Compare);
+    let (outcome, _out) = diagnose_study(&study, &Verb::Compare);
     assert_eq!(outcome.result.effects, ["grip_damping"]);
     assert!(errors(diagnosis(&outcome))[0] > 1.1);
 }

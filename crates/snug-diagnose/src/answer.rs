@@ -201,6 +201,10 @@ impl Examination<'_> {
         if added_unlisted {
             return Verdict::UnlistedEffect;
         }
+        // What takes several effects and still leaves more than noise is something else, in pieces.
+        if self.climb.additions.len() > 1 && last.is_weighted && !last.is_at_floor() {
+            return Verdict::UnlistedEffect;
+        }
         let floor = match self.climb.additions.is_empty() {
             true => AT_FLOOR,
             false => BESIDE_EFFECTS,

@@ -4,6 +4,9 @@ use snug_model::{Effect, Input, Model};
 
 use crate::DiagnoseError;
 
+/// From one restart along the measured motion to the next \[s\]: enough for a law to show in the velocity.
+const RESTARTED_EVERY_S: f64 = 3e-3;
+
 /// One tightening as the diagnosis sees it: measurement, input and the study's own model for its rig.
 #[derive(Debug, Clone)]
 pub struct Case {
@@ -61,6 +64,26 @@ impl Case {
             }
         }
         beginning
+    }
+
+    /// The same with the simulation led along the measured motion: every few milliseconds it takes up the angle and the
+    /// velocity there. `None` where another quantity than the acceleration is compared, which restarts hide, or the rest
+    /// of the motion is not known.
+    pub(crate) fn along_motion(&self) -> Option<Self> {
+        let motion = &self.tightening.motion;
+        let angle_rad = motion.get(Quantity::Displacement)?;
+        let velocity_rad_per_s = motion.get(Quantity::Velocity)?;
+        if self.quantity != Quantity::Acceleration || self.input.is_restarted() {
+            return None;
+        }
+        let apart = (RESTARTED_EVERY_S / self.tightening.time_base.interval_s).ceil() as usize;
+        let motions = angle_rad.iter().zip(velocity_rad_per_s).step_by(apart);
+        let motions = motions
+            .map(|(angle, velocity)| [*angle, *velocity])
+            .collect();
+        let mut led = self.clone();
+        led.input = led.input.with_restarts(apart, motions);
+        Some(led)
     }
 
     /// The study's own model with other effects after its own; what the study says of shared parameters stays.

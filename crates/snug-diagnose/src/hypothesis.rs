@@ -6,7 +6,7 @@ use crate::cases::Cases;
 use crate::simulated::{Asked, Simulated, simulate};
 use snug_identify::{
     Constraints, EvaluationError, PooledFit, PooledResidual, PooledSettings, Trial, Whitening,
-    convex_set, solve_pooled,
+    average, convex_set, solve_pooled,
 };
 use snug_model::{BASE_PARAMETERS, Effect, Law, Model, Scope};
 
@@ -23,8 +23,8 @@ pub(crate) struct Hypothesis<'a> {
     own_sets: Vec<Constraints>,
     shared_set: Constraints,
     room: Room,
-    /// Samples to either side over which residuals are averaged, see [`Hypothesis::fit_blurred`].
-    blur: usize,
+    /// Samples to either side over which residuals are averaged, see [`Hypothesis::fit_averaged`].
+    reach: usize,
 }
 
 /// Buffers of one evaluation.
@@ -116,7 +116,7 @@ impl<'a> Hypothesis<'a> {
             own_sets,
             shared_set,
             room: Room::default(),
-            blur: 0,
+            reach: 0,
         })
     }
 
@@ -183,19 +183,16 @@ impl<'a> Hypothesis<'a> {
         Ok(fit)
     }
 
-    /// Fits what is left of the residual once it is averaged over `reach` samples to either side.
-    ///
-    /// Where a law sets in with a jump, the residual of a slightly wrong parameter is a spike at the wrong instant, and no
-    /// slope leads from one instant to the other. Averaged, they overlap.
-    pub fn fit_blurred(
+    /// Fits what is left of the residual once it is averaged over `reach` samples to either side, see [`average`].
+    pub fn fit_averaged(
         &mut self,
         start: &Start,
         settings: &PooledSettings,
         reach: usize,
     ) -> Result<PooledFit, DiagnoseError> {
-        self.blur = reach;
+        self.reach = reach;
         let end = self.fit(start, settings);
-        self.blur = 0;
+        self.reach = 0;
         end
     }
 
@@ -284,28 +281,6 @@ impl<'a> Hypothesis<'a> {
     }
 }
 
-/// Averages over `reach` samples to either side, fewer at the ends.
-pub(crate) fn blur(signal: &mut [f64], reach: usize) {
-    let last = signal.len();
-    let mut sums = vec![0.0; last + 1];
-    let mut sum = 0.0;
-    for (value, upto) in signal.iter().zip(&mut sums[1..]) {
-        sum += value;
-        *upto = sum;
-    }
-    let mean = |from: usize, to: usize| (sums[to] - sums[from]) / (to - from) as f64;
-    let inner = reach.min(last)..last.saturating_sub(reach).max(reach.min(last));
-    for index in (0..inner.start).chain(inner.end..last) {
-        signal[index] = mean(index.saturating_sub(reach), (index + reach + 1).min(last));
-    }
-    // Where nothing ends, all means are over the same number of samples.
-    let width = 2 * reach + 1;
-    let pairs = sums.iter().zip(sums.iter().skip(width));
-    for (value, (from, to)) in signal[inner].iter_mut().zip(pairs) {
-        *value = (to - from) / width as f64;
-    }
-}
-
 /// Number of weighted residuals of a case.
 fn scored(case: &Case, whitening: Option<&Whitening>) -> usize {
     let lost = whitening.map_or(0, Whitening::order);
@@ -354,10 +329,10 @@ impl PooledResidual for Hypothesis<'_> {
         for (index, trial) in trials.iter_mut().enumerate() {
             let (residual, jacobian) =
                 self.weigh_simulated(trial.member, order.len(), index, &mut room);
-            if self.blur > 0 {
-                blur(residual, self.blur);
+            if self.reach > 0 {
+                average(residual, self.reach);
                 for column in jacobian.chunks_exact_mut(residual.len()) {
-                    blur(column, self.blur);
+                    average(column, self.reach);
                 }
             }
             outcome = outcome.and(trial.linearization.set_jacobian(residual, jacobian));

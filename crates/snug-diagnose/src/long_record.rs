@@ -1,7 +1,7 @@
 //! A candidate's refit to a few long records, where mass, damping and stiffness are no matter of each tightening.
 
 use crate::hypothesis::{Hypothesis, Start};
-use crate::{Case, DiagnoseError, DiagnoseSettings};
+use crate::{Case, DiagnoseError};
 use snug_identify::{
     DenseResidual, PooledFit, PooledSettings, Settings, TighteningResidual, convex_set, solve,
 };
@@ -11,11 +11,6 @@ const SOON: usize = 30_000;
 
 /// Share of a record's squared output that its beginning holds, where records take long to simulate.
 const BEGINNING: f64 = 0.125;
-
-/// Starts of an effect that are tried: twice as many as in tightenings, for the cost has more minima.
-pub(crate) fn most_starts(settings: &DiagnoseSettings) -> usize {
-    2 * settings.starts
-}
 
 /// When the trial of one start stops.
 const ROUGH: PooledSettings = PooledSettings {

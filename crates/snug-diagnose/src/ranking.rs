@@ -7,7 +7,7 @@ use crate::evidence::{chance, clearness, spread_of_sum};
 use crate::family::Family;
 use crate::fitted::Fitted;
 use crate::hypothesis::Hypothesis;
-use crate::refit::refit;
+use crate::refit::{fit_effects, refit};
 use crate::score::{Control, Scored, Scorer};
 use crate::units::Units;
 use crate::{DiagnoseSettings, Watch};
@@ -30,6 +30,19 @@ impl Candidate {
     /// Σ of the held-out decreases.
     pub fn gain(&self) -> f64 {
         self.gains.iter().sum()
+    }
+
+    /// Follows the fit to its end; `heldout` is what the units leave without the effect.
+    fn settle(
+        &mut self,
+        cases: Cases<'_>,
+        units: Units,
+        heldout: &[f64],
+    ) -> Result<(), DiagnoseError> {
+        let from = Some(&self.fitted);
+        self.fitted = fit_effects(cases, &self.fitted.effects, from, units)?;
+        self.gains = gains(heldout, &self.fitted);
+        Ok(())
     }
 
     /// Standard deviations by which that sum exceeds 0.
@@ -78,6 +91,9 @@ pub(crate) struct Ranking {
 
 /// How many times stricter the chance of a gain is judged, so that the score remains what decides as a rule.
 const STRICTER: usize = 10;
+
+/// Candidates that are followed to the end: one of them is what is missing, if anything is.
+const BEST: usize = 3;
 
 /// Sign flips behind a p in the negative control.
 const CONTROL_FLIPS: usize = 199;
@@ -136,17 +152,27 @@ pub(crate) fn rank(
     let impossible = outcomes.filter(|(_, outcome)| outcome.is_none());
     let impossible = impossible.map(|(&effect, _)| effect).collect();
     let mut candidates: Vec<Candidate> = refitted.into_iter().flatten().collect();
+    sort(&mut candidates);
+    if units.are_whole() && !current.is_at_floor() {
+        let best = candidates.par_iter_mut().take(BEST);
+        best.try_for_each(|candidate| candidate.settle(cases, units, &heldout))?;
+    }
     let family_size = candidates.len() * STRICTER;
     for candidate in &mut candidates {
         candidate.p_family = candidate.p_family.min(candidate.p_of_gain(family_size));
     }
-    candidates.sort_by(|a, b| b.gain().total_cmp(&a.gain()));
+    sort(&mut candidates);
     Ok(Ranking {
         candidates,
         impossible,
         columns,
         control: (control.len(), false_alarms),
     })
+}
+
+/// Those first that explain most.
+fn sort(candidates: &mut [Candidate]) {
+    candidates.sort_by(|a, b| b.gain().total_cmp(&a.gain()));
 }
 
 /// A refit, or nothing where this rig cannot be simulated with the effect's starts: they are meant for a hand on a tool.

@@ -1,5 +1,6 @@
 //! A candidate's refit: from its most promising starts, found on a few tightenings, to all of them.
 
+use crate::case::Case;
 use crate::cases::Cases;
 use crate::column::Column;
 use crate::fitted::Fitted;
@@ -8,7 +9,7 @@ use crate::long_record;
 use crate::sizes::first_parameter;
 use crate::units::Units;
 use crate::{DiagnoseError, DiagnoseSettings};
-use snug_identify::{IdentifyError, PooledFit, PooledSettings};
+use snug_identify::{IdentifyError, PooledFit, PooledSettings, REACHES};
 use snug_model::{BASE_PARAMETERS, Effect, Law, Scope};
 use snug_statistics::descriptive::median;
 
@@ -25,15 +26,20 @@ const ROUGH: PooledSettings = PooledSettings {
     cost_tolerance: 1e-4,
 };
 
-/// Samples to either side over which residuals are averaged where starts are tried: 8 ms at 10 kHz.
-const AFAR: usize = 80;
-
-/// The same on the way from there to the end. Where the grip meets the edge of a gap, the acceleration jumps from one
-/// sample to the next: a fit that is a few samples off sees the jump only when it is spread over as many.
-const NEARER: [usize; 4] = [20, 8, 3, 1];
-
 /// Tightenings on which starts are tried.
 const FEW: usize = 8;
+
+/// Starts, the most promising, that are tried freely, whatever the measured motion says.
+const FREELY: usize = 2;
+
+/// When a fit along the measured motion stops: a place to go on from is all it has to be.
+const LED: PooledSettings = PooledSettings {
+    max_iterations: 12,
+    cost_tolerance: 1e-3,
+};
+
+/// Samples to either side over which residuals are averaged where starts are led along the measured motion.
+const LED_REACH: usize = 8;
 
 /// Root mean square of a tightening's residual over the median of all from which it is left behind: it ended in a minimum
 /// of its own, where the others found theirs.
@@ -69,7 +75,7 @@ pub(crate) fn refit(
 ) -> Result<Fitted, DiagnoseError> {
     let mut effects = current.effects.clone();
     effects.push(effect);
-    let starts = promising(effect, columns, most_starts(&units, settings));
+    let starts = promising(effect, columns, settings.starts);
     let mut hypothesis = Hypothesis::new(cases, &effects)?;
     let starts: Vec<Start> = (starts.iter())
         .map(|values| with_effect(&hypothesis, current, effect, values))
@@ -89,13 +95,6 @@ pub(crate) fn refit(
         }
     };
     Ok(Fitted::new(&hypothesis, end, &units))
-}
-
-fn most_starts(units: &Units, settings: &DiagnoseSettings) -> usize {
-    match units.are_whole() {
-        true => settings.starts,
-        false => long_record::most_starts(settings),
-    }
 }
 
 /// At most `most` different starts of an effect, those whose columns promise most.
@@ -118,15 +117,15 @@ fn from_afar(
     start: &Start,
     settings: &PooledSettings,
 ) -> Result<PooledFit, DiagnoseError> {
-    let mut reached = hypothesis.fit_blurred(start, &ROUGH, AFAR)?;
-    for reach in NEARER {
-        reached = hypothesis.fit_blurred(&Start::at(&reached), &ROUGH, reach)?;
+    let mut start = start.clone();
+    for reach in REACHES {
+        start = Start::at(&hypothesis.fit_averaged(&start, &ROUGH, reach)?);
     }
-    hypothesis.fit(&Start::at(&reached), settings)
+    hypothesis.fit(&start, settings)
 }
 
 /// The start that leads lowest on a few tightenings, as seen from afar: their shared sizes, and every tightening's own
-/// parameters corrected by what the few had to correct theirs.
+/// parameters corrected by what the few had to correct theirs. Where only noise is left to find, nothing is led astray.
 fn rough(
     hypothesis: &Hypothesis<'_>,
     current: &Fitted,
@@ -135,17 +134,43 @@ fn rough(
     let few = current.spread(FEW);
     let some = hypothesis.cases.some(&few);
     let mut there = Hypothesis::new(hypothesis.cases.others(&some), &hypothesis.effects)?;
-    let ends = starts.iter().filter_map(|start| {
-        let end = there.fit_blurred(&start.of_members(&few), &ROUGH, AFAR);
-        end.ok().map(|end| (start, end))
+    let of_few: Vec<Start> = starts.iter().map(|start| start.of_members(&few)).collect();
+    let led = match current.is_at_floor() {
+        true => None,
+        false => led_along_motion(&there, &of_few)?,
+    };
+    let ends = of_few.iter().take(FREELY).chain(&led).filter_map(|start| {
+        let end = there.fit_averaged(start, &ROUGH, REACHES[0]);
+        end.ok()
     });
-    let lowest = ends.min_by(|(_, a), (_, b)| a.cost().total_cmp(&b.cost()));
-    let (start, end) = lowest.ok_or(IdentifyError::NoStart)?;
-    let factors = astray(hypothesis, &end.own, &start.of_members(&few).own);
-    let mut start = start.clone();
+    let lowest = ends.min_by(|a, b| a.cost().total_cmp(&b.cost()));
+    let end = lowest.ok_or(IdentifyError::NoStart)?;
+    let factors = astray(hypothesis, &end.own, &of_few[0].own);
+    let mut start = starts[0].clone();
     start.own.iter_mut().for_each(|own| times(own, &factors));
     start.shared = end.shared;
     Ok(start)
+}
+
+/// Where the starts lead to along the measured motion, if that can be said: the lowest.
+///
+/// A model without the effect may have been led astray by what it lacks, and in the cost of a free run valley lies beside
+/// valley. Where the simulation takes up the measured motion every few milliseconds, no error grows beyond the next
+/// restart, and most starts lead to the same place.
+fn led_along_motion(
+    hypothesis: &Hypothesis<'_>,
+    starts: &[Start],
+) -> Result<Option<Start>, DiagnoseError> {
+    let led: Option<Vec<Case>> = hypothesis.cases.iter().map(Case::along_motion).collect();
+    let Some(led) = led else {
+        return Ok(None);
+    };
+    let mut there = Hypothesis::new(hypothesis.cases.others(&led), &hypothesis.effects)?;
+    let ends = starts
+        .iter()
+        .filter_map(|start| there.fit_averaged(start, &LED, LED_REACH).ok());
+    let lowest = ends.min_by(|a, b| a.cost().total_cmp(&b.cost()));
+    Ok(lowest.map(|end| Start::at(&end)))
 }
 
 /// The tightenings that were left behind, begun again from where the others' way leads and, where that is lower, all on

@@ -7,7 +7,7 @@ use crate::DiagnoseError;
 use crate::column::{Column, directions};
 use crate::dense::dot;
 use crate::fitted::Fitted;
-use crate::hypothesis::{Hypothesis, Room, blur};
+use crate::hypothesis::{Hypothesis, Room};
 use crate::nuisance::{Nuisance, coordinates};
 use crate::simulated::Asked;
 use crate::units::Units;
@@ -15,6 +15,7 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 use rayon::prelude::*;
+use snug_identify::average;
 use snug_model::{Effect, Input};
 
 /// The fitted model against which effects are scored.
@@ -172,7 +173,7 @@ impl<'a, 'h> Scorer<'a, 'h> {
                     |(_, other)| column.signatures(other, &asked, &plain),
                 );
                 for signature in &mut signatures {
-                    blur(signature, INSTANT_REACH);
+                    average(signature, INSTANT_REACH);
                 }
                 signatures
             })

@@ -11,7 +11,7 @@ pub struct DiagnoseSettings {
     /// Smallest share of the squared residual that an effect must remove in held-out tightenings to matter; default 0.01
     /// (half a percent of the error). Less than that is within reach of torque noise and of how samples are held.
     pub smallest_gain: f64,
-    /// Starts from which each effect is refitted; default 3.
+    /// Starts from which each effect is tried along the measured motion, the most promising freely as well; default 8.
     pub starts: usize,
     /// Campaigns of nothing but noise on which the ranking is tried as a negative control; default 200.
     pub control_campaigns: usize,
@@ -25,7 +25,7 @@ impl Default for DiagnoseSettings {
             sign_flips: 1999,
             level: 0.05,
             smallest_gain: 0.01,
-            starts: 3,
+            starts: 8,
             control_campaigns: 200,
             seed: 0,
         }

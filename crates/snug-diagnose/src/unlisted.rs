@@ -33,6 +33,11 @@ const TERMS: &[Term] = &[
         unit: "N s^2/m^3",
     },
     Term {
+        name: "x_v_abs_v_law",
+        expression: "p*x*v*abs(v)",
+        unit: "N s^2/m^3",
+    },
+    Term {
         name: "v2_law",
         expression: "p*v^2",
         unit: "N s^2/m^2",
@@ -41,6 +46,16 @@ const TERMS: &[Term] = &[
         name: "v3_law",
         expression: "p*v^3",
         unit: "N s^3/m^3",
+    },
+    Term {
+        name: "sqrt_v_law",
+        expression: "p*v/sqrt(abs(v)+0.001)",
+        unit: "N s^0.5/m^0.5",
+    },
+    Term {
+        name: "stribeck_law",
+        expression: "p*tanh(v/0.01)*exp(-(v/0.05)^2)",
+        unit: "N",
     },
     Term {
         name: "x4_law",

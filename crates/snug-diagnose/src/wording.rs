@@ -187,15 +187,19 @@ pub(crate) fn headline(situation: &Situation<'_>) -> String {
             };
             format!("{what}: with it the error falls {falls}.")
         }
-        (Verdict::UnlistedEffect, None) if !added.is_empty() => format!(
-            "Something that is not in the catalogue acts here; {} {} it, and the error falls {fell}.",
-            joined(&added),
-            if added.len() == 1 {
-                "describes"
-            } else {
-                "describe"
-            }
-        ),
+        (Verdict::UnlistedEffect, None) if !added.is_empty() => {
+            let is_complete = situation.after.is_at_floor() || !situation.after.is_weighted;
+            let describes = match (is_complete, added.len()) {
+                (true, 1) => "describes",
+                (true, _) => "describe",
+                (false, 1) => "comes nearest to",
+                (false, _) => "together come nearest to",
+            };
+            format!(
+                "Something that is not in the catalogue acts here; {} {describes} it, and the error falls {fell}.",
+                joined(&added)
+            )
+        }
         (Verdict::UnlistedEffect, None) => format!(
             "Misfit that repeats from tightening to tightening remains ({after}), and no effect of the catalogue explains it."
         ),

@@ -2,6 +2,7 @@
 
 mod active_set;
 pub mod agreement;
+mod averaging;
 mod base_fits;
 mod base_noise;
 mod conic_program;
@@ -38,6 +39,7 @@ mod tightening_fit;
 mod tightening_residual;
 mod whitening;
 
+pub use averaging::{REACHES, average};
 pub use constraint_kind::{ConstraintKind, convex_set};
 pub use constraints::{Affine, Constraints};
 pub use covariance::{Covariance, ResidualNoise};

@@ -7,10 +7,10 @@ use crate::guided_starts::try_guided;
 use crate::integral_start::integral_start;
 use crate::race::{Rules, race};
 use crate::residual_noise::{OwnedNoise, noise_of};
-use crate::rough_starts::{RoughRecord, Tried};
+use crate::rough_starts::{RoughRecord, Tried, rough_solver};
 use crate::starts::best;
 use crate::{
-    ConstraintKind, Constraints, Covariance, Fit, IdentifyError, ResidualNoise, Settings,
+    ConstraintKind, Constraints, Covariance, Fit, IdentifyError, REACHES, ResidualNoise, Settings,
     Simulation, Status, TighteningResidual, Whitening, convex_set,
 };
 use serde::{Deserialize, Serialize};
@@ -18,7 +18,8 @@ use snug_campaign::{
     Estimate, FitStatus, Identifiability, Interval, Parameter, ParameterEstimate, Quantity,
     Tightening,
 };
-use snug_model::{BASE_PARAMETERS, Input, Model, NormalEquations};
+use snug_model::{BASE_PARAMETERS, Effect, Input, Model, NormalEquations};
+use std::iter::once;
 
 /// How tightenings are identified.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -128,6 +129,10 @@ const CLOSE: f64 = 1.1;
 /// Standard errors that an effect's parameter is away from zero when the effect is surely there.
 const SURE: f64 = 8.0;
 
+/// An averaged fit has gone far enough when this share of the residual could still be removed, or after so many steps.
+const NEARER_TOLERANCE: f64 = 1e-2;
+const MOST_NEARER_STEPS: usize = 20;
+
 /// A tightening on its way to an estimate.
 struct Attempt<'a> {
     residual: TighteningResidual<'a>,
@@ -162,12 +167,12 @@ impl<'a> Attempt<'a> {
         );
         residual.check_length()?;
         let usual = starts(subject.model);
-        let is_easy = usual.len() == 1 && !residual.is_base();
-        let near = integral_start(subject).filter(|_| !is_easy);
+        let is_rugged = usual.len() > 1 || subject.model.effects().any(Effect::lets_go);
+        let near = integral_start(subject).filter(|_| is_rugged || residual.is_base());
         Ok(Self {
             residual,
             set: convex_set(subject.model, &settings.constraints),
-            starts: near.map_or_else(|| usual.clone(), |near| nearer(&usual, &near)),
+            starts: near.map_or_else(|| usual.clone(), |near| nearer(&usual, &near, is_rugged)),
             distinct_starts: usual.len(),
             usual_start: usual.into_iter().next().unwrap_or_default(),
             outcome: None,
@@ -207,10 +212,64 @@ impl<'a> Attempt<'a> {
         })
     }
 
-    /// A fit by itself. Of several starts, what they lead to along the measured motion is tried first; that is the answer
+    /// A fit by itself. Where an effect lets go of the hand's spring, many optima lie close together: what leaves more than
+    /// noise is begun again from where it ended, and from where it began, seen from ever nearer.
+    fn fit(
+        &self,
+        subject: &Subject<'_>,
+        settings: &IdentifySettings,
+    ) -> Result<Fit, IdentifyError> {
+        let fit = self.searched(subject, settings)?;
+        let lets_go = subject.model.effects().any(Effect::lets_go);
+        if !lets_go || !self.residual.is_whitened() || self.is_beyond_doubt(&fit) {
+            return Ok(fit);
+        }
+        let mut work = fit.work;
+        let mut ends = vec![fit];
+        for start in once(&ends[0].values.clone()).chain(&self.starts) {
+            let end = self.ever_nearer(start, settings, &mut work)?;
+            let is_beyond_doubt = self.is_beyond_doubt(&end);
+            ends.push(end);
+            if is_beyond_doubt {
+                break;
+            }
+        }
+        best(ends, work)
+    }
+
+    /// Where the residual leads to that is averaged over ever fewer samples.
+    fn ever_nearer(
+        &self,
+        start: &[f64],
+        settings: &IdentifySettings,
+        work: &mut Work,
+    ) -> Result<Fit, IdentifyError> {
+        let rough = rough_solver(settings, NEARER_TOLERANCE, MOST_NEARER_STEPS);
+        let mut values = start.to_vec();
+        for reach in REACHES {
+            let averaged = self.residual.averaged(reach);
+            values = self.followed(&averaged, values, &rough, work)?.values;
+        }
+        self.followed(&self.residual, values, &settings.solver, work)
+    }
+
+    /// Where a fit from one start ends.
+    fn followed(
+        &self,
+        residual: &TighteningResidual<'a>,
+        start: Vec<f64>,
+        solver: &Settings,
+        work: &mut Work,
+    ) -> Result<Fit, IdentifyError> {
+        let (ends, more) = race(residual, &[start], &self.set, solver, RULES)?;
+        work.add(&more);
+        best(ends, more)
+    }
+
+    /// The best of the ends that the starts lead to. Of several starts, what they lead to along the measured motion is tried first; that is the answer
     /// where it leaves no doubt. Otherwise those that lead on in a rough fit are followed to the end as well; all of them
     /// where that comes to nothing, or leaves so much that a lower valley may have been missed.
-    fn fit(
+    fn searched(
         &self,
         subject: &Subject<'_>,
         settings: &IdentifySettings,
@@ -299,7 +358,7 @@ impl<'a> Attempt<'a> {
 fn starts(model: &Model) -> Vec<Vec<f64>> {
     let free = model.free();
     let usual: Vec<f64> = model.parameters().iter().map(|p| p.value).collect();
-    std::iter::once(usual)
+    once(usual)
         .chain(model.further_starts())
         .map(|values| free.iter().map(|&index| values[index]).collect())
         .collect()
@@ -308,11 +367,11 @@ fn starts(model: &Model) -> Vec<Vec<f64>> {
 /// The same starts with m, c, k that explain the tightening as far as it can be without an effect: from values of other
 /// tightenings, a search first takes what m, c, k lack for the effect, and wanders.
 ///
-/// Several starts are kept as they are, too: an effect that acts for long makes such m, c, k worthless, and who tries
-/// several starts side by side hardly notices as many more.
-fn nearer(usual: &[Vec<f64>], near: &[f64]) -> Vec<Vec<f64>> {
+/// Where valley lies beside valley, the starts are kept as they are, too: an effect that acts for long makes such m, c, k
+/// worthless, and who tries several starts side by side hardly notices as many more.
+fn nearer(usual: &[Vec<f64>], near: &[f64], is_rugged: bool) -> Vec<Vec<f64>> {
     let nearer = |start: &Vec<f64>| [near, &start[near.len()..]].concat();
-    let kept = if usual.len() > 1 { usual } else { &[] };
+    let kept = if is_rugged { usual } else { &[] };
     usual
         .iter()
         .map(nearer)

@@ -1,3 +1,4 @@
+use crate::averaging::average;
 use crate::{EvaluationError, IdentifyError, Residual, Whitening};
 use snug_campaign::Quantity;
 use snug_model::{Input, Model, Run, ScoredRecord};
@@ -11,6 +12,8 @@ pub struct TighteningResidual<'a> {
     quantity: Quantity,
     whitening: Option<&'a Whitening>,
     unscored: usize,
+    /// Samples to either side over which the residual is averaged.
+    reach: usize,
     free: Vec<usize>,
     values: Vec<f64>,
     output: Vec<f64>,
@@ -46,11 +49,20 @@ impl<'a> TighteningResidual<'a> {
             quantity,
             whitening,
             unscored: unscored.min(measured.len()),
+            reach: 0,
             values: model.parameters().iter().map(|p| p.value).collect(),
             output: Vec::new(),
             sensitivity: Vec::new(),
             foreseen: Foreseen::default(),
             free,
+        }
+    }
+
+    /// The same averaged over `reach` samples to either side, see [`average`].
+    pub(crate) fn averaged(&self, reach: usize) -> Self {
+        Self {
+            reach,
+            ..self.clone()
         }
     }
 
@@ -174,6 +186,13 @@ impl<'a> TighteningResidual<'a> {
 }
 
 impl TighteningResidual<'_> {
+    fn weigh_and_average(&self, signal: &[f64], scored: &mut [f64]) {
+        self.weigh(signal, scored);
+        if self.reach > 0 {
+            average(scored, self.reach);
+        }
+    }
+
     /// The fixed parameters that are not known exactly: index in the model and standard error.
     pub(crate) fn uncertain(&self) -> Vec<(usize, f64)> {
         let parameters = self.model.parameters().iter().enumerate();
@@ -277,7 +296,7 @@ impl Residual for TighteningResidual<'_> {
         jacobian: Option<&mut [f64]>,
     ) -> Result<(), EvaluationError> {
         self.all_values(parameters);
-        if self.whitening.is_none() && self.unscored == 0 {
+        if self.whitening.is_none() && self.unscored == 0 && self.reach == 0 {
             // Every sample counts, and counts the same: straight into the solver's buffers.
             self.subtract(residual, jacobian);
             return Ok(());
@@ -290,14 +309,14 @@ impl Residual for TighteningResidual<'_> {
         every.resize(self.samples(), 0.0);
         sensitivity.resize(self.samples() * self.free.len(), 0.0);
         self.subtract(&mut every, wanted.then_some(&mut sensitivity[..]));
-        self.weigh(&every, residual);
+        self.weigh_and_average(&every, residual);
         if let Some(jacobian) = jacobian {
             let (samples, scored) = (self.measured.len(), residual.len());
             for (column, weighted) in sensitivity
                 .chunks_exact(samples)
                 .zip(jacobian.chunks_exact_mut(scored))
             {
-                self.weigh(column, weighted);
+                self.weigh_and_average(column, weighted);
             }
         }
         self.output = every;
