@@ -176,7 +176,7 @@ impl Search<'_> {
         })
     }
 
-    /// A pair as two steps, the one that explains more by itself first.
+    /// A pair as two steps, the one that explains more by itself, and is supported by itself, first.
     fn larger_first(
         &self,
         current: &Fitted,
@@ -185,8 +185,9 @@ impl Search<'_> {
         second: Step,
     ) -> Vec<Step> {
         let (addition, both) = second;
-        let all = ranking.candidates.iter();
-        match all.take(seed).position(|c| c.effect == addition.effect) {
+        let mut before = ranking.candidates.iter().take(seed);
+        let is_it = |c: &Candidate| c.effect == addition.effect && c.is_supported(self.settings);
+        match before.position(is_it) {
             Some(larger) => {
                 let (smaller, _) = self.step(ranking, seed, current);
                 vec![self.step(ranking, larger, current), (smaller, both)]

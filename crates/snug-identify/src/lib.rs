@@ -37,6 +37,7 @@ mod starts;
 mod step;
 mod tightening_fit;
 mod tightening_residual;
+mod valleys;
 mod whitening;
 
 pub use averaging::{REACHES, average};

@@ -2,7 +2,11 @@
 #![allow(clippy::unwrap_used)]
 
 use super::*;
-use crate::{DenseResidual, Residual, solve_from_starts};
+use crate::race::race;
+use crate::rough_starts::RoughRecord;
+use crate::starts::best;
+use crate::valleys::RULES;
+use crate::{DenseResidual, Residual, ResidualNoise, solve_from_starts};
 use snug_campaign::{
     Conditions, Correction, Intersample, Motion, NoiseFloor, NoiseSource, Rig, TighteningId,
     TimeBase,
@@ -316,7 +320,7 @@ fn rough_starts_lead_to_the_best_optimum_of_all() {
         let whitening = Whitening::of(subject.tightening, settings.fitted_output);
         let mut attempt = Attempt::new(&subject, whitening.as_ref(), &settings).unwrap();
         assert!(attempt.starts.len() > 1);
-        let rough = attempt.fit(&subject, &settings).unwrap();
+        let rough = attempt.valleys(&subject, &settings).lowest().unwrap();
         let mut problem = DenseResidual::new(&mut attempt.residual);
         let all = solve_from_starts(
             &mut problem,
@@ -362,10 +366,8 @@ fn starts_led_along_the_motion_end_at_an_effect_that_is_there() {
         let whitening = Whitening::of(subject.tightening, settings.fitted_output);
         let attempt = Attempt::new(&subject, whitening.as_ref(), &settings).unwrap();
         let rough = RoughRecord::of(&subject, settings.fitted_output).unwrap();
-        let guided = attempt
-            .guided(&rough, &subject, &settings)
-            .unwrap()
-            .unwrap();
+        let valleys = attempt.valleys(&subject, &settings);
+        let guided = valleys.guided(&rough).unwrap().unwrap();
         let ends = race(
             &attempt.residual,
             &guided.starts,
@@ -376,11 +378,11 @@ fn starts_led_along_the_motion_end_at_an_effect_that_is_there() {
         let fit = best(ends.unwrap().0, guided.work).unwrap();
         let is_there = force_n != 0.0;
         assert_eq!(
-            attempt.is_beyond_doubt(&fit),
+            valleys.is_beyond_doubt(&fit),
             is_there,
             "{force_n}: {fit:?}"
         );
-        let answer = attempt.fit(&subject, &settings).unwrap();
+        let answer = valleys.lowest().unwrap();
         assert!(answer.cost <= fit.cost);
         if is_there {
             assert_eq!(answer.values, fit.values);

@@ -1,0 +1,150 @@
+//! One tightening's fit where its cost has valley beside valley: an effect with several starts, or one that lets go.
+
+use crate::averaging::REACHES;
+use crate::fit::Work;
+use crate::guided_starts::try_guided;
+use crate::race::{Rules, race};
+use crate::rough_starts::{RoughRecord, Tried, rough_solver};
+use crate::starts::best;
+use crate::{
+    Constraints, Fit, IdentifyError, IdentifySettings, ResidualNoise, Settings, Status, Subject,
+    TighteningResidual,
+};
+use snug_model::{BASE_PARAMETERS, Effect};
+use std::iter::once;
+
+/// Of the race between fits of every sample.
+pub(crate) const RULES: Rules = Rules {
+    heat: 20,
+    worth: 1.0,
+};
+
+/// Mean square of a whitened residual beyond which a fit may have ended in the wrong valley.
+const FAR_OFF: f64 = 2.0;
+/// Mean square of a whitened residual up to which it is hardly more than noise.
+const CLOSE: f64 = 1.1;
+/// Standard errors that an effect's parameter is away from zero when the effect is surely there.
+const SURE: f64 = 8.0;
+
+/// An averaged fit has gone far enough when this share of the residual could still be removed, or after so many steps.
+const NEARER_TOLERANCE: f64 = 1e-2;
+const MOST_NEARER_STEPS: usize = 20;
+
+/// What is searched, and from where.
+pub(crate) struct Valleys<'s, 'a> {
+    pub residual: &'s TighteningResidual<'a>,
+    pub set: &'s Constraints,
+    /// In the order of preference.
+    pub starts: &'s [Vec<f64>],
+    /// The first so many differ in the effects' parameters; what follows are the same again with other m, c, k.
+    pub distinct_starts: usize,
+    pub subject: &'s Subject<'a>,
+    pub settings: &'s IdentifySettings,
+}
+
+impl<'a> Valleys<'_, 'a> {
+    /// The lowest end that was found. Where an effect lets go of the hand's spring, many optima lie close together: what
+    /// leaves more than noise is begun again from where it ended, and from where it began, seen from ever nearer.
+    pub fn lowest(&self) -> Result<Fit, IdentifyError> {
+        let fit = self.searched()?;
+        let lets_go = self.subject.model.effects().any(Effect::lets_go);
+        if !lets_go || !self.residual.is_whitened() || self.is_beyond_doubt(&fit) {
+            return Ok(fit);
+        }
+        let mut work = fit.work;
+        let mut ends = vec![fit];
+        for start in once(&ends[0].values.clone()).chain(self.starts) {
+            let end = self.ever_nearer(start, &mut work)?;
+            let is_beyond_doubt = self.is_beyond_doubt(&end);
+            ends.push(end);
+            if is_beyond_doubt {
+                break;
+            }
+        }
+        best(ends, work)
+    }
+
+    /// Where the residual leads to that is averaged over ever fewer samples.
+    fn ever_nearer(&self, start: &[f64], work: &mut Work) -> Result<Fit, IdentifyError> {
+        let rough = rough_solver(self.settings, NEARER_TOLERANCE, MOST_NEARER_STEPS);
+        let mut values = start.to_vec();
+        for reach in REACHES {
+            let averaged = self.residual.averaged(reach);
+            values = self.followed(&averaged, values, &rough, work)?.values;
+        }
+        self.followed(self.residual, values, &self.settings.solver, work)
+    }
+
+    /// Where a fit from one start ends.
+    fn followed(
+        &self,
+        residual: &TighteningResidual<'a>,
+        start: Vec<f64>,
+        solver: &Settings,
+        work: &mut Work,
+    ) -> Result<Fit, IdentifyError> {
+        let (ends, more) = race(residual, &[start], self.set, solver, RULES)?;
+        work.add(&more);
+        best(ends, more)
+    }
+
+    /// The best of the ends that the starts lead to. Of several starts, what they lead to along the measured motion is tried
+    /// first; that is the answer where it leaves no doubt. Otherwise those that lead on in a rough fit are followed to the
+    /// end as well; all of them where that comes to nothing, or leaves so much that a lower valley may have been missed.
+    fn searched(&self) -> Result<Fit, IdentifyError> {
+        let (subject, settings) = (self.subject, self.settings);
+        let (mut ends, mut work): (Vec<Fit>, Work) = Default::default();
+        let mut follow = |starts: &[Vec<f64>], before: &Work| {
+            let (more, on_all) = race(self.residual, starts, self.set, &settings.solver, RULES)?;
+            ends.extend(more);
+            work.add(before);
+            work.add(&on_all);
+            best(ends.clone(), work)
+        };
+        if self.starts.len() > 1
+            && let Some(rough) = RoughRecord::of(subject, settings.fitted_output)
+        {
+            if let Some(guided) = self.guided(&rough)? {
+                let fit = follow(&guided.starts, &guided.work)?;
+                if self.is_beyond_doubt(&fit) {
+                    return Ok(fit);
+                }
+            }
+            if let Some(tried) = rough.try_from(self.starts, subject, self.set, settings)? {
+                let fit = follow(&tried.starts, &tried.work)?;
+                if fit.status.is_converged() && !self.is_far_off(&fit) {
+                    return Ok(fit);
+                }
+            }
+        }
+        follow(self.starts, &Work::default())
+    }
+
+    /// What the starts lead to along the measured motion, which needs no m, c, k from elsewhere; only where the noise is
+    /// known, since nothing else says when a fit is good enough.
+    pub fn guided(&self, rough: &RoughRecord) -> Result<Option<Tried>, IdentifyError> {
+        if !self.residual.is_whitened() {
+            return Ok(None);
+        }
+        let distinct = &self.starts[..self.distinct_starts];
+        try_guided(rough, self.subject, distinct, self.set, self.settings)
+    }
+
+    /// Whether a fit leaves hardly more than noise, inside the constraints, and the effects are surely there: another
+    /// valley may then be as low by chance, but not lower by much.
+    pub fn is_beyond_doubt(&self, fit: &Fit) -> bool {
+        let is_close = fit.sum_of_squares() < CLOSE * fit.residual_count as f64;
+        let errors = fit.covariance(ResidualNoise::Unit).standard_errors;
+        let of_effects = (self.residual.free().iter().zip(&fit.values).zip(&errors))
+            .filter(|((index, _), _)| **index >= BASE_PARAMETERS.len());
+        let mut of_effects =
+            of_effects.map(|((_, value), error)| error.is_some_and(|e| value.abs() > SURE * e));
+        fit.status == Status::Converged && is_close && of_effects.all(|is_sure| is_sure)
+    }
+
+    /// Whether a fit whose noise is known leaves far more than that.
+    fn is_far_off(&self, fit: &Fit) -> bool {
+        let noise = fit.residual_count as f64;
+        self.residual.is_whitened() && fit.sum_of_squares() > FAR_OFF * noise
+    }
+}
