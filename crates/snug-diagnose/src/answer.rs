@@ -202,7 +202,7 @@ impl Examination<'_> {
             return Verdict::UnlistedEffect;
         }
         // What takes several effects and still leaves more than noise is something else, in pieces.
-        if self.climb.additions.len() > 1 && last.is_weighted && !last.is_at_floor() {
+        if self.climb.additions.len() > 1 && last.is_beyond_noise() {
             return Verdict::UnlistedEffect;
         }
         let floor = match self.climb.additions.is_empty() {

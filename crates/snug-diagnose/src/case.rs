@@ -1,5 +1,5 @@
 use snug_campaign::{Quantity, Tightening};
-use snug_identify::{ConstraintKind, Whitening};
+use snug_identify::{ConstraintKind, Whitening, motions_at};
 use snug_model::{Effect, Input, Model};
 
 use crate::DiagnoseError;
@@ -77,10 +77,7 @@ impl Case {
             return None;
         }
         let apart = (RESTARTED_EVERY_S / self.tightening.time_base.interval_s).ceil() as usize;
-        let motions = angle_rad.iter().zip(velocity_rad_per_s).step_by(apart);
-        let motions = motions
-            .map(|(angle, velocity)| [*angle, *velocity])
-            .collect();
+        let motions = motions_at(angle_rad, velocity_rad_per_s, apart);
         let mut led = self.clone();
         led.input = led.input.with_restarts(apart, motions);
         Some(led)

@@ -2,7 +2,7 @@
 
 use crate::DiagnoseSettings;
 use crate::evidence::agreement;
-use crate::fitted::{AT_FLOOR, Fitted};
+use crate::fitted::Fitted;
 use crate::ranking::{Candidate, Ranking};
 use crate::units::Units;
 use crate::unlisted::is_unlisted;
@@ -82,10 +82,9 @@ impl Climb {
     /// good part of an error that is beyond the noise.
     pub fn is_promising(&self, settings: &DiagnoseSettings) -> Option<&Candidate> {
         let last = self.last();
-        let beyond_noise = last.is_weighted && last.error() > AT_FLOOR;
         self.ranking.candidates.iter().find(|candidate| {
             let is_seldom = candidate.p_family < PROMISING_P;
-            let explains = beyond_noise && candidate.gain() > GOOD_PART * misfit(last);
+            let explains = last.is_beyond_noise() && candidate.gain() > GOOD_PART * misfit(last);
             candidate.p_family > settings.level
                 && (is_seldom || explains)
                 && candidate.gain() > 2.0 * settings.smallest_gain * last.squares()

@@ -195,6 +195,11 @@ impl Fitted {
         self.is_weighted && self.error() < AT_FLOOR
     }
 
+    /// Whether it leaves more than the noise, as far as that is known.
+    pub fn is_beyond_noise(&self) -> bool {
+        self.is_weighted && !self.is_at_floor()
+    }
+
     pub fn own_named(&self, member: usize) -> Vec<(String, f64)> {
         self.own_names
             .iter()

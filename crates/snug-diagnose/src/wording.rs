@@ -188,12 +188,11 @@ pub(crate) fn headline(situation: &Situation<'_>) -> String {
             format!("{what}: with it the error falls {falls}.")
         }
         (Verdict::UnlistedEffect, None) if !added.is_empty() => {
-            let is_complete = situation.after.is_at_floor() || !situation.after.is_weighted;
-            let describes = match (is_complete, added.len()) {
-                (true, 1) => "describes",
-                (true, _) => "describe",
-                (false, 1) => "comes nearest to",
-                (false, _) => "together come nearest to",
+            let describes = match (situation.after.is_beyond_noise(), added.len()) {
+                (false, 1) => "describes",
+                (false, _) => "describe",
+                (true, 1) => "comes nearest to",
+                (true, _) => "together come nearest to",
             };
             format!(
                 "Something that is not in the catalogue acts here; {} {describes} it, and the error falls {fell}.",

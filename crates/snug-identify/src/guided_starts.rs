@@ -55,9 +55,14 @@ fn along_motion(rough: &RoughRecord, subject: &Subject<'_>) -> Option<Input> {
     let measured = |quantity| subject.tightening.motion.get(quantity);
     let angle_rad = rough.means_of(measured(Quantity::Displacement)?);
     let velocity_rad_per_s = rough.means_of(measured(Quantity::Velocity)?);
-    let motions = angle_rad.iter().zip(&velocity_rad_per_s).step_by(APART);
-    let motions = motions
-        .map(|(angle, velocity)| [*angle, *velocity])
-        .collect();
+    let motions = motions_at(&angle_rad, &velocity_rad_per_s, APART);
     Some(rough.input.clone().with_restarts(APART, motions))
+}
+
+/// Angle \[rad\] and velocity \[rad/s\] at every `apart`th sample, to restart a simulation from.
+pub fn motions_at(angle_rad: &[f64], velocity_rad_per_s: &[f64], apart: usize) -> Vec<[f64; 2]> {
+    let motions = angle_rad.iter().zip(velocity_rad_per_s).step_by(apart);
+    motions
+        .map(|(angle, velocity)| [*angle, *velocity])
+        .collect()
 }

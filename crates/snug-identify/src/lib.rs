@@ -48,6 +48,7 @@ pub use dense::inner_product;
 pub use difference_residual::DifferenceResidual;
 pub use error::{EvaluationError, IdentifyError};
 pub use fit::{ActiveConstraint, Fit, Status, Work};
+pub use guided_starts::motions_at;
 pub use identifiability::Identifiability;
 pub use least_squares::LeastSquares;
 pub use linearization::Linearization;
