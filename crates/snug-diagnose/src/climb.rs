@@ -122,6 +122,13 @@ impl Candidate {
         leaves_more(&self.fitted, &other.fitted, &other.beyond(self), units)
     }
 
+    /// Whether it explains hardly less than `best`.
+    pub fn keeps_up_with(&self, best: &Self, units: &Units) -> bool {
+        self.gain() > AS_MUCH * best.gain()
+            && best.ahead_of(self) < EQUAL
+            && !self.falls_short_of(best, units)
+    }
+
     /// Whether held-out tightenings gain, and by more than one would expect of their scatter.
     fn gains_clearly(&self) -> bool {
         self.gain() > 0.0 && self.clearness() > 1.0
@@ -139,7 +146,7 @@ pub(crate) fn justified(
         Some(index) => {
             let candidate = &ranking.candidates[index];
             let share = candidate.gain() / current.squares();
-            match share >= settings.smallest_gain {
+            match share >= settings.matters_beside(current) {
                 true => Ok(index),
                 false => Err(Stop::TooSmall {
                     effect: candidate.effect,
@@ -183,7 +190,7 @@ fn noise(fitted: &Fitted, count: usize) -> f64 {
 /// Standard deviations within which two candidates explain equally much.
 pub(crate) const EQUAL: f64 = 2.0;
 
-/// Share of what a candidate explains that another must explain, too, to be its twin.
+/// Share of what a candidate explains that another must explain, too, to keep up with it.
 const AS_MUCH: f64 = 0.5;
 
 /// Growth of the squared residual of a long record that is no matter of chance.
@@ -208,9 +215,8 @@ pub(crate) fn twins(ranking: &Ranking, index: usize, units: &Units) -> Vec<Effec
             other.effect != chosen.effect
                 && (is_unlisted(chosen.effect) || !is_unlisted(other.effect))
                 && other.gains_clearly()
-                && other.gain() > AS_MUCH * chosen.gain()
-                && chosen.ahead_of(other).abs() < EQUAL
-                && !other.falls_short_of(chosen, units)
+                && chosen.ahead_of(other) > -EQUAL
+                && other.keeps_up_with(chosen, units)
         })
         .map(|other| other.effect)
         .collect()

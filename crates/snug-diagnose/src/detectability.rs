@@ -23,7 +23,7 @@ pub(crate) fn cards(
     settings: &DiagnoseSettings,
 ) -> Vec<Detectability> {
     let needed = ((FAMILY_Z + POWER_Z).powi(2) * fitted.scale())
-        .max(settings.smallest_gain * fitted.squares());
+        .max(settings.matters_beside(fitted) * fitted.squares());
     ranking
         .candidates
         .iter()

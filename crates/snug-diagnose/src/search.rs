@@ -117,10 +117,7 @@ impl Search<'_> {
     /// term that makes most of the base model superfluous.
     fn single(&self, ranking: &Ranking, best: usize) -> usize {
         let all = &ranking.candidates;
-        let is_equal = |other: usize| {
-            all[best].ahead_of(&all[other]) < EQUAL
-                && !all[other].falls_short_of(&all[best], &self.units)
-        };
+        let is_equal = |other: usize| all[other].keeps_up_with(&all[best], &self.units);
         if let Some(listed) = self.listed(ranking).filter(|&listed| is_equal(listed)) {
             return listed;
         }
@@ -169,7 +166,7 @@ impl Search<'_> {
         let one = &ranking.candidates[single];
         let better = together.gain() > one.gain() && together.ahead_of(one) > EQUAL;
         // Two catalogue effects that leave as little as one unlisted term are the likelier story.
-        let as_good = is_unlisted(one.effect) && one.ahead_of(&together) < EQUAL;
+        let as_good = is_unlisted(one.effect) && together.keeps_up_with(one, &self.units);
         Ok(match better || as_good {
             true => self.larger_first(current, ranking, seed, second),
             false => alone,
@@ -198,17 +195,12 @@ impl Search<'_> {
 
     /// Whether `left` is far from the noise for a model that should explain what `current` misses.
     fn leaves_much(&self, left: &Fitted, current: &Fitted) -> bool {
-        misfit(left) > MUCH_LEFT * misfit(current) && !self.is_noise(left)
+        misfit(left) > MUCH_LEFT * misfit(current) && !is_noise(left)
     }
 
     /// Whether `left` is next to nothing of what `current` misses, so that no others could be far ahead.
     fn completes(&self, left: &Fitted, current: &Fitted) -> bool {
-        misfit(left) < LITTLE_LEFT * misfit(current) && self.is_noise(left)
-    }
-
-    /// Whether what is left is within twice what matters of the measured noise.
-    fn is_noise(&self, left: &Fitted) -> bool {
-        left.is_weighted && left.scale() < 1.0 + 2.0 * self.settings.smallest_gain
+        misfit(left) < LITTLE_LEFT * misfit(current) && is_noise(left)
     }
 
     /// The two catalogue effects that together explain most: where the first stands in the ranking, both, the second.
@@ -294,6 +286,13 @@ impl Search<'_> {
 
 type Step = (Addition, Fitted);
 
+/// Whether `left` leaves no more than the noise and a little.
+fn is_noise(left: &Fitted) -> bool {
+    left.is_weighted && left.scale() < NOISE_AND_A_LITTLE
+}
+
+/// In units of the noise's variance.
+const NOISE_AND_A_LITTLE: f64 = 1.02;
 /// Share of the misfit left by one effect beyond which two are tried together.
 const MUCH_LEFT: f64 = 0.1;
 /// Share of the misfit left by two effects below which no other two are looked for.

@@ -1,3 +1,4 @@
+use crate::fitted::Fitted;
 use serde::{Deserialize, Serialize};
 
 /// How the missing effect is looked for.
@@ -9,8 +10,11 @@ pub struct DiagnoseSettings {
     /// Largest family-wise p at which an effect counts as supported; default 0.05.
     pub level: f64,
     /// Smallest share of the squared residual that an effect must remove in held-out tightenings to matter; default 0.01
-    /// (half a percent of the error). Less than that is within reach of torque noise and of how samples are held.
+    /// (half a percent of the error). Less than that may be a piece of what else is missing.
     pub smallest_gain: f64,
+    /// The same where the model already comes down to the noise, and nothing else is missing; default 0.003. Less than that
+    /// is within reach of torque noise and of how samples are held.
+    pub smallest_gain_at_noise: f64,
     /// Starts from which each effect is tried along the measured motion, the most promising freely as well; default 8.
     pub starts: usize,
     /// Campaigns of nothing but noise on which the ranking is tried as a negative control; default 200.
@@ -25,9 +29,20 @@ impl Default for DiagnoseSettings {
             sign_flips: 1999,
             level: 0.05,
             smallest_gain: 0.01,
+            smallest_gain_at_noise: 0.003,
             starts: 8,
             control_campaigns: 200,
             seed: 0,
+        }
+    }
+}
+
+impl DiagnoseSettings {
+    /// Smallest share of the squared residual of `current` that an effect must remove to matter beside it.
+    pub(crate) fn matters_beside(&self, current: &Fitted) -> f64 {
+        match current.is_at_floor() {
+            true => self.smallest_gain_at_noise,
+            false => self.smallest_gain,
         }
     }
 }

@@ -29,8 +29,8 @@ pub(crate) fn try_removals(search: &Search<'_>, climb: &mut Climb) -> Result<(),
         let losses = gains(&without.heldout_beyond_torque_noise(), &full);
         let loss: f64 = losses.iter().sum();
         let growth = loss / full.squares();
-        let removed =
-            growth < search.settings.smallest_gain || clearness(&losses, full.scale()) < 1.0;
+        let hardly_matters = growth < search.settings.matters_beside(&without);
+        let removed = hardly_matters || clearness(&losses, full.scale()) < 1.0;
         climb.attempts.push(Attempt {
             effect,
             removed,

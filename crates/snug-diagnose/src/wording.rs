@@ -367,10 +367,10 @@ pub(crate) fn stopped(situation: &Situation<'_>) -> Option<String> {
             situation.settings.level * 100.0
         ),
         Stop::TooSmall { effect, share } => format!(
-            "The best of the rest, {}, would lower the squared error by {:.2} %, less than the {:.0} % that matter here: that much is within reach of noise in the torque signal and of the timing between samples. If it shows at the bench all the same, add it: while it is left out, the sizes found here lean to make up for it.",
+            "The best of the rest, {}, would lower the squared error by {:.2} %, less than the {:.1} % that matter here: that much is within reach of noise in the torque signal and of the timing between samples. If it shows at the bench all the same, add it: while it is left out, the sizes found here lean to make up for it.",
             spoken(effect),
             share * 100.0,
-            situation.settings.smallest_gain * 100.0
+            situation.settings.matters_beside(situation.after) * 100.0
         ),
         Stop::Full => "The model carries as many effects as can be told apart; look at the data before adding more.".to_owned(),
         Stop::Interrupted => match situation.additions.len() {

@@ -69,6 +69,12 @@ impl DiagnosisSettings {
                 "0 or more and below 1",
             ),
             (
+                "diagnosis.search.smallest_gain_at_noise",
+                search.smallest_gain_at_noise,
+                (0.0..1.0).contains(&search.smallest_gain_at_noise),
+                "0 or more and below 1",
+            ),
+            (
                 "diagnosis.search.starts",
                 search.starts as f64,
                 search.starts >= 1,

@@ -42,7 +42,12 @@ pub(crate) fn settle(study: &Study, cases: &[Case]) -> Option<Settled> {
                     every = three_digits(every_s)
                 ));
                 let search = &mut settled.study.diagnosis.search;
-                search.smallest_gain = search.smallest_gain.max(RESTARTED_GAIN);
+                for gain in [
+                    &mut search.smallest_gain,
+                    &mut search.smallest_gain_at_noise,
+                ] {
+                    *gain = gain.max(RESTARTED_GAIN);
+                }
                 Simulation::Restarted { every_s }
             }
             _ => Simulation::FreeRun,
