@@ -6,6 +6,7 @@
 
 use snug_campaign::{AddedEffect, Diagnosis, Verdict};
 use snug_diagnose::{Case, DiagnoseSettings, Goal, Question, Watch, examine};
+use snug_model::Law;
 use snug_study::{Preset, Study};
 use snug_synthetic::{
     CampaignPlan, HiddenEffect as Hidden, MatStyle, NoiseKind, Truth, ZeroErrors, simulate,
@@ -276,6 +277,7 @@ fn a_law_outside_the_catalogue_is_called_so() {
         Hidden::CubicDamping,
         Hidden::QuinticStiffness,
         Hidden::ExponentialStiffness,
+        Hidden::EndStop,
     ];
     let laws = if snug_tests::blind() {
         &every[..]
@@ -290,4 +292,31 @@ fn a_law_outside_the_catalogue_is_called_so() {
         }
     }
     assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+/// What is offered to be pasted into a study is a law that a study can declare, and describes what was hidden.
+#[test]
+fn a_law_with_two_numbers_is_found_and_can_be_pasted() {
+    let diagnosis = ask(&campaign(&[Hidden::EndStop], 0.4, 1).cases, Goal::Improve);
+    let unlisted = diagnosis.unlisted.unwrap();
+    assert_eq!(
+        unlisted.expression, "p*max(0,x-x0)",
+        "{}",
+        diagnosis.headline
+    );
+    for (found, hidden) in diagnosis.added[0].parameters.iter().zip([2000.0, 0.007]) {
+        assert!((found.value / hidden - 1.0).abs() < 0.05, "{found:?}");
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("study.ron");
+    std::fs::write(&path, format!("(model: (custom: [{}]))", unlisted.ron)).unwrap();
+    let declared = Study::read(&path).unwrap().model.custom_effects().unwrap();
+    let parameters = declared[0].description().parameters;
+    let starts: Vec<f64> = parameters.iter().map(|one| one.starts[0]).collect();
+    for (start, found) in starts.iter().zip(&diagnosis.added[0].parameters) {
+        assert!(
+            (start / found.value - 1.0).abs() < 1e-3,
+            "{start} {found:?}"
+        );
+    }
 }

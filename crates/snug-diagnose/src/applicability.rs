@@ -21,7 +21,7 @@ pub(crate) fn candidates(
         .collect::<Result<Vec<Effect>, _>>()?;
     all.retain(|effect| !(only_this && effect.same_as(compared).is_some()));
     all.extend(custom);
-    all.extend(terms()?);
+    all.extend(terms(is_machine(case))?);
     all.retain(|effect| !current.effects.contains(effect));
     // What a simulation cannot carry beside the effects that are there is no candidate.
     all.retain(|&effect| {
@@ -37,14 +37,18 @@ pub(crate) fn candidates(
 /// itself; and a simulation that takes up the measured motion begins with it.
 fn can_act(effect: Effect, case: &Case) -> bool {
     let description = effect.description();
-    let is_machine = matches!(case.model.scale(), Scale::Rig { .. });
     let has_accelerometer = case.quantity == Quantity::Acceleration
         || case.tightening.motion.acceleration_rad_per_s2.is_some();
     let is_set = effect.sets_initial_motion() && case.input.is_restarted();
     let is_of_another = match description.kind {
-        Kind::Muscular => is_machine,
+        Kind::Muscular => is_machine(case),
         Kind::Measurement => !has_accelerometer && description.of_accelerometer(),
         _ => false,
     };
     !is_of_another && !is_set
+}
+
+/// Whether nobody holds the rig.
+fn is_machine(case: &Case) -> bool {
+    matches!(case.model.scale(), Scale::Rig { .. })
 }

@@ -8,6 +8,7 @@ use crate::hypothesis::{Hypothesis, Start};
 use crate::long_record;
 use crate::sizes::first_parameter;
 use crate::units::Units;
+use crate::unlisted::is_unlisted;
 use crate::{DiagnoseError, DiagnoseSettings};
 use snug_identify::{IdentifyError, PooledFit, PooledSettings, REACHES};
 use snug_model::{BASE_PARAMETERS, Effect, Law, Scope};
@@ -75,7 +76,13 @@ pub(crate) fn refit(
 ) -> Result<Fitted, DiagnoseError> {
     let mut effects = current.effects.clone();
     effects.push(effect);
-    let starts = promising(effect, columns, settings.starts);
+    // A term describes; which of its starts promises most is near enough to begin with.
+    let most = if is_unlisted(effect) {
+        1
+    } else {
+        settings.starts
+    };
+    let starts = promising(effect, columns, most);
     let mut hypothesis = Hypothesis::new(cases, &effects)?;
     let starts: Vec<Start> = (starts.iter())
         .map(|values| with_effect(&hypothesis, current, effect, values))

@@ -4,119 +4,237 @@
 use crate::DiagnoseError;
 use snug_model::{CustomEffect, CustomEffectSettings, CustomParameterSettings, Effect, Place};
 
-/// One candidate: name, expression of force \[N\] and unit of its factor p.
+/// One candidate: name and expression of force \[N\].
 struct Term {
     name: &'static str,
     expression: &'static str,
+    parameters: &'static [Factor],
+}
+
+/// A number in an expression.
+struct Factor {
+    name: &'static str,
     unit: &'static str,
+    /// Worth trying, the usual one first.
+    starts: &'static [f64],
+    minimum: f64,
+    maximum: f64,
+}
+
+/// The factor p of a term that has no other number.
+const fn p(unit: &'static str) -> Factor {
+    Factor {
+        name: "p",
+        unit,
+        starts: &[0.0],
+        minimum: f64::NEG_INFINITY,
+        maximum: f64::INFINITY,
+    }
 }
 
 const TERMS: &[Term] = &[
     Term {
         name: "x_v_law",
         expression: "p*x*v",
-        unit: "N s/m^2",
+        parameters: &[p("N s/m^2")],
     },
     Term {
         name: "x2_v_law",
         expression: "p*x^2*v",
-        unit: "N s/m^3",
+        parameters: &[p("N s/m^3")],
     },
     Term {
         name: "abs_x_v_law",
         expression: "p*abs(x)*v",
-        unit: "N s/m^2",
+        parameters: &[p("N s/m^2")],
     },
     Term {
         name: "x_v2_law",
         expression: "p*x*v^2",
-        unit: "N s^2/m^3",
+        parameters: &[p("N s^2/m^3")],
     },
     Term {
         name: "x_v_abs_v_law",
         expression: "p*x*v*abs(v)",
-        unit: "N s^2/m^3",
+        parameters: &[p("N s^2/m^3")],
     },
     Term {
         name: "v2_law",
         expression: "p*v^2",
-        unit: "N s^2/m^2",
+        parameters: &[p("N s^2/m^2")],
     },
     Term {
         name: "v3_law",
         expression: "p*v^3",
-        unit: "N s^3/m^3",
+        parameters: &[p("N s^3/m^3")],
     },
     Term {
         name: "sqrt_v_law",
         expression: "p*v/sqrt(abs(v)+0.001)",
-        unit: "N s^0.5/m^0.5",
+        parameters: &[p("N s^0.5/m^0.5")],
     },
     Term {
         name: "stribeck_law",
-        expression: "p*tanh(v/0.01)*exp(-(v/0.05)^2)",
-        unit: "N",
+        expression: "p*tanh(v/0.002)*exp(-(v/v0)^2)",
+        parameters: &[
+            Factor {
+                starts: &[1.0],
+                ..p("N")
+            },
+            Factor {
+                name: "v0",
+                unit: "m/s",
+                starts: &[0.05, 0.1],
+                minimum: 0.005,
+                maximum: 1.0,
+            },
+        ],
+    },
+    Term {
+        name: "end_stop_law",
+        expression: "p*max(0,x-x0)",
+        parameters: &[
+            Factor {
+                starts: &[1000.0],
+                ..p("N/m")
+            },
+            Factor {
+                name: "x0",
+                unit: "m",
+                starts: &[0.005, 0.01],
+                minimum: 0.0005,
+                maximum: 0.05,
+            },
+        ],
+    },
+    Term {
+        name: "exponential_spring_law",
+        expression: "p*(exp(x/x0)-1-x/x0)",
+        parameters: &[
+            Factor {
+                starts: &[1.0],
+                ..p("N")
+            },
+            Factor {
+                name: "x0",
+                unit: "m",
+                starts: &[0.01, 0.005],
+                minimum: 0.002,
+                maximum: 0.1,
+            },
+        ],
+    },
+    Term {
+        name: "latch_law",
+        expression: "p*tanh((x-x0)/0.001)",
+        parameters: &[
+            Factor {
+                starts: &[2.0],
+                ..p("N")
+            },
+            Factor {
+                name: "x0",
+                unit: "m",
+                starts: &[0.0, 0.004, 0.008],
+                minimum: -0.02,
+                maximum: 0.05,
+            },
+        ],
+    },
+    Term {
+        name: "late_damping_law",
+        expression: "p*v*smooth_step((t-t0)/0.05)",
+        parameters: &[
+            Factor {
+                starts: &[5.0],
+                ..p("N s/m")
+            },
+            Factor {
+                name: "t0",
+                unit: "s",
+                starts: &[0.08, 0.04, 0.12],
+                minimum: 0.0,
+                maximum: 0.3,
+            },
+        ],
     },
     Term {
         name: "x4_law",
         expression: "p*x^4",
-        unit: "N/m^4",
+        parameters: &[p("N/m^4")],
     },
     Term {
         name: "x5_law",
         expression: "p*x^5",
-        unit: "N/m^5",
+        parameters: &[p("N/m^5")],
     },
     Term {
         name: "abs_x_x_law",
         expression: "p*x*abs(x)",
-        unit: "N/m^2",
+        parameters: &[p("N/m^2")],
     },
     Term {
         name: "abs_x_friction_law",
         expression: "p*abs(x)*tanh(v/0.01)",
-        unit: "N/m",
+        parameters: &[p("N/m")],
     },
     Term {
         name: "x_abs_v_law",
         expression: "p*x*abs(v)",
-        unit: "N s/m^2",
+        parameters: &[p("N s/m^2")],
     },
     Term {
         name: "torque_v_law",
         expression: "p*T*v",
-        unit: "s/m^2",
+        parameters: &[p("s/m^2")],
     },
     Term {
         name: "sine_law",
         expression: "p*sin(theta)",
-        unit: "N",
+        parameters: &[p("N")],
     },
 ];
 
-/// Every term as an effect.
-pub(crate) fn terms() -> Result<Vec<Effect>, DiagnoseError> {
-    TERMS
-        .iter()
-        .map(|term| Ok(CustomEffect::intern(&settings(term))?))
+/// Every term as an effect, on a machine those that need no pulse to count time from.
+pub(crate) fn terms(is_machine: bool) -> Result<Vec<Effect>, DiagnoseError> {
+    let can_act = |term: &&Term| !(is_machine && term.counts_time());
+    let able = TERMS.iter().filter(can_act);
+    able.map(|term| Ok(CustomEffect::intern(&term.settings())?))
         .collect()
 }
 
 /// How a study declares the term called `name`.
 pub(crate) fn declaration(name: &str) -> Option<CustomEffectSettings> {
-    TERMS.iter().find(|term| term.name == name).map(settings)
+    let found = TERMS.iter().find(|term| term.name == name);
+    found.map(Term::settings)
 }
 
-fn settings(term: &Term) -> CustomEffectSettings {
-    CustomEffectSettings {
-        name: term.name.to_owned(),
-        place: Place::Force,
-        expression: term.expression.to_owned(),
-        parameters: vec![CustomParameterSettings {
-            name: "p".to_owned(),
-            unit: term.unit.to_owned(),
-            ..CustomParameterSettings::default()
-        }],
+impl Term {
+    fn counts_time(&self) -> bool {
+        self.parameters.iter().any(|factor| factor.unit == "s")
+    }
+
+    fn settings(&self) -> CustomEffectSettings {
+        CustomEffectSettings {
+            name: self.name.to_owned(),
+            place: Place::Force,
+            expression: self.expression.to_owned(),
+            parameters: self.parameters.iter().map(Factor::settings).collect(),
+        }
+    }
+}
+
+impl Factor {
+    fn settings(&self) -> CustomParameterSettings {
+        CustomParameterSettings {
+            name: self.name.to_owned(),
+            unit: self.unit.to_owned(),
+            start: self.starts[0],
+            further_starts: self.starts[1..].to_vec(),
+            minimum: self.minimum,
+            maximum: self.maximum,
+            shared: true,
+        }
     }
 }
 

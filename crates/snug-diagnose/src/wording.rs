@@ -367,10 +367,14 @@ pub(crate) fn stopped(situation: &Situation<'_>) -> Option<String> {
             situation.settings.level * 100.0
         ),
         Stop::TooSmall { effect, share } => format!(
-            "The best of the rest, {}, would lower the squared error by {:.2} %, less than the {:.1} % that matter here: that much is within reach of noise in the torque signal and of the timing between samples. If it shows at the bench all the same, add it: while it is left out, the sizes found here lean to make up for it.",
+            "The best of the rest, {}, would lower the squared error by {:.2} %, less than the {:.1} % that matter here: {}. If it shows at the bench all the same, add it: while it is left out, the sizes found here lean to make up for it.",
             spoken(effect),
             share * 100.0,
-            situation.settings.matters_beside(situation.after) * 100.0
+            situation.settings.matters_beside(situation.after) * 100.0,
+            match situation.after.is_at_floor() {
+                true => "that much is within reach of noise in the torque signal and of the timing between samples",
+                false => "that much may be a piece of what else is missing",
+            }
         ),
         Stop::Full => "The model carries as many effects as can be told apart; look at the data before adding more.".to_owned(),
         Stop::Interrupted => match situation.additions.len() {
@@ -424,7 +428,11 @@ fn symbols(expression: &str) -> String {
         ("v", "v: its velocity"),
         ("theta", "theta: the tool's angle"),
         ("T", "T: joint torque"),
+        ("t", "t: time since the pulse began"),
         ("p", "p: its size"),
+        ("x0", "x0: a displacement"),
+        ("v0", "v0: a speed"),
+        ("t0", "t0: a time"),
     ];
     let used = meanings
         .iter()
@@ -463,14 +471,27 @@ pub(crate) fn unlisted(
     )
 }
 
-/// RON for the study's `model.custom` list.
-pub(crate) fn paste(declared: &CustomEffectSettings, parameters: &[EffectParameter]) -> String {
-    let unit = parameters
-        .first()
-        .map_or("", |parameter| parameter.unit.as_str());
-    let start = parameters.first().map_or(0.0, |parameter| parameter.value);
+/// RON for the study's `model.custom` list: the term, starting from what was found.
+pub(crate) fn paste(declared: &CustomEffectSettings, found: &[EffectParameter]) -> String {
+    let pairs = declared.parameters.iter().zip(found);
+    let parameters: Vec<String> = pairs
+        .map(|(one, found)| {
+            let mut text = format!(
+                "(name: \"{}\", unit: \"{}\", start: {:.4e}",
+                one.name, found.unit, found.value
+            );
+            for (name, bound) in [("minimum", one.minimum), ("maximum", one.maximum)] {
+                if bound.is_finite() {
+                    text += &format!(", {name}: {bound}");
+                }
+            }
+            text + ")"
+        })
+        .collect();
     format!(
-        "(name: \"{}\", place: Force, expression: \"{}\", parameters: [(name: \"p\", unit: \"{unit}\", start: {start:.4e})])",
-        declared.name, declared.expression
+        "(name: \"{}\", place: Force, expression: \"{}\", parameters: [{}])",
+        declared.name,
+        declared.expression,
+        parameters.join(", ")
     )
 }

@@ -184,7 +184,7 @@ fn describe(settings: &CustomEffectSettings, program: &Program) -> &'static Desc
             name: kept(parameter.name.clone()),
             meaning: kept(parameter.name.clone()),
             unit: kept(parameter.unit.clone()),
-            starts: Box::leak(Box::new([parameter.start])),
+            starts: parameter.starts().collect::<Vec<f64>>().leak(),
             minimum: parameter.minimum,
             maximum: parameter.maximum,
             limits: (parameter.minimum, parameter.maximum),

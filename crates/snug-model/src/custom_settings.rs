@@ -1,6 +1,7 @@
 use crate::expression::{self, Variable};
 use crate::{Effect, ModelError};
 use serde::{Deserialize, Serialize};
+use std::iter::once;
 
 /// Where a custom effect's expression is added.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -55,6 +56,9 @@ pub struct CustomParameterSettings {
     pub unit: String,
     /// Starting value in that unit; default 0.
     pub start: f64,
+    /// Other values worth starting from, where one start does not lead to the best fit; default none.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub further_starts: Vec<f64>,
     /// Smallest plausible value; default −∞.
     pub minimum: f64,
     /// Largest plausible value; default ∞.
@@ -69,6 +73,7 @@ impl Default for CustomParameterSettings {
             name: String::new(),
             unit: String::new(),
             start: 0.0,
+            further_starts: Vec::new(),
             minimum: f64::NEG_INFINITY,
             maximum: f64::INFINITY,
             shared: true,
@@ -118,17 +123,25 @@ impl CustomEffectSettings {
 }
 
 impl CustomParameterSettings {
+    /// Every starting value, the usual one first.
+    pub(crate) fn starts(&self) -> impl Iterator<Item = f64> + '_ {
+        once(self.start).chain(self.further_starts.iter().copied())
+    }
+
     fn check_range(&self, effect: &str) -> Result<(), ModelError> {
-        let (start, minimum, maximum) = (self.start, self.minimum, self.maximum);
-        if start.is_finite() && minimum < maximum && (minimum..=maximum).contains(&start) {
-            return Ok(());
+        let (minimum, maximum) = (self.minimum, self.maximum);
+        let is_allowed = |start: &f64| {
+            start.is_finite() && minimum < maximum && (minimum..=maximum).contains(start)
+        };
+        match self.starts().find(|start| !is_allowed(start)) {
+            None => Ok(()),
+            Some(start) => Err(ModelError::CustomRange {
+                effect: effect.to_owned(),
+                parameter: self.name.clone(),
+                start,
+                minimum,
+                maximum,
+            }),
         }
-        Err(ModelError::CustomRange {
-            effect: effect.to_owned(),
-            parameter: self.name.clone(),
-            start,
-            minimum,
-            maximum,
-        })
     }
 }

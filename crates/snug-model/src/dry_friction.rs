@@ -38,7 +38,7 @@ impl Scale {
                 start: range.starts[0],
                 minimum: range.minimum,
                 maximum: range.maximum,
-                shared: true,
+                ..CustomParameterSettings::default()
             }],
         };
         CustomEffect::intern_as(&settings, |written: &'static Description| Description {

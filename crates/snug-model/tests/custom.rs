@@ -22,7 +22,7 @@ fn parameter(name: &str) -> CustomParameterSettings {
         start: 1.0,
         minimum: -1e7,
         maximum: 1e7,
-        shared: true,
+        ..Default::default()
     }
 }
 
@@ -264,7 +264,7 @@ fn a_study_declares_names_and_uses_its_own_effects() {
         effects: ["x2v_damping", "cubic_stiffness"],
         custom: [
             (name: "x2v_damping", place: Force, expression: "p*x^2*v", parameters: [
-                (name: "p", unit: "N s/m^3", start: 0.0, minimum: 0.0, maximum: 1e7, shared: true),
+                (name: "p", unit: "N s/m^3", start: 0.0, minimum: 0.0, maximum: 1e7, further_starts: [5.0]),
             ]),
             (name: "drift", place: Measurement, expression: "b*t", parameters: [(name: "b", shared: false)]),
         ],
@@ -283,6 +283,12 @@ fn a_study_declares_names_and_uses_its_own_effects() {
         (parameter.value, parameter.minimum, parameter.maximum),
         (3.0, 0.0, 1e7)
     );
+    let further: Vec<f64> = model
+        .further_starts()
+        .iter()
+        .map(|start| start[3])
+        .collect();
+    assert_eq!(further, [5.0]);
 
     let own = model_settings.custom_effects().unwrap();
     assert_eq!(
@@ -340,7 +346,7 @@ fn what_cannot_be_an_effect_says_why() {
         CustomEffect::intern(&bad).unwrap_err().to_string()
     };
     type Case = (fn(&mut CustomEffectSettings), &'static str);
-    let cases: [Case; 11] = [
+    let cases: [Case; 12] = [
         (
             |bad| bad.name = "cubic_stiffness".into(),
             "`cubic_stiffness` is an effect of the catalogue",
@@ -370,6 +376,10 @@ fn what_cannot_be_an_effect_says_why() {
             "`p` has start 1, minimum 2, maximum 10000000; allowed is a minimum below",
         ),
         (|bad| bad.parameters[0].start = f64::NAN, "has start NaN"),
+        (
+            |bad| bad.parameters[0].further_starts = vec![2.0, 2e7],
+            "has start 20000000",
+        ),
         (
             |bad| bad.expression = "p*y".into(),
             "effect `own_law`: in the expression `p*y`, at character 3, found `y`; allowed is a parameter (p), a variable (x, v",

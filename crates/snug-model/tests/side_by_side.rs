@@ -150,7 +150,7 @@ fn laws_of_a_study() {
             start: 0.7,
             minimum: 0.0,
             maximum: 5.0,
-            shared: true,
+            ..Default::default()
         };
         CustomEffect::intern(&CustomEffectSettings {
             name: name.to_owned(),

@@ -84,6 +84,8 @@ pub enum HiddenEffect {
     QuinticStiffness,
     /// F += f0 (e^{x/x0} − 1 − x/x0) (unlisted).
     ExponentialStiffness,
+    /// F += k_s max(0, x − x_s) (unlisted).
+    EndStop,
 }
 
 /// An effect with its numbers.
@@ -103,7 +105,7 @@ pub enum Law {
 
 impl HiddenEffect {
     /// Every effect, the catalogue's order first, then the unlisted laws.
-    pub const ALL: [Self; 32] = [
+    pub const ALL: [Self; 33] = [
         Self::CubicStiffness,
         Self::QuadraticStiffness,
         Self::CoulombFriction,
@@ -136,6 +138,7 @@ impl HiddenEffect {
         Self::CubicDamping,
         Self::QuinticStiffness,
         Self::ExponentialStiffness,
+        Self::EndStop,
     ];
 
     /// The fixed name, in snake case.
@@ -173,6 +176,7 @@ impl HiddenEffect {
             Self::CubicDamping => "cubic_damping",
             Self::QuinticStiffness => "quintic_stiffness",
             Self::ExponentialStiffness => "exponential_stiffness",
+            Self::EndStop => "end_stop",
         }
     }
 

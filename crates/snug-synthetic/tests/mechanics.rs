@@ -124,10 +124,11 @@ fn dissipative_laws_take_energy_and_conservative_ones_give_it_back() {
         assert!(work > 0.01, "{effect:?} {work} J");
     }
     type PotentialJ = fn(f64) -> f64;
-    let conservative: [(HiddenEffect, PotentialJ); 3] = [
+    let conservative: [(HiddenEffect, PotentialJ); 4] = [
         (CubicStiffness, |x| 3.3e6 * x.powi(4) / 4.0),
         (QuadraticStiffness, |x| 6.0e4 * x.powi(3) / 3.0),
         (QuinticStiffness, |x| 4.0e9 * x.powi(6) / 6.0),
+        (EndStop, |x| 5000.0 * (x - 0.007).max(0.0).powi(2) / 2.0),
     ];
     for (effect, potential_j) in conservative {
         let plant = plant(vec![law(effect, 1.0)]);
@@ -164,6 +165,7 @@ fn effects_push_the_peak_the_right_way() {
         CubicDamping,
         QuinticStiffness,
         ExponentialStiffness,
+        EndStop,
     ] {
         assert!(peak(stiffening) < base, "{stiffening:?}");
     }

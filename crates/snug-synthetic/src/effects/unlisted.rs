@@ -5,6 +5,8 @@ use super::mechanical::FRICTION_SPEED_M_PER_S;
 
 /// Displacement over which the exponential spring stiffens \[m\].
 const STIFFENING_M: f64 = 0.012;
+/// Displacement at which the end stop is met \[m\].
+const STOP_M: f64 = 0.007;
 
 /// An unlisted law with its numbers.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -43,6 +45,13 @@ pub enum UnlistedLaw {
         /// x0 \[m\].
         x0_m: f64,
     },
+    /// F += k_s max(0, x − x_s): the grip meets something that gives way less.
+    EndStop {
+        /// k_s \[N/m\].
+        k_s_n_per_m: f64,
+        /// x_s \[m\].
+        x_s_m: f64,
+    },
 }
 
 impl UnlistedLaw {
@@ -69,6 +78,10 @@ impl UnlistedLaw {
                 f0_n: 8.0 * strength,
                 x0_m: STIFFENING_M,
             },
+            HiddenEffect::EndStop => Self::EndStop {
+                k_s_n_per_m: 5000.0 * strength,
+                x_s_m: STOP_M,
+            },
             _ => return None,
         })
     }
@@ -84,6 +97,7 @@ impl UnlistedLaw {
             Self::CubicDamping { d_n_s3_per_m3 } => vec![d_n_s3_per_m3],
             Self::QuinticStiffness { k5_n_per_m5 } => vec![k5_n_per_m5],
             Self::ExponentialStiffness { f0_n, x0_m } => vec![f0_n, x0_m],
+            Self::EndStop { k_s_n_per_m, x_s_m } => vec![k_s_n_per_m, x_s_m],
         }
     }
 
@@ -102,6 +116,7 @@ impl UnlistedLaw {
                 let u = x / x0_m;
                 f0_n * (u.exp_m1() - u)
             }
+            Self::EndStop { k_s_n_per_m, x_s_m } => k_s_n_per_m * (x - x_s_m).max(0.0),
         }
     }
 }
