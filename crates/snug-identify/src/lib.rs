@@ -19,6 +19,7 @@ mod fit;
 mod fixed_uncertainty;
 mod guided_starts;
 mod identifiability;
+mod instants;
 mod integral_start;
 mod integrated_noise;
 mod interior_point;

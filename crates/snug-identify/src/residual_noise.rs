@@ -2,9 +2,11 @@
 
 use crate::agreement::error_over_noise;
 use crate::dense::inner_product;
+use crate::instants::without_instants;
 use crate::integrated_noise::{IntegratedNoise, drift, to_source};
 use crate::{Fit, Residual, ResidualNoise, Subject, TighteningResidual};
 use snug_campaign::Tightening;
+use snug_model::Effect;
 
 /// Number of stretches whose summed scores are taken as independent where the residual holds more than noise.
 pub(crate) const STRETCHES: usize = 30;
@@ -41,6 +43,8 @@ impl OwnedNoise {
 /// residual than noise: those scores beside the noise, or the integrated noise times the excess.
 pub(crate) struct Inquiry {
     whitened: bool,
+    /// Whether an effect lets go, so that instants of contact say too much.
+    lets_go: bool,
     /// Whether a whitened residual holds more than noise, beyond chance.
     is_misfit: bool,
     /// Variance of an error that is the same in every sample, weighed as the residual.
@@ -51,7 +55,7 @@ pub(crate) struct Inquiry {
 /// What answers an [`Inquiry`], as far as it asks; J is weighed as the residual.
 #[derive(Default)]
 pub(crate) struct Evidence {
-    /// JᵀJ, row-major.
+    /// JᵀJ, or what stands for it where single samples say too much; row-major.
     pub matrix: Vec<f64>,
     /// Jᵀ1.
     pub sums: Vec<f64>,
@@ -91,6 +95,7 @@ impl Inquiry {
         let (tightening, input) = (subject.tightening, subject.input);
         Self {
             whitened: residual.is_whitened(),
+            lets_go: subject.model.effects().any(Effect::lets_go),
             is_misfit: residual.is_whitened() && fit.sum_of_squares() / count > beyond_chance,
             constant_variance: gain * gain * bias_variance(tightening),
             integrated: match residual.is_whitened() {
@@ -102,7 +107,7 @@ impl Inquiry {
 
     /// Whether the answer is known beforehand: white noise of unit variance.
     pub fn is_settled(&self) -> bool {
-        self.whitened && !self.is_misfit && self.constant_variance == 0.0
+        self.whitened && !self.is_misfit && !self.lets_go && self.constant_variance == 0.0
     }
 
     /// Whether the scores are asked for.
@@ -233,8 +238,10 @@ fn evidence(
             mean_square: mean_square_of_known(residual, tightening, fit),
         }
     });
+    let matrix = products(&jacobian, parameters);
+    let fewer = (inquiry.lets_go).then(|| without_instants(&jacobian, parameters, &matrix));
     Some(Evidence {
-        matrix: products(&jacobian, parameters),
+        matrix: fewer.flatten().unwrap_or(matrix),
         sums: columns().map(|column| column.iter().sum()).collect(),
         scores,
         source: source.unwrap_or_default(),
