@@ -195,9 +195,9 @@ const TERMS: &[Term] = &[
     },
 ];
 
-/// Every term as an effect, on a machine those that need no pulse to count time from.
+/// Every term as an effect; on a machine those that have no number but p: places, speeds and times are a hand's.
 pub(crate) fn terms(is_machine: bool) -> Result<Vec<Effect>, DiagnoseError> {
-    let can_act = |term: &&Term| !(is_machine && term.counts_time());
+    let can_act = |term: &&Term| !is_machine || term.parameters.len() == 1;
     let able = TERMS.iter().filter(can_act);
     able.map(|term| Ok(CustomEffect::intern(&term.settings())?))
         .collect()
@@ -210,10 +210,6 @@ pub(crate) fn declaration(name: &str) -> Option<CustomEffectSettings> {
 }
 
 impl Term {
-    fn counts_time(&self) -> bool {
-        self.parameters.iter().any(|factor| factor.unit == "s")
-    }
-
     fn settings(&self) -> CustomEffectSettings {
         CustomEffectSettings {
             name: self.name.to_owned(),
