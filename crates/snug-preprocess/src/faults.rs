@@ -114,7 +114,7 @@ fn double_hit(context: &Context<'_>, window: &Window<'_>, remarks: &mut Remarks)
     }
 }
 
-/// The tool must first move the way the torque pushes.
+/// The tool must first move the way the torque pushes, unless the release shows that it was only in motion before.
 fn inverted_acceleration(
     context: &Context<'_>,
     signals: &Signals,
@@ -132,7 +132,14 @@ fn inverted_acceleration(
     let interval_s = context.interval_s;
     let velocity = polarity::early_velocity(&signals.torque_nm, acceleration, &rise, interval_s);
     let sd = (noise.long_run_variance() * rise.len() as f64).sqrt() * interval_s;
-    if velocity < -INVERTED_SD * sd {
+    let fall = polarity::fall_at_release(
+        &signals.torque_nm,
+        acceleration,
+        rise.end,
+        window.range.end,
+        interval_s,
+    );
+    if velocity < -INVERTED_SD * sd && fall.is_none_or(|fall| fall < 0.0) {
         let message = format!(
             "the tool first moves against the torque ({velocity:.3} rad/s at half the peak torque): one of the signs is \
              wrong; the tightening is rejected"

@@ -49,10 +49,34 @@ pub(crate) fn early_velocity(
     acceleration[rise.start..=until].iter().sum::<f64>() * interval_s
 }
 
+/// Duration over which the acceleration before and after the release is averaged \[s\].
+const BESIDE_RELEASE_S: f64 = 3e-3;
+/// Share of its peak below which the torque is released.
+const RELEASED: f64 = 0.2;
+
+/// By how much the acceleration falls \[rad/s²\] while the torque is released: it must, whatever the tool did before the
+/// pulse. `None` where the torque is not released before `end`.
+pub(crate) fn fall_at_release(
+    torque: &[f64],
+    acceleration: &[f64],
+    peak: usize,
+    end: usize,
+    interval_s: f64,
+) -> Option<f64> {
+    let beside = ((BESIDE_RELEASE_S / interval_s) as usize).max(1);
+    let released = (peak..end).find(|&index| torque[index] < RELEASED * torque[peak])?;
+    let mean = |range: Range<usize>| {
+        let count = range.len().max(1) as f64;
+        acceleration[range].iter().sum::<f64>() / count
+    };
+    let before = mean(peak.saturating_sub(beside)..peak + 1);
+    Some(before - mean(released..(released + beside).min(end)))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::synthetic::{ONSET, PEAK, acceleration, pulse, white_noise};
+    use crate::synthetic::{ONSET, PEAK, SEGMENT, acceleration, pulse, white_noise};
 
     #[test]
     fn a_torque_and_an_acceleration_are_told_apart() {
@@ -88,5 +112,32 @@ mod tests {
             -velocity
         );
         assert_eq!(one_sidedness(&[0.0; 5]), 0.0);
+    }
+
+    /// A tool that swings back when the pulse begins first moves against the torque, but is pushed by it all the same.
+    #[test]
+    fn the_release_shows_the_sign_of_a_tool_that_was_in_motion() {
+        let torque = pulse(30.0);
+        let swing = |index: usize| {
+            let since_s = index.saturating_sub(ONSET) as f64 * 1e-4;
+            -60.0 * (-10.0 * since_s).exp() * (21.0 * since_s).cos()
+        };
+        let pushed = acceleration(&torque);
+        let motion: Vec<f64> = (pushed.iter().enumerate())
+            .map(|(index, a)| a + swing(index))
+            .collect();
+        assert!(early_velocity(&torque, &motion, &(ONSET..PEAK), 1e-4) < -0.1);
+        let fall = |motion: &[f64]| fall_at_release(&torque, motion, PEAK, SEGMENT, 1e-4);
+        assert!(
+            fall(&motion).is_some_and(|fall| fall > 20.0),
+            "{:?}",
+            fall(&motion)
+        );
+        let inverted: Vec<f64> = motion.iter().map(|a| -a).collect();
+        assert!(fall(&inverted).is_some_and(|fall| fall < -20.0));
+        assert_eq!(
+            fall_at_release(&torque, &motion, PEAK, PEAK + 5, 1e-4),
+            None
+        );
     }
 }
