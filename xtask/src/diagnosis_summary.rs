@@ -140,16 +140,9 @@ fn verdict(page: &mut Page, diagnosis: &Diagnosis) {
 /// What the effect is that the verdict names, how it shows and what to check, while it is not yet in the model; the same of
 /// its twins.
 fn missing(page: &mut Page, diagnosis: &Diagnosis) {
-    let named = matches!(
-        diagnosis.verdict,
-        Verdict::MissingEffect | Verdict::UnlistedEffect
-    );
-    let Some(first) = diagnosis.ranking.first().filter(|_| named) else {
+    let Some(first) = not_yet_added(diagnosis) else {
         return;
     };
-    if diagnosis.verdict == Verdict::UnlistedEffect && !first.unlisted {
-        return;
-    }
     let is_twin = |one: &&RankedEffect| first.twins.contains(&one.effect);
     let twins = diagnosis.ranking.iter().filter(is_twin);
     for one in std::iter::once(first).chain(twins) {
@@ -158,6 +151,19 @@ fn missing(page: &mut Page, diagnosis: &Diagnosis) {
         for sentence in &one.explanation {
             page.paragraph("  - ", sentence);
         }
+    }
+}
+
+/// The effect or law that the verdict names, while it is not yet in the model.
+fn not_yet_added(diagnosis: &Diagnosis) -> Option<&RankedEffect> {
+    match diagnosis.verdict {
+        Verdict::MissingEffect => diagnosis.ranking.first(),
+        Verdict::UnlistedEffect => {
+            let law = diagnosis.unlisted.as_ref()?;
+            let is_it = |one: &&RankedEffect| one.expression.as_ref() == Some(&law.expression);
+            diagnosis.ranking.iter().find(is_it)
+        }
+        Verdict::Adequate | Verdict::Undecided => None,
     }
 }
 

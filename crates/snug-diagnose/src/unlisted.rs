@@ -4,9 +4,10 @@
 use crate::DiagnoseError;
 use snug_model::{CustomEffect, CustomEffectSettings, CustomParameterSettings, Effect, Place};
 
-/// One candidate: name and expression of force \[N\].
+/// One candidate: name, what it is in words, and expression of force \[N\].
 struct Term {
     name: &'static str,
+    says: &'static str,
     expression: &'static str,
     parameters: &'static [Factor],
 }
@@ -35,46 +36,55 @@ const fn p(unit: &'static str) -> Factor {
 const TERMS: &[Term] = &[
     Term {
         name: "x_v_law",
+        says: "damping that is stronger on one side of rest than on the other",
         expression: "p*x*v",
         parameters: &[p("N s/m^2")],
     },
     Term {
         name: "x2_v_law",
+        says: "damping that grows with the square of the displacement",
         expression: "p*x^2*v",
         parameters: &[p("N s/m^3")],
     },
     Term {
         name: "abs_x_v_law",
+        says: "damping that grows with the displacement",
         expression: "p*abs(x)*v",
         parameters: &[p("N s/m^2")],
     },
     Term {
         name: "x_v2_law",
+        says: "a spring that is stiffer the faster the tool moves, with the square of its speed",
         expression: "p*x*v^2",
         parameters: &[p("N s^2/m^3")],
     },
     Term {
         name: "x_v_abs_v_law",
+        says: "damping that grows with the speed, and changes sign with the displacement",
         expression: "p*x*v*abs(v)",
         parameters: &[p("N s^2/m^3")],
     },
     Term {
         name: "v2_law",
+        says: "a push to one side that grows with the square of the speed",
         expression: "p*v^2",
         parameters: &[p("N s^2/m^2")],
     },
     Term {
         name: "v3_law",
+        says: "damping that grows with the square of the speed",
         expression: "p*v^3",
         parameters: &[p("N s^3/m^3")],
     },
     Term {
         name: "sqrt_v_law",
+        says: "something between friction and a damper: it grows with the root of the speed",
         expression: "p*v/sqrt(abs(v)+0.001)",
         parameters: &[p("N s^0.5/m^0.5")],
     },
     Term {
         name: "stribeck_law",
+        says: "friction that fades as the tool moves faster",
         expression: "p*tanh(v/0.002)*exp(-(v/v0)^2)",
         parameters: &[
             Factor {
@@ -92,6 +102,7 @@ const TERMS: &[Term] = &[
     },
     Term {
         name: "end_stop_law",
+        says: "a second spring that is met beyond the displacement x0",
         expression: "p*max(0,x-x0)",
         parameters: &[
             Factor {
@@ -109,6 +120,7 @@ const TERMS: &[Term] = &[
     },
     Term {
         name: "exponential_spring_law",
+        says: "a spring that stiffens ever faster, as tissue does",
         expression: "p*(exp(x/x0)-1-x/x0)",
         parameters: &[
             Factor {
@@ -126,6 +138,7 @@ const TERMS: &[Term] = &[
     },
     Term {
         name: "latch_law",
+        says: "a force that turns over where the grip passes x0, as at a latch",
         expression: "p*tanh((x-x0)/0.001)",
         parameters: &[
             Factor {
@@ -143,6 +156,7 @@ const TERMS: &[Term] = &[
     },
     Term {
         name: "late_damping_law",
+        says: "a damper that sets in a time t0 after the pulse begins",
         expression: "p*v*smooth_step((t-t0)/0.05)",
         parameters: &[
             Factor {
@@ -160,36 +174,43 @@ const TERMS: &[Term] = &[
     },
     Term {
         name: "x4_law",
+        says: "a spring that sets in late and pushes to one side only",
         expression: "p*x^4",
         parameters: &[p("N/m^4")],
     },
     Term {
         name: "x5_law",
+        says: "a spring that hardly acts at first and stiffens steeply",
         expression: "p*x^5",
         parameters: &[p("N/m^5")],
     },
     Term {
         name: "abs_x_x_law",
+        says: "a spring that stiffens in proportion to the displacement",
         expression: "p*x*abs(x)",
         parameters: &[p("N/m^2")],
     },
     Term {
         name: "abs_x_friction_law",
+        says: "friction that grows with the displacement",
         expression: "p*abs(x)*tanh(v/0.01)",
         parameters: &[p("N/m")],
     },
     Term {
         name: "x_abs_v_law",
+        says: "a spring that is stiffer the faster the tool moves",
         expression: "p*x*abs(v)",
         parameters: &[p("N s/m^2")],
     },
     Term {
         name: "torque_v_law",
+        says: "damping that grows with the torque",
         expression: "p*T*v",
         parameters: &[p("s/m^2")],
     },
     Term {
         name: "sine_law",
+        says: "a weight on an arm, as of a pendulum",
         expression: "p*sin(theta)",
         parameters: &[p("N")],
     },
@@ -207,6 +228,12 @@ pub(crate) fn terms(is_machine: bool) -> Result<Vec<Effect>, DiagnoseError> {
 pub(crate) fn declaration(name: &str) -> Option<CustomEffectSettings> {
     let found = TERMS.iter().find(|term| term.name == name);
     found.map(Term::settings)
+}
+
+/// What an effect is in words, if it is one of these terms.
+pub(crate) fn in_words(effect: Effect) -> Option<&'static str> {
+    let found = TERMS.iter().find(|term| term.name == effect.name());
+    found.map(|term| term.says)
 }
 
 impl Term {

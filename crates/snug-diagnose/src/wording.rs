@@ -5,7 +5,7 @@ use crate::climb::{Addition, Attempt, Stop};
 use crate::fitted::Fitted;
 use crate::ranking::Candidate;
 use crate::units::Units;
-use crate::unlisted::{declaration, is_unlisted};
+use crate::unlisted::{declaration, in_words, is_unlisted};
 use snug_campaign::{CorrectedEffect, EffectParameter, RankedEffect, Verdict};
 use snug_model::{CustomEffectSettings, Description, Effect, Law, TRENDS};
 
@@ -109,12 +109,13 @@ pub(crate) fn spoken(effect: Effect) -> String {
     }
 }
 
-/// An effect that these data cannot tell from others is named with them.
+/// An effect that these data cannot tell from others is named with them; a term that stands alone is put into words.
 fn with_twins(effect: Effect, twins: &[Effect]) -> String {
     let names = std::iter::once(&effect).chain(twins);
     let names: Vec<String> = names.map(|&effect| spoken(effect)).collect();
-    match twins {
-        [] => names.concat(),
+    match (twins, in_words(effect)) {
+        ([], None) => names.concat(),
+        ([], Some(words)) => format!("{} ({words})", names.concat()),
         _ => format!("{} (these data cannot tell which)", names.join(" or ")),
     }
 }
@@ -389,10 +390,10 @@ pub(crate) fn stopped(situation: &Situation<'_>) -> Option<String> {
 
 /// What an effect is, how it shows, what to check at the bench.
 pub(crate) fn explanation(effect: Effect) -> Vec<String> {
-    match declaration(effect.name()) {
-        Some(declared) => vec![
+    match declaration(effect.name()).zip(in_words(effect)) {
+        Some((declared, words)) => vec![
             format!(
-                "A term in no catalogue: the hand's force gains {} ({}).",
+                "A term in no catalogue: {words}. The hand's force gains {} ({}).",
                 declared.expression,
                 symbols(&declared.expression)
             ),

@@ -1,3 +1,4 @@
+use super::not_yet_added;
 use super::size::{self, sized};
 use super::{Page, called, names_in, shortened};
 use snug_campaign::{Diagnosis, Doubt, RankedEffect, Verdict};
@@ -23,11 +24,9 @@ pub fn ranking(page: &mut Page, diagnosis: &Diagnosis) {
     let shown = candidates.len();
     let is_complete = match diagnosis.verdict {
         Verdict::Adequate => true,
-        Verdict::UnlistedEffect => diagnosis
-            .ranking
-            .iter()
-            .take(1)
-            .all(|first| !first.unlisted),
+        Verdict::UnlistedEffect => {
+            diagnosis.unlisted.is_some() && not_yet_added(diagnosis).is_none()
+        }
         _ => false,
     };
     let what = match (is_complete, diagnosis.added.is_empty()) {

@@ -248,6 +248,28 @@ fn every_verdict_says_what_to_do() {
     assert!(found.trim_end().ends_with(last));
 }
 
+/// What is explained is the law that the verdict names, as long as it is not in the model; never another of its kind.
+#[test]
+fn only_a_law_that_is_still_missing_is_explained() {
+    let mut diagnosis = missing();
+    diagnosis.verdict = Verdict::UnlistedEffect;
+    diagnosis.unlisted = Some(UnlistedTerm {
+        expression: "p*x^2*v".into(),
+        ron: "(name: \"x2v\")".into(),
+        heldout_gain: 0.7,
+        statement: "A damping that grows with x².".into(),
+    });
+    diagnosis.ranking[0].unlisted = true;
+    diagnosis.ranking[0].expression = Some("p*v^3".into());
+    let added = text(&diagnosis, &FOLLOWING, false);
+    assert!(!added.contains("What force") && added.contains("What else was tried"));
+    diagnosis.ranking[2].unlisted = true;
+    diagnosis.ranking[2].expression = Some("p*x^2*v".into());
+    let named = text(&diagnosis, &FOLLOWING, false);
+    assert!(named.contains("What force p*x^2*v is") && !named.contains("What force p*v^3 is"));
+    assert!(!named.contains("What else was tried"));
+}
+
 /// Who stopped the climb is told so at once, and how to go on.
 #[test]
 fn a_climb_that_was_stopped_says_so_and_how_to_go_on() {
