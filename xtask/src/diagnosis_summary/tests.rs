@@ -211,6 +211,15 @@ fn without_noise_the_error_has_the_output_s_name() {
     assert_eq!(blocks(&text, "+ sin"), 18);
 }
 
+fn damping_with_x2() -> UnlistedTerm {
+    UnlistedTerm {
+        expression: "p*x^2*v".into(),
+        ron: "(name: \"x2v\")".into(),
+        heldout_gain: 0.7,
+        statement: "A damping that grows with x².".into(),
+    }
+}
+
 #[test]
 fn every_verdict_says_what_to_do() {
     let mut diagnosis = missing();
@@ -230,12 +239,7 @@ fn every_verdict_says_what_to_do() {
     diagnosis.verdict = Verdict::Undecided;
     assert!(text(&diagnosis, &FOLLOWING, false).contains("Record more tightenings"));
     diagnosis.verdict = Verdict::UnlistedEffect;
-    diagnosis.unlisted = Some(UnlistedTerm {
-        expression: "p*x^2*v".into(),
-        ron: "(name: \"x2v\")".into(),
-        heldout_gain: 0.7,
-        statement: "A damping that grows with x².".into(),
-    });
+    diagnosis.unlisted = Some(damping_with_x2());
     let found = text(&diagnosis, &FOLLOWING, false);
     assert!(found.contains("    (name: \"x2v\")\n"));
     assert!(
@@ -253,12 +257,7 @@ fn every_verdict_says_what_to_do() {
 fn only_a_law_that_is_still_missing_is_explained() {
     let mut diagnosis = missing();
     diagnosis.verdict = Verdict::UnlistedEffect;
-    diagnosis.unlisted = Some(UnlistedTerm {
-        expression: "p*x^2*v".into(),
-        ron: "(name: \"x2v\")".into(),
-        heldout_gain: 0.7,
-        statement: "A damping that grows with x².".into(),
-    });
+    diagnosis.unlisted = Some(damping_with_x2());
     diagnosis.ranking[0].unlisted = true;
     diagnosis.ranking[0].expression = Some("p*v^3".into());
     let added = text(&diagnosis, &FOLLOWING, false);
