@@ -226,14 +226,16 @@ pub(crate) fn terms(is_machine: bool) -> Result<Vec<Effect>, DiagnoseError> {
 
 /// How a study declares the term called `name`.
 pub(crate) fn declaration(name: &str) -> Option<CustomEffectSettings> {
-    let found = TERMS.iter().find(|term| term.name == name);
-    found.map(Term::settings)
+    term(name).map(Term::settings)
 }
 
 /// What an effect is in words, if it is one of these terms.
 pub(crate) fn in_words(effect: Effect) -> Option<&'static str> {
-    let found = TERMS.iter().find(|term| term.name == effect.name());
-    found.map(|term| term.says)
+    term(effect.name()).map(|term| term.says)
+}
+
+fn term(name: &str) -> Option<&'static Term> {
+    TERMS.iter().find(|term| term.name == name)
 }
 
 impl Term {
@@ -263,5 +265,5 @@ impl Factor {
 
 /// Whether an effect is one of these terms.
 pub(crate) fn is_unlisted(effect: Effect) -> bool {
-    TERMS.iter().any(|term| term.name == effect.name())
+    term(effect.name()).is_some()
 }

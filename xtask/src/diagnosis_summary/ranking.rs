@@ -1,6 +1,5 @@
-use super::not_yet_added;
 use super::size::{self, sized};
-use super::{Page, called, names_in, shortened};
+use super::{Page, called, names_in, not_yet_added, shortened};
 use snug_campaign::{Diagnosis, Doubt, RankedEffect, Verdict};
 
 /// Candidates shown; the report lists all. Behind the very first, neither terms in no catalogue nor what could be chance.
