@@ -12,11 +12,13 @@ use snug_synthetic::{
     CampaignPlan, HiddenEffect as Hidden, MatStyle, NoiseKind, Truth, ZeroErrors, simulate,
 };
 
-/// One effect of each kind, at strengths that raise the error by about a fifth.
-const FEW: [(Hidden, f64); 3] = [
+/// One effect of each kind, at strengths that raise the error by about a fifth, and a gap so wide that some tightenings fall
+/// behind the others.
+const FEW: [(Hidden, f64); 4] = [
     (Hidden::CubicStiffness, 0.35),
     (Hidden::TorqueDependentStiffness, 0.67),
     (Hidden::TorqueDelay, 0.16),
+    (Hidden::Backlash, 1.0),
 ];
 
 /// Every effect of the catalogue but an offset of the torque, which the quiet part shows, at strengths that raise the error by about 3 % and about a fifth, and strong: at its

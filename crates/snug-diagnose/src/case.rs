@@ -1,5 +1,5 @@
 use snug_campaign::{Quantity, Tightening};
-use snug_identify::{ConstraintKind, Whitening, motions_at};
+use snug_identify::{ConstraintKind, IdentifySettings, Whitening, motions_at};
 use snug_model::{Effect, Input, Model};
 
 use crate::DiagnoseError;
@@ -33,6 +33,16 @@ impl Case {
     /// The filter that whitens the measured noise, where it is of the compared output.
     pub(crate) fn whitening(&self) -> Option<Whitening> {
         Whitening::of(&self.tightening, self.quantity)
+    }
+
+    /// How it is identified by itself.
+    pub(crate) fn settings(&self) -> IdentifySettings {
+        IdentifySettings {
+            fitted_output: self.quantity,
+            constraints: self.constraints.clone(),
+            unscored_samples: self.unscored,
+            ..IdentifySettings::default()
+        }
     }
 
     /// Whether residuals of the compared output can be told in multiples of its measured noise.

@@ -1,7 +1,7 @@
 //! The tightenings of a question together with the count of what is done with them.
 
 use crate::Case;
-use snug_campaign::WorkDone;
+use snug_campaign::{Estimate, WorkDone};
 use snug_identify::Work;
 use std::ops::Deref;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -74,6 +74,12 @@ impl Tally {
         add(&self.steps, work.iterations);
         add(&self.linearizations, work.linearizations);
         add(&self.conic_solves, work.conic_solves);
+    }
+
+    pub fn fit_alone(&self, estimate: &Estimate) {
+        add(&self.steps, estimate.iterations);
+        add(&self.linearizations, estimate.evaluations);
+        add(&self.conic_solves, estimate.conic_solves);
     }
 
     /// What has been counted so far.

@@ -6,7 +6,7 @@ use crate::cases::Cases;
 use crate::simulated::{Asked, Simulated, simulate};
 use snug_identify::{
     Constraints, EvaluationError, PooledFit, PooledResidual, PooledSettings, Trial, Whitening,
-    average, convex_set, solve_pooled,
+    average, convex_set, identify, solve_pooled,
 };
 use snug_model::{BASE_PARAMETERS, Effect, Law, Model, Scope};
 
@@ -194,6 +194,31 @@ impl<'a> Hypothesis<'a> {
         let end = self.fit(start, settings);
         self.reach = 0;
         end
+    }
+
+    /// One member fitted by itself with the shared parameters held: its own parameters and ½‖r‖².
+    pub fn fit_alone(
+        &self,
+        member: usize,
+        own: &[f64],
+        shared: &[f64],
+    ) -> Result<(Vec<f64>, f64), DiagnoseError> {
+        let case = &self.cases[member];
+        let mut model = self.models[member].clone();
+        let values = self.values(member, own, shared);
+        for (parameter, value) in model.parameters_mut().iter_mut().zip(values) {
+            parameter.value = value;
+        }
+        for &index in &self.shared {
+            model.parameters_mut()[index].fixed = true;
+        }
+        let estimate = identify(&model, &case.input, &case.tightening, &case.settings())?;
+        self.cases.tally().fit_alone(&estimate);
+        let found: Vec<f64> = estimate.parameters.iter().map(|p| p.value).collect();
+        let mut room = Room::default();
+        let (residual, _) = self.weighted(member, &found, &[], &mut room);
+        let cost = 0.5 * residual.iter().map(|r| r * r).sum::<f64>();
+        Ok((self.own.iter().map(|&index| found[index]).collect(), cost))
     }
 
     /// The compared output of every tightening that is `asked` for.

@@ -46,6 +46,9 @@ const LED_REACH: usize = 8;
 /// of its own, where the others found theirs.
 const LEFT_BEHIND: f64 = 1.15;
 
+/// Times that those who were left behind are fetched: with them the shared sizes move, and others may see the way.
+const MOST_ROUNDS: usize = 3;
+
 /// Fits exactly these effects, from where `from` ended where it is given.
 pub(crate) fn fit_effects(
     cases: Cases<'_>,
@@ -92,7 +95,8 @@ pub(crate) fn refit(
         starts if !units.are_whole() => long_record::best_of(&mut hypothesis, starts, &CANDIDATE)?,
         // Beside an effect that lets go, what another one changes moves every instant of contact.
         [only] if !current.is_at_floor() && current.effects.iter().any(|one| one.lets_go()) => {
-            from_afar(&mut hypothesis, only, &CANDIDATE)?
+            let end = from_afar(&mut hypothesis, only, &CANDIDATE)?;
+            catch_up(&mut hypothesis, current, end)?
         }
         [only] => hypothesis.fit(only, &CANDIDATE)?,
         several => {
@@ -180,51 +184,47 @@ fn led_along_motion(
     Ok(lowest.map(|end| Start::at(&end)))
 }
 
-/// The tightenings that were left behind, begun again from where the others' way leads and, where that is lower, all on
-/// from there.
+/// The tightenings that were left behind, each fitted by itself with what all share where the others put it and, where that
+/// is lower, all on from there; again while others are left behind then.
 fn catch_up(
     hypothesis: &mut Hypothesis<'_>,
     current: &Fitted,
-    end: PooledFit,
+    mut end: PooledFit,
 ) -> Result<PooledFit, DiagnoseError> {
+    let begun = current.start(hypothesis).own;
+    for _ in 0..MOST_ROUNDS {
+        let (behind, ahead) = left_behind(hypothesis, &end);
+        let pick = |own: &[Vec<f64>]| -> Vec<Vec<f64>> {
+            ahead.iter().map(|&member| own[member].clone()).collect()
+        };
+        let factors = astray(hypothesis, &pick(&end.own), &pick(&begun));
+        let mut start = Start::at(&end);
+        let mut lowered = 0.0;
+        for member in behind {
+            let mut again = begun[member].clone();
+            times(&mut again, &factors);
+            if let Ok((own, cost)) = hypothesis.fit_alone(member, &again, &end.shared)
+                && cost < end.profiles[member].cost
+            {
+                lowered += end.profiles[member].cost - cost;
+                start.own[member] = own;
+            }
+        }
+        if lowered <= ROUGH.cost_tolerance * end.cost() {
+            return Ok(end);
+        }
+        end = hypothesis.fit(&start, &CANDIDATE)?;
+    }
+    Ok(end)
+}
+
+/// The tightenings that were left behind, and the others.
+fn left_behind(hypothesis: &Hypothesis<'_>, end: &PooledFit) -> (Vec<usize>, Vec<usize>) {
     let errors: Vec<f64> = (end.profiles.iter().enumerate())
         .map(|(member, one)| (2.0 * one.cost / hypothesis.residual_count(member) as f64).sqrt())
         .collect();
-    let Ok(usual) = median(&errors) else {
-        return Ok(end);
-    };
-    let limit = LEFT_BEHIND * usual;
-    let (behind, ahead): (Vec<usize>, Vec<usize>) =
-        (0..errors.len()).partition(|&member| errors[member] > limit);
-    if behind.is_empty() {
-        return Ok(end);
-    }
-    let begun = current.start(hypothesis);
-    let pick = |own: &[Vec<f64>]| -> Vec<Vec<f64>> {
-        ahead.iter().map(|&member| own[member].clone()).collect()
-    };
-    let factors = astray(hypothesis, &pick(&end.own), &pick(&begun.own));
-    let mut again = begun.of_members(&behind);
-    again.own.iter_mut().for_each(|own| times(own, &factors));
-    again.shared = end.shared.clone();
-    let some = hypothesis.cases.some(&behind);
-    let mut alone = Hypothesis::new(hypothesis.cases.others(&some), &hypothesis.effects)?;
-    let Ok(caught) = from_afar(&mut alone, &again, &ROUGH) else {
-        return Ok(end);
-    };
-    let before: f64 = behind.iter().map(|&member| end.profiles[member].cost).sum();
-    if caught.cost() >= before {
-        return Ok(end);
-    }
-    let mut start = Start::at(&end);
-    for (&member, own) in behind.iter().zip(caught.own) {
-        start.own[member] = own;
-    }
-    let other = hypothesis.fit(&start, &CANDIDATE)?;
-    Ok(match other.cost() < end.cost() {
-        true => other,
-        false => end,
-    })
+    let limit = median(&errors).map_or(f64::INFINITY, |usual| LEFT_BEHIND * usual);
+    (0..errors.len()).partition(|&member| errors[member] > limit)
 }
 
 /// By how much m, c and k are larger in `with` than in `without`, the median over tightenings; 1 for other parameters.

@@ -5,7 +5,7 @@ use crate::sizes::held;
 use crate::{Case, DiagnoseError, Seen};
 use rayon::prelude::*;
 use snug_campaign::{Estimate, Motion};
-use snug_identify::{IdentifySettings, identify};
+use snug_identify::identify;
 
 /// Motion and estimate of every case under one fitted model.
 pub(crate) struct Sight<'a> {
@@ -48,13 +48,7 @@ impl<'a> Sight<'a> {
 /// A tightening's estimate and motion with the shared parameters held where all tightenings together put them.
 fn see(case: &Case, fitted: &Fitted) -> Result<(Estimate, Motion), DiagnoseError> {
     let model = held(case, fitted).unwrap_or_else(|| case.model.clone());
-    let settings = IdentifySettings {
-        fitted_output: case.quantity,
-        constraints: case.constraints.clone(),
-        unscored_samples: case.unscored,
-        ..IdentifySettings::default()
-    };
-    let estimate = identify(&model, &case.input, &case.tightening, &settings)?;
+    let estimate = identify(&model, &case.input, &case.tightening, &case.settings())?;
     let values: Vec<f64> = estimate.parameters.iter().map(|p| p.value).collect();
     let motion = model.simulate(&values, &case.input);
     Ok((estimate, motion))
