@@ -5,7 +5,8 @@ use crate::sizes::held;
 use crate::{Case, DiagnoseError, Seen};
 use rayon::prelude::*;
 use snug_campaign::{Estimate, Motion};
-use snug_identify::identify;
+use snug_identify::{Subject, identify_all};
+use snug_model::Model;
 
 /// Motion and estimate of every case under one fitted model.
 pub(crate) struct Sight<'a> {
@@ -17,11 +18,13 @@ pub(crate) struct Sight<'a> {
 impl<'a> Sight<'a> {
     /// Identifies every tightening with the shared parameters held where all tightenings together put them.
     pub fn of(cases: &'a [Case], fitted: &Fitted) -> Result<Self, DiagnoseError> {
-        let seen: Vec<(Estimate, Motion)> = cases
-            .par_iter()
-            .map(|case| see(case, fitted))
-            .collect::<Result<_, _>>()?;
-        let (estimates, simulated) = seen.into_iter().unzip();
+        let alike: Vec<&[Case]> = (cases.chunks(SIDE_BY_SIDE))
+            .flat_map(|some| some.chunk_by(|one, next| one.settings() == next.settings()))
+            .collect();
+        let seen = (alike.into_par_iter())
+            .map(|some| see(some, fitted))
+            .collect::<Result<Vec<_>, _>>()?;
+        let (estimates, simulated) = seen.into_iter().flatten().unzip();
         Ok(Self {
             cases,
             simulated,
@@ -45,11 +48,31 @@ impl<'a> Sight<'a> {
     }
 }
 
-/// A tightening's estimate and motion with the shared parameters held where all tightenings together put them.
-fn see(case: &Case, fitted: &Fitted) -> Result<(Estimate, Motion), DiagnoseError> {
-    let model = held(case, fitted).unwrap_or_else(|| case.model.clone());
-    let estimate = identify(&model, &case.input, &case.tightening, &case.settings())?;
-    let values: Vec<f64> = estimate.parameters.iter().map(|p| p.value).collect();
-    let motion = model.simulate(&values, &case.input);
-    Ok((estimate, motion))
+/// Tightenings that are fitted at a time.
+const SIDE_BY_SIDE: usize = 16;
+
+/// Estimates and motions of cases with the same settings, the shared parameters held where all tightenings together put them.
+fn see(cases: &[Case], fitted: &Fitted) -> Result<Vec<(Estimate, Motion)>, DiagnoseError> {
+    let models: Vec<Model> = (cases.iter())
+        .map(|case| held(case, fitted).unwrap_or_else(|| case.model.clone()))
+        .collect();
+    let subjects: Vec<Subject<'_>> = (cases.iter().zip(&models))
+        .map(|(case, model)| Subject {
+            model,
+            input: &case.input,
+            tightening: &case.tightening,
+        })
+        .collect();
+    let Some(first) = cases.first() else {
+        return Ok(Vec::new());
+    };
+    let estimates = identify_all(&subjects, &first.settings());
+    (estimates.into_iter().zip(&subjects))
+        .map(|(estimate, subject)| {
+            let estimate = estimate?;
+            let values: Vec<f64> = estimate.parameters.iter().map(|p| p.value).collect();
+            let motion = subject.model.simulate(&values, subject.input);
+            Ok((estimate, motion))
+        })
+        .collect()
 }

@@ -1,5 +1,6 @@
 #![doc = include_str!("../README.md")]
 
+mod abreast;
 mod active_set;
 pub mod agreement;
 mod averaging;

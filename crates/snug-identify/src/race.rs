@@ -3,6 +3,7 @@
 //! Most starts lead to the same few valleys, and one that is behind after some steps mostly crawls along a valley whose
 //! bottom another has found already: it need not be followed to the end.
 
+use crate::abreast::{Request, Simulator};
 use crate::fit::Work;
 use crate::residual::further_along;
 use crate::search::{Ask, Search};
@@ -10,7 +11,6 @@ use crate::solver::answer;
 use crate::{
     Constraints, DenseResidual, Fit, IdentifyError, Residual, Settings, TighteningResidual,
 };
-use snug_model::{Run, simulate_side_by_side};
 
 /// How long everyone runs, and who is left behind then.
 #[derive(Clone, Copy)]
@@ -26,12 +26,13 @@ pub(crate) struct Rules {
 ///
 /// # Errors
 /// As [`crate::solve`].
-pub(crate) fn race(
-    residual: &TighteningResidual<'_>,
+pub(crate) async fn race<'a>(
+    residual: &TighteningResidual<'a>,
     starts: &[Vec<f64>],
     constraints: &Constraints,
     settings: &Settings,
     rules: Rules,
+    simulator: &Simulator<'a>,
 ) -> Result<(Vec<Fit>, Work), IdentifyError> {
     let (n, m) = (residual.parameter_count(), residual.residual_count());
     let entrant = |start: &Vec<f64>| {
@@ -40,25 +41,39 @@ pub(crate) fn race(
             problem: DenseResidual::new(residual.clone()),
         })
     };
-    let mut entrants: Vec<Entrant<'_, '_>> =
+    let mut entrants: Vec<Entrant<'_, 'a>> =
         starts.iter().map(entrant).collect::<Result<_, _>>()?;
-    run_abreast(&mut entrants, rules);
+    run_heat(&mut entrants, rules, simulator).await;
     entrants.sort_by(|one, other| one.rank().total_cmp(&other.rank()));
-    let (mut ends, mut work): (Vec<Fit>, Work) = Default::default();
-    for mut entrant in entrants {
-        let is_behind = |end: &Fit| entrant.search.cost() > rules.worth * end.cost;
-        if !entrant.search.has_ended() && ends.iter().any(is_behind) {
-            work.add(entrant.search.work());
+    for index in 0..entrants.len() {
+        let (before, rest) = entrants.split_at_mut(index);
+        let known = || before.iter().filter(|entrant| entrant.search.has_ended());
+        let is_behind = |search: &Search<'_>| {
+            known().any(|end| search.cost() > rules.worth * end.search.cost())
+        };
+        let entrant = &mut rest[0];
+        if !entrant.search.has_ended() && is_behind(&entrant.search) {
             continue;
         }
-        while !answer(&mut entrant.search, &mut entrant.problem) {}
-        let end = entrant.search.finish(m);
-        work.add(&end.work);
-        ends.push(end);
+        while !entrant.search.has_ended() && !known().any(|end| end.foretells(entrant)) {
+            take_turn(&mut [&mut *entrant], simulator).await;
+        }
+    }
+    let (mut ends, mut work): (Vec<Fit>, Work) = Default::default();
+    for Entrant { search, .. } in entrants {
+        work.add(search.work());
+        if search.has_ended() {
+            ends.push(search.finish(m));
+        }
     }
     ends.sort_by(|one, other| one.cost.total_cmp(&other.cost));
     Ok((ends, work))
 }
+
+/// Share of the way up from an end by which a cost may differ from what the end foretells, ...
+const ALIKE: f64 = 0.1;
+/// ... and share of the cost itself that says nothing.
+const RESOLUTION: f64 = 1e-6;
 
 /// One search and the problem that answers it.
 struct Entrant<'s, 'a> {
@@ -66,65 +81,59 @@ struct Entrant<'s, 'a> {
     problem: DenseResidual<TighteningResidual<'a>>,
 }
 
-/// Simulations from which side by side they take less time than one after the other.
-const FEWEST: usize = 3;
 /// Multiple of what its derivatives promise that a search may hope for: down the side of a narrow valley, as contacts make,
 /// the cost falls up to three times faster than they say.
 const HOPE: f64 = 4.0;
 
-/// Lets all make the heat's steps, in turns: what they ask next is simulated side by side. Those who cannot hope to come as
-/// low as is worth it beside the lowest end so far wait, and are left behind.
-fn run_abreast(entrants: &mut [Entrant<'_, '_>], rules: Rules) {
+/// Lets all make the heat's steps, in turns. Those who cannot hope to come as low as is worth it beside the lowest end so far
+/// wait, and are left behind.
+async fn run_heat<'a>(entrants: &mut [Entrant<'_, 'a>], rules: Rules, simulator: &Simulator<'a>) {
     loop {
-        let ended = entrants.iter().filter(|entrant| entrant.search.has_ended());
-        let lowest = (ended.map(|entrant| entrant.search.cost())).fold(f64::INFINITY, f64::min);
-        let is_running = |entrant: &&mut Entrant<'_, '_>| {
+        let (ended, others): (Vec<_>, Vec<_>) =
+            (entrants.iter_mut()).partition(|entrant| entrant.search.has_ended());
+        let lowest = (ended.iter().map(|end| end.search.cost())).fold(f64::INFINITY, f64::min);
+        let is_running = |entrant: &&mut Entrant<'_, 'a>| {
             let search = &entrant.search;
             let hoped_for = search.cost() - HOPE * search.promise();
             let may_run = search.steps() <= rules.heat && hoped_for <= rules.worth * lowest;
-            may_run && !search.has_ended()
+            may_run && !ended.iter().any(|end| end.foretells(entrant))
         };
-        let mut running: Vec<_> = entrants.iter_mut().filter(is_running).collect();
+        let mut running: Vec<_> = others.into_iter().filter(is_running).collect();
         if running.is_empty() {
             return;
         }
-        for with_slopes in [true, false] {
-            let asked: Vec<_> = (running.iter_mut())
-                .filter_map(|entrant| Some((entrant.asked(with_slopes)?, &mut entrant.problem)))
-                .collect();
-            if asked.len() >= FEWEST {
-                foresee(asked, with_slopes);
-            }
-        }
-        for entrant in running {
-            answer(&mut entrant.search, &mut entrant.problem);
-        }
+        take_turn(&mut running, simulator).await;
     }
 }
 
-/// Simulates, side by side, what problems will be asked for next.
-fn foresee(asked: Vec<(Vec<f64>, &mut DenseResidual<TighteningResidual<'_>>)>, with_slopes: bool) {
-    let mut free = Vec::new();
-    let mut runs: Vec<Run<'_>> = Vec::new();
-    for (values, problem) in asked {
-        let residual = problem.residual_function_mut();
-        if with_slopes {
-            free = residual.free().to_vec();
-        }
-        runs.push(residual.foresee(&values, with_slopes));
+/// Each gets the answer to what it asks, and goes on to the next question; none may have ended.
+async fn take_turn<'a>(running: &mut [&mut Entrant<'_, 'a>], simulator: &Simulator<'a>) {
+    let requests = running.iter_mut().filter_map(|entrant| entrant.request());
+    let simulated = simulator.simulate(requests.collect()).await;
+    for (entrant, simulated) in running.iter_mut().zip(simulated) {
+        entrant.problem.residual_function_mut().foresee(simulated);
+        answer(&mut entrant.search, &mut entrant.problem);
     }
-    simulate_side_by_side(&mut runs, &free);
 }
 
-impl Entrant<'_, '_> {
-    /// The values whose residual, with its slopes or without, the search asks for next.
-    fn asked(&mut self, with_slopes: bool) -> Option<Vec<f64>> {
-        match self.search.ask() {
-            Ask::Linearization { at, .. } if with_slopes => Some(at.to_vec()),
-            Ask::Cost { at } if !with_slopes => Some(at.to_vec()),
-            Ask::Bending { at, along, .. } if !with_slopes => Some(further_along(at, along)),
-            _ => None,
-        }
+impl<'a> Entrant<'_, 'a> {
+    /// The simulation that answers what the search asks for next.
+    fn request(&mut self) -> Option<Request<'a>> {
+        let (values, with_slopes) = match self.search.ask() {
+            Ask::Linearization { at, .. } => (at.to_vec(), true),
+            Ask::Cost { at } => (at.to_vec(), false),
+            Ask::Bending { at, along, .. } => (further_along(at, along), false),
+            Ask::Nothing => return None,
+        };
+        let residual = self.problem.residual_function_mut();
+        Some(residual.request(&values, with_slopes))
+    }
+
+    /// Whether `other` has come to where this one's end, by its derivatives, foretells its cost: what it would find is known.
+    fn foretells(&self, other: &Self) -> bool {
+        let (here, there) = (self.search.cost(), other.search.cost());
+        let foretold = self.search.foretold(other.search.values());
+        (there - foretold).abs() <= ALIKE * (foretold - here) + RESOLUTION * here
     }
 
     /// Who has ended goes first, so that the others know whom they have to beat.

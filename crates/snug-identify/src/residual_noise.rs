@@ -1,5 +1,6 @@
 //! What the noise does to an estimate: M = Jᵀ cov(r) J at the optimum, for the sandwich (JᵀJ)⁻¹ M (JᵀJ)⁻¹.
 
+use crate::abreast::Simulator;
 use crate::agreement::error_over_noise;
 use crate::dense::inner_product;
 use crate::instants::without_instants;
@@ -169,14 +170,19 @@ impl Evidence {
 }
 
 /// What is known of the noise in this residual, from J itself.
-pub(crate) fn noise_of(
-    residual: &mut TighteningResidual<'_>,
+pub(crate) async fn noise_of<'a>(
+    residual: &mut TighteningResidual<'a>,
     subject: &Subject<'_>,
     fit: &Fit,
+    simulator: &Simulator<'a>,
 ) -> OwnedNoise {
     let inquiry = Inquiry::new(residual, subject, fit);
     if inquiry.is_settled() {
         return OwnedNoise::Unit;
+    }
+    let request = residual.request(&fit.values, true);
+    for simulated in simulator.simulate(vec![request]).await {
+        residual.foresee(simulated);
     }
     match evidence(residual, &inquiry, subject.tightening, fit) {
         Some(evidence) => inquiry.conclude(&evidence),

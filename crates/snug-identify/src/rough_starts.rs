@@ -3,7 +3,9 @@
 //! Which valley a start leads to shows on a record of a few hundred samples as well as on the whole one, for a fraction of
 //! the work. Only the ends of the best rough fits are worth a fit of every sample.
 
+use crate::abreast::Simulator;
 use crate::fit::{Fit, Work};
+use crate::guided_starts::motions_at;
 use crate::race::{Rules, race};
 use crate::{Constraints, IdentifyError, IdentifySettings, Settings, Subject, TighteningResidual};
 use snug_campaign::{Intersample, Quantity};
@@ -14,15 +16,17 @@ const ENOUGH_SAMPLES: usize = 375;
 /// Longest interval between rough samples \[s\]: a shut-off, the fastest event of a tightening, takes several of them.
 const LONGEST_INTERVAL_S: f64 = 1e-3;
 /// A rough fit has gone far enough when this share of the residual could still be removed.
-const ROUGH_TOLERANCE: f64 = 1e-3;
+const ROUGH_TOLERANCE: f64 = 1e-2;
 /// Most steps of a rough fit: what takes longer crawls.
 const MOST_STEPS: usize = 150;
 /// Ends are worth a fit of every sample up to this multiple of the lowest rough cost, and at most so many.
 pub(crate) const WORTH: f64 = 1.2;
 const MOST_ENDS: usize = 2;
+/// Rough samples from one restart to the next, some 3 ms: enough for a law to show in the velocity.
+const APART: usize = 4;
 /// Of the race between rough fits.
 const RULES: Rules = Rules {
-    heat: 40,
+    heat: 12,
     worth: WORTH,
 };
 /// Rough costs that agree to this share are those of one valley.
@@ -41,7 +45,10 @@ pub(crate) struct RoughRecord {
     /// Samples that became one.
     factor: usize,
     /// The torque.
-    pub input: Input,
+    input: Input,
+    /// The same with restarts from the measured motion, where that is known and restarts do not hide what is fitted: they do
+    /// anything but the acceleration.
+    pub guided: Option<Input>,
     measured: Vec<f64>,
 }
 
@@ -68,16 +75,19 @@ impl RoughRecord {
         .with_onset(input.onset_s() - late_s)
         .with_rest_before(input.rest_before_s() + late_s)
         .with_zero_at(input.zero_at().map(|sample| sample / factor));
+        let means_of = |quantity| Some(means(subject.tightening.motion.get(quantity)?, factor));
+        let guided = (means_of(Quantity::Displacement).zip(means_of(Quantity::Velocity)))
+            .filter(|_| quantity == Quantity::Acceleration)
+            .map(|(angle_rad, velocity_rad_per_s)| {
+                let motions = motions_at(&angle_rad, &velocity_rad_per_s, APART);
+                rough.clone().with_restarts(APART, motions)
+            });
         Some(Self {
             factor,
             input: rough,
+            guided,
             measured: means(measured, factor),
         })
-    }
-
-    /// Another signal of the same tightening.
-    pub fn means_of(&self, signal: &[f64]) -> Vec<f64> {
-        means(signal, self.factor)
     }
 
     /// Measured minus simulated under `input`, which is this record's own or one with restarts.
@@ -93,16 +103,17 @@ impl RoughRecord {
     }
 
     /// The ends of rough fits from `starts` that are worth a fit of every sample; `None` where no fit has one.
-    pub fn try_from(
-        &self,
+    pub async fn try_from<'a>(
+        &'a self,
         starts: &[Vec<f64>],
-        subject: &Subject<'_>,
+        subject: &Subject<'a>,
         set: &Constraints,
         settings: &IdentifySettings,
+        simulator: &Simulator<'a>,
     ) -> Result<Option<Tried>, IdentifyError> {
         let residual = self.residual(subject.model, &self.input, settings);
         let solver = rough_solver(settings, ROUGH_TOLERANCE, MOST_STEPS);
-        let (ends, work) = race(&residual, starts, set, &solver, RULES)?;
+        let (ends, work) = race(&residual, starts, set, &solver, RULES, simulator).await?;
         let starts = apart(ends, MOST_ENDS);
         Ok((!starts.is_empty()).then_some(Tried { starts, work }))
     }

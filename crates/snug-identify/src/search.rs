@@ -1,5 +1,6 @@
 mod patience;
 
+use crate::dense::{dot, upper_times};
 use crate::fit::{ActiveConstraint, Fit, Status, Work};
 use crate::identifiability::analyse;
 use crate::step::{NO_DAMPING, Stepper, project};
@@ -182,6 +183,18 @@ impl<'a> Search<'a> {
     /// Lowest cost so far; not a number where there is none.
     pub fn cost(&self) -> f64 {
         self.here.cost
+    }
+
+    /// The cost at `values` by the derivatives here: ½‖r + J (values − here)‖².
+    pub fn foretold(&self, values: &[f64]) -> f64 {
+        let step: Vec<f64> = values
+            .iter()
+            .zip(&self.values)
+            .map(|(to, from)| to - from)
+            .collect();
+        let mut reached = vec![0.0; step.len()];
+        upper_times(&self.here.factor, step.len(), &step, &mut reached);
+        self.here.cost + dot(&reached, &self.here.reachable) + 0.5 * dot(&reached, &reached)
     }
 
     /// Decrease of the cost that is left by its derivatives, as far as the last step found shows.

@@ -1,9 +1,11 @@
 //! Tightenings, identified: the glue between model, measurement and solver.
 
+use crate::abreast::Simulator;
 use crate::base_fits::{self, BaseFit};
 use crate::base_noise::{self, Settled};
 use crate::integral_start::integral_start;
 use crate::residual_noise::{OwnedNoise, noise_of};
+use crate::rough_starts::RoughRecord;
 use crate::valleys::Valleys;
 use crate::{
     ConstraintKind, Constraints, Covariance, Fit, IdentifyError, Settings, Simulation, Status,
@@ -83,8 +85,8 @@ pub fn identify(
     outcomes.pop().expect("one outcome for one subject")
 }
 
-/// Identifies many tightenings, each as [`identify`] does and with the same bits; where the model is the base model, as
-/// many at a time as the processor's vector registers hold.
+/// Identifies many tightenings, each as [`identify`] does and with the same bits, as many at a time as the processor's vector
+/// registers hold.
 pub fn identify_all(
     subjects: &[Subject<'_>],
     settings: &IdentifySettings,
@@ -97,6 +99,9 @@ pub fn identify_all(
         .zip(&whitenings)
         .map(|(subject, whitening)| Attempt::new(subject, whitening.as_ref(), settings))
         .collect();
+    let roughs: Vec<Option<RoughRecord>> = (attempts.iter().zip(subjects))
+        .map(|(attempt, subject)| attempt.as_ref().ok()?.rough(subject, quantity))
+        .collect();
     let mut in_sweeps: Vec<BaseFit<'_, '_>> = (attempts.iter_mut().flatten())
         .filter_map(Attempt::in_sweeps)
         .collect();
@@ -107,9 +112,13 @@ pub fn identify_all(
         .collect();
     base_noise::ask_all(&mut settled, quantity);
     drop(settled);
-    (attempts.into_iter().zip(subjects))
-        .map(|(attempt, subject)| attempt?.estimate(subject, settings))
-        .collect()
+    let simulator = Simulator::default();
+    let estimates = (attempts.into_iter().zip(subjects).zip(&roughs)).map(
+        |((attempt, subject), rough)| async {
+            (attempt?.estimate(subject, rough.as_ref(), settings, &simulator)).await
+        },
+    );
+    simulator.finish(estimates)
 }
 
 /// A tightening on its way to an estimate.
@@ -191,35 +200,50 @@ impl<'a> Attempt<'a> {
         })
     }
 
+    /// On what several starts are tried.
+    fn rough(&self, subject: &Subject<'a>, quantity: Quantity) -> Option<RoughRecord> {
+        let is_one = self.starts.len() == 1;
+        (!is_one).then(|| RoughRecord::of(subject, quantity))?
+    }
+
     /// As it is fitted by itself.
     fn valleys<'s>(
         &'s self,
         subject: &'s Subject<'a>,
+        rough: Option<&'a RoughRecord>,
         settings: &'s IdentifySettings,
+        simulator: &'s Simulator<'a>,
     ) -> Valleys<'s, 'a> {
         Valleys {
             residual: &self.residual,
             set: &self.set,
             starts: &self.starts,
             distinct_starts: self.distinct_starts,
+            rough,
             subject,
             settings,
+            simulator,
         }
     }
 
     /// The estimate with its covariance, after a fit if that is still to be made.
-    fn estimate(
+    async fn estimate(
         mut self,
         subject: &Subject<'a>,
+        rough: Option<&'a RoughRecord>,
         settings: &IdentifySettings,
+        simulator: &Simulator<'a>,
     ) -> Result<Estimate, IdentifyError> {
-        let fit = match self.outcome {
+        let fit = match self.outcome.take() {
             Some(outcome) => outcome?,
-            None => self.valleys(subject, settings).lowest()?,
+            None => {
+                let valleys = self.valleys(subject, rough, settings, simulator);
+                valleys.lowest().await?
+            }
         };
         let noise = match self.noise {
             Some(noise) => noise,
-            None => noise_of(&mut self.residual, subject, &fit),
+            None => noise_of(&mut self.residual, subject, &fit, simulator).await,
         };
         let mut covariance = fit.covariance(noise.as_residual_noise());
         self.residual.widen_by_fixed(&fit, &mut covariance);

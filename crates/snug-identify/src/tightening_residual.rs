@@ -1,7 +1,8 @@
+use crate::abreast::Request;
 use crate::averaging::average;
 use crate::{EvaluationError, IdentifyError, Residual, Whitening};
 use snug_campaign::Quantity;
-use snug_model::{Input, Model, Run, ScoredRecord};
+use snug_model::{Input, Model, ScoredRecord};
 
 /// Measured minus simulated output of one tightening over the model's free parameters, whitened where the noise is known.
 #[derive(Clone)]
@@ -185,6 +186,39 @@ impl<'a> TighteningResidual<'a> {
     }
 }
 
+impl<'a> TighteningResidual<'a> {
+    /// The simulation with these free values, which whoever makes it may make beside others.
+    pub(crate) fn request(&mut self, free_values: &[f64], with_slopes: bool) -> Request<'a> {
+        let samples = self.samples();
+        let mut room = std::mem::take(&mut self.foreseen);
+        room.output.resize(samples, 0.0);
+        room.sensitivity.resize(samples * self.free.len(), 0.0);
+        Request {
+            model: self.model,
+            input: self.input,
+            quantity: self.quantity,
+            values: self.all_values(free_values).to_vec(),
+            free: match with_slopes {
+                true => self.free.clone(),
+                false => Vec::new(),
+            },
+            output: room.output,
+            sensitivity: room.sensitivity,
+            is_done: false,
+        }
+    }
+
+    /// Keeps a simulation that was [requested](Self::request): if the residual is asked for there next, it is at hand.
+    pub(crate) fn foresee(&mut self, simulated: Request<'a>) {
+        self.foreseen = Foreseen {
+            values: simulated.values,
+            with_slopes: !simulated.free.is_empty(),
+            output: simulated.output,
+            sensitivity: simulated.sensitivity,
+        };
+    }
+}
+
 impl TighteningResidual<'_> {
     fn weigh_and_average(&self, signal: &[f64], scored: &mut [f64]) {
         self.weigh(signal, scored);
@@ -220,25 +254,6 @@ impl TighteningResidual<'_> {
         let mut weighted = vec![0.0; self.residual_count()];
         self.weigh(&column, &mut weighted);
         weighted
-    }
-
-    /// Room for a simulation with these free values, which whoever makes it may make beside others: if the residual is asked
-    /// for there next, with slopes or without as said here, it is at hand.
-    pub(crate) fn foresee(&mut self, free_values: &[f64], with_slopes: bool) -> Run<'_> {
-        let (samples, columns) = (self.samples(), self.free.len());
-        let values = self.all_values(free_values).to_vec();
-        self.foreseen.values = values;
-        self.foreseen.with_slopes = with_slopes;
-        self.foreseen.output.resize(samples, 0.0);
-        self.foreseen.sensitivity.resize(samples * columns, 0.0);
-        Run {
-            model: self.model,
-            values: &self.foreseen.values,
-            input: self.input,
-            quantity: self.quantity,
-            output: &mut self.foreseen.output,
-            sensitivity: &mut self.foreseen.sensitivity,
-        }
     }
 
     /// Measured − simulated of every sample and, where asked, its Jacobian (column-major, samples × free).

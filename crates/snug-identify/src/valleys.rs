@@ -1,10 +1,11 @@
 //! One tightening's fit where its cost has valley beside valley: an effect with several starts, or one that lets go.
 
+use crate::abreast::Simulator;
 use crate::averaging::REACHES;
 use crate::fit::Work;
 use crate::guided_starts::try_guided;
 use crate::race::{Rules, race};
-use crate::rough_starts::{RoughRecord, Tried, rough_solver};
+use crate::rough_starts::{RoughRecord, Tried, WORTH, apart, rough_solver};
 use crate::starts::best;
 use crate::{
     Constraints, Fit, IdentifyError, IdentifySettings, ResidualNoise, Settings, Status, Subject,
@@ -14,9 +15,17 @@ use snug_model::{BASE_PARAMETERS, Effect};
 use std::iter::once;
 
 /// Of the race between fits of every sample.
-pub(crate) const RULES: Rules = Rules {
-    heat: 20,
+const RULES: Rules = Rules {
+    heat: 12,
     worth: 1.0,
+};
+
+/// Samples to either side over which the residual is averaged on the way to where it is not: less than a millisecond.
+const NEAR: usize = 8;
+/// Of the race between averaged fits: the same valley may be lower by as much when it is seen as it is.
+const NEAR_RULES: Rules = Rules {
+    heat: 12,
+    worth: WORTH,
 };
 
 /// Mean square of a whitened residual beyond which a fit may have ended in the wrong valley.
@@ -38,23 +47,25 @@ pub(crate) struct Valleys<'s, 'a> {
     pub starts: &'s [Vec<f64>],
     /// The first so many differ in the effects' parameters; what follows are the same again with other m, c, k.
     pub distinct_starts: usize,
+    /// On which starts are tried, where there is one.
+    pub rough: Option<&'a RoughRecord>,
     pub subject: &'s Subject<'a>,
     pub settings: &'s IdentifySettings,
+    pub simulator: &'s Simulator<'a>,
 }
 
 impl<'a> Valleys<'_, 'a> {
     /// The lowest end that was found. Where an effect lets go of the hand's spring, many optima lie close together: what
     /// leaves more than noise is begun again from where it ended, and from where it began, seen from ever nearer.
-    pub fn lowest(&self) -> Result<Fit, IdentifyError> {
-        let fit = self.searched()?;
-        let lets_go = self.subject.model.effects().any(Effect::lets_go);
-        if !lets_go || !self.residual.is_whitened() || self.is_beyond_doubt(&fit) {
+    pub async fn lowest(&self) -> Result<Fit, IdentifyError> {
+        let fit = self.searched().await?;
+        if !self.is_rugged() || self.is_beyond_doubt(&fit) {
             return Ok(fit);
         }
         let mut work = fit.work;
         let mut ends = vec![fit];
         for start in once(&ends[0].values.clone()).chain(self.starts) {
-            let end = self.ever_nearer(start, &mut work)?;
+            let end = self.ever_nearer(start, &mut work).await?;
             let is_beyond_doubt = self.is_beyond_doubt(&end);
             ends.push(end);
             if is_beyond_doubt {
@@ -64,26 +75,34 @@ impl<'a> Valleys<'_, 'a> {
         best(ends, work)
     }
 
+    /// Whether spikes in the residual hide the way: the measured acceleration jumps where an effect lets go.
+    fn is_rugged(&self) -> bool {
+        self.residual.is_whitened() && self.subject.model.effects().any(Effect::lets_go)
+    }
+
     /// Where the residual leads to that is averaged over ever fewer samples.
-    fn ever_nearer(&self, start: &[f64], work: &mut Work) -> Result<Fit, IdentifyError> {
+    async fn ever_nearer(&self, start: &[f64], work: &mut Work) -> Result<Fit, IdentifyError> {
         let rough = rough_solver(self.settings, NEARER_TOLERANCE, MOST_NEARER_STEPS);
         let mut values = start.to_vec();
         for reach in REACHES {
             let averaged = self.residual.averaged(reach);
-            values = self.followed(&averaged, values, &rough, work)?.values;
+            let end = self.followed(&averaged, values, &rough, work).await?;
+            values = end.values;
         }
         self.followed(self.residual, values, &self.settings.solver, work)
+            .await
     }
 
     /// Where a fit from one start ends.
-    fn followed(
+    async fn followed(
         &self,
         residual: &TighteningResidual<'a>,
         start: Vec<f64>,
         solver: &Settings,
         work: &mut Work,
     ) -> Result<Fit, IdentifyError> {
-        let (ends, more) = race(residual, &[start], self.set, solver, RULES)?;
+        let (ends, more) =
+            race(residual, &[start], self.set, solver, RULES, self.simulator).await?;
         work.add(&more);
         best(ends, more)
     }
@@ -91,43 +110,60 @@ impl<'a> Valleys<'_, 'a> {
     /// The best of the ends that the starts lead to. Of several starts, what they lead to along the measured motion is tried
     /// first; that is the answer where it leaves no doubt. Otherwise those that lead on in a rough fit are followed to the
     /// end as well; all of them where that comes to nothing, or leaves so much that a lower valley may have been missed.
-    fn searched(&self) -> Result<Fit, IdentifyError> {
-        let (subject, settings) = (self.subject, self.settings);
+    async fn searched(&self) -> Result<Fit, IdentifyError> {
         let (mut ends, mut work): (Vec<Fit>, Work) = Default::default();
-        let mut follow = |starts: &[Vec<f64>], before: &Work| {
-            let (more, on_all) = race(self.residual, starts, self.set, &settings.solver, RULES)?;
+        let mut follow = async |starts: &[Vec<f64>], before: &Work| {
+            let (more, on_all) = self.raced(starts).await?;
             ends.extend(more);
             work.add(before);
             work.add(&on_all);
             best(ends.clone(), work)
         };
-        if self.starts.len() > 1
-            && let Some(rough) = RoughRecord::of(subject, settings.fitted_output)
-        {
-            if let Some(guided) = self.guided(&rough)? {
-                let fit = follow(&guided.starts, &guided.work)?;
+        if let Some(rough) = self.rough {
+            if let Some(guided) = self.guided(rough).await? {
+                let fit = follow(&guided.starts, &guided.work).await?;
                 if self.is_beyond_doubt(&fit) {
                     return Ok(fit);
                 }
             }
-            if let Some(tried) = rough.try_from(self.starts, subject, self.set, settings)? {
-                let fit = follow(&tried.starts, &tried.work)?;
+            let (subject, set, settings) = (self.subject, self.set, self.settings);
+            let tried = rough.try_from(self.starts, subject, set, settings, self.simulator);
+            if let Some(tried) = tried.await? {
+                let fit = follow(&tried.starts, &tried.work).await?;
                 if fit.status.is_converged() && !self.is_far_off(&fit) {
                     return Ok(fit);
                 }
             }
         }
-        follow(self.starts, &Work::default())
+        follow(self.starts, &Work::default()).await
+    }
+
+    /// The ends that these starts lead to; where spikes hide the way, by way of where the averaged residual leads.
+    pub async fn raced(&self, starts: &[Vec<f64>]) -> Result<(Vec<Fit>, Work), IdentifyError> {
+        let (set, simulator, solver) = (self.set, self.simulator, &self.settings.solver);
+        if !self.is_rugged() {
+            return race(self.residual, starts, set, solver, RULES, simulator).await;
+        }
+        let averaged = self.residual.averaged(NEAR);
+        let rough = rough_solver(self.settings, NEARER_TOLERANCE, MOST_NEARER_STEPS);
+        let (ends, before) = race(&averaged, starts, set, &rough, NEAR_RULES, simulator).await?;
+        let led = apart(ends, starts.len());
+        let starts = if led.is_empty() { starts } else { &led };
+        let raced = race(self.residual, starts, set, solver, RULES, simulator);
+        let (ends, mut work) = raced.await?;
+        work.add(&before);
+        Ok((ends, work))
     }
 
     /// What the starts lead to along the measured motion, which needs no m, c, k from elsewhere; only where the noise is
     /// known, since nothing else says when a fit is good enough.
-    pub fn guided(&self, rough: &RoughRecord) -> Result<Option<Tried>, IdentifyError> {
+    pub async fn guided(&self, rough: &'a RoughRecord) -> Result<Option<Tried>, IdentifyError> {
         if !self.residual.is_whitened() {
             return Ok(None);
         }
         let distinct = &self.starts[..self.distinct_starts];
-        try_guided(rough, self.subject, distinct, self.set, self.settings)
+        let (subject, set, settings) = (self.subject, self.set, self.settings);
+        try_guided(rough, subject, distinct, set, settings, self.simulator).await
     }
 
     /// Whether a fit leaves hardly more than noise, inside the constraints, and the effects are surely there: another

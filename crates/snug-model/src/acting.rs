@@ -129,11 +129,12 @@ impl<N: Number> Actor<'_, N> {
         );
     }
 
-    /// Numbers side by side ask out of line: in line, what every law of the catalogue needs is worked out before it is
-    /// known which law is asked, and they, which do not fit into the registers anyway, would pay most for it.
+    /// Numbers side by side that carry derivatives ask out of line: in line, what every law of the catalogue needs is worked
+    /// out before it is known which law is asked, and they, which do not fit into the registers anyway, would pay most for it.
     #[inline(always)]
     fn ask(&self, hook: impl FnOnce(Effect, &[N])) {
-        if N::Real::LANES == 1 {
+        let is_plain = size_of::<N>() == size_of::<N::Real>();
+        if N::Real::LANES == 1 || is_plain {
             hook(self.law, self.p);
         } else {
             out_of_line(Ask(self, hook));

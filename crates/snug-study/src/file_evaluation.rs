@@ -113,8 +113,8 @@ pub fn outcomes(evaluated: &[Evaluated]) -> Vec<(TighteningId, Vec<Rejection>)> 
         .collect()
 }
 
-/// Tightenings that are fitted at a time: as many as the widest vector registers hold.
-const SIDE_BY_SIDE: usize = 8;
+/// Tightenings that are fitted at a time: more than the widest vector registers hold, since fits end one by one.
+const SIDE_BY_SIDE: usize = 16;
 
 /// Prepares and evaluates one recording: every segment gives a result, with an estimate or with the reason for none.
 fn evaluate(

@@ -1,7 +1,7 @@
-//! Every effect of the catalogue: one fit of one tightening, and its share of a fit of many together.
+//! Every effect of the catalogue: one fit of one tightening, one of many by themselves, and its share of a pooled fit.
 
 use crate::bare_loop;
-use crate::base::{fit, fitting};
+use crate::base::{fit, fit_all, fitting};
 use crate::campaign::{Campaign, START, record};
 use crate::measure::{Clock, Times, race};
 use crate::table::{Reference, section, times_the};
@@ -11,36 +11,32 @@ use snug_model::Effect;
 use snug_synthetic::HiddenEffect;
 use std::hint::black_box;
 
-/// Tightenings that hide the effect and are fitted together.
-const TOGETHER: usize = 24;
-/// Of them those that are fitted one by one.
-const ALONE: usize = 4;
+/// Tightenings that hide the effect.
+const MANY: usize = 24;
 /// How strongly they hide it.
 const STRENGTH: f64 = 0.3;
 
 pub fn fill(_is_long: bool) {
     section(&format!(
-        "Catalogue: m, c, k and one effect from the whitened acceleration, 3000 samples; pooled: {TOGETHER} tightenings that share it; one core"
+        "Catalogue: m, c, k and one effect from the whitened acceleration, 3000 samples, {MANY} tightenings: one after the other, side by side, and pooled, where they share the effect; one core"
     ));
     let pool = one_core();
     for &effect in Effect::ALL {
         let name = effect.name();
         let hidden = HiddenEffect::from_name(name).map(|hidden| (hidden, STRENGTH));
-        let cases = Campaign::hiding(
-            &hidden.map_or_else(|_| Vec::new(), |one| vec![one]),
-            TOGETHER,
-        )
-        .cases();
+        let cases =
+            Campaign::hiding(&hidden.map_or_else(|_| Vec::new(), |one| vec![one]), MANY).cases();
         pool.install(|| row(name, effect, &cases));
     }
 }
 
 fn row(name: &str, effect: Effect, cases: &[Case]) {
-    let with: Vec<Case> = (cases.iter().take(ALONE))
+    let with: Vec<Case> = (cases.iter())
         .filter_map(|case| with_effect(case, effect))
         .collect();
+    let with: Vec<&Case> = with.iter().collect();
     let settings = fitting(Quantity::Acceleration);
-    let [bare, alone, together] = race(
+    let [bare, alone, side_by_side, pooled] = race(
         Clock::Core,
         [
             (cases.len(), &mut || {
@@ -52,6 +48,9 @@ fn row(name: &str, effect: Effect, cases: &[Case]) {
                 for case in &with {
                     black_box(fit(case, &settings));
                 }
+            }),
+            (with.len().max(1), &mut || {
+                black_box(fit_all(&with, &settings));
             }),
             (cases.len(), &mut || {
                 black_box(fit_together(cases, &[effect]).expect("the benchmark's own data"));
@@ -65,8 +64,9 @@ fn row(name: &str, effect: Effect, cases: &[Case]) {
         };
         times_the(&reference, times, &format!("{name}, {what}"));
     };
-    against(&alone, "one tightening");
-    against(&together, "pooled, per tightening");
+    against(&alone, "one by itself");
+    against(&side_by_side, "one of many side by side");
+    against(&pooled, "pooled, per tightening");
 }
 
 /// The same tightening, the effect in its model.

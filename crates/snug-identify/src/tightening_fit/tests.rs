@@ -2,16 +2,13 @@
 #![allow(clippy::unwrap_used)]
 
 use super::*;
-use crate::race::race;
-use crate::rough_starts::RoughRecord;
-use crate::starts::best;
-use crate::valleys::RULES;
-use crate::{DenseResidual, Residual, ResidualNoise, solve_from_starts};
 use snug_campaign::{
     Conditions, Correction, Intersample, Motion, NoiseFloor, NoiseSource, Rig, TighteningId,
     TimeBase,
 };
-use snug_model::{Effect, Run, simulate_side_by_side};
+use snug_model::Effect;
+
+mod starts;
 
 const RIG: Rig = Rig {
     lever_arm_m: 0.33,
@@ -236,7 +233,14 @@ fn on_the_general_road(
     if !from_the_same_start {
         attempt.starts = vec![attempt.usual_start.clone()];
     }
-    attempt.estimate(subject, settings).unwrap()
+    let simulator = Simulator::default();
+    let estimate = attempt.estimate(subject, None, settings, &simulator);
+    alone(&simulator, estimate).unwrap()
+}
+
+/// What comes of a fit that has no company.
+fn alone<T>(simulator: &Simulator<'_>, fit: impl Future<Output = T>) -> T {
+    simulator.finish([fit]).pop().unwrap()
 }
 
 #[test]
@@ -279,63 +283,6 @@ fn agree(found: &Estimate, expected: &Estimate, same_start: bool, what: &str) {
     }
 }
 
-#[test]
-fn the_company_changes_no_bit() {
-    let all = all();
-    let subjects: Vec<Subject<'_>> = all.iter().map(Simulated::subject).collect();
-    for settings in settings() {
-        let together = identify_all(&subjects, &settings);
-        let mut reversed = subjects.clone();
-        reversed.reverse();
-        let mut backwards = identify_all(&reversed, &settings);
-        backwards.reverse();
-        assert_eq!(together, backwards, "in the other order");
-        for size in [1, 3, 8] {
-            let groups = subjects.chunks(size);
-            let apart: Vec<_> = groups
-                .flat_map(|some| identify_all(some, &settings))
-                .collect();
-            assert_eq!(together, apart, "in groups of {size}");
-        }
-    }
-}
-
-/// Where an effect has several starts, trying them on a rough record leads to the optimum that all of them together find.
-#[test]
-fn rough_starts_lead_to_the_best_optimum_of_all() {
-    let truth = Model::new(RIG, &[Effect::MaxwellBranch]).unwrap();
-    let [m, c, k] = USUAL;
-    for (number, tau_s) in [(1, 0.008), (2, 0.03), (3, 0.09)] {
-        let mut one = simulated(number, &plan());
-        let motion = truth.simulate(&[m, c, k, 800.0, tau_s], &one.input);
-        let noise = coloured(number, &plan(), &[-0.6, 0.2]);
-        let pairs = motion
-            .acceleration_rad_per_s2
-            .unwrap()
-            .into_iter()
-            .zip(noise);
-        one.tightening.motion.acceleration_rad_per_s2 = Some(pairs.map(|(a, n)| a + n).collect());
-        one.model = truth.clone();
-        let (subject, settings) = (one.subject(), IdentifySettings::default());
-        let whitening = Whitening::of(subject.tightening, settings.fitted_output);
-        let mut attempt = Attempt::new(&subject, whitening.as_ref(), &settings).unwrap();
-        assert!(attempt.starts.len() > 1);
-        let rough = attempt.valleys(&subject, &settings).lowest().unwrap();
-        let mut problem = DenseResidual::new(&mut attempt.residual);
-        let all = solve_from_starts(
-            &mut problem,
-            &attempt.starts,
-            &attempt.set,
-            &settings.solver,
-        );
-        let all = all.unwrap();
-        assert!(rough.status.is_converged() && rough.cost <= all.cost * (1.0 + 1e-9));
-        for (found, expected) in rough.values.iter().zip(&all.values) {
-            assert!((found / expected - 1.0).abs() < 1e-7, "{rough:?} {all:?}");
-        }
-    }
-}
-
 /// A tightening during which the operator pushes with `force_n` from 0.12 s to 0.18 s, fitted with that effect.
 fn pushed(number: u32, force_n: f64) -> Simulated {
     let mut one = simulated(number, &plan());
@@ -354,61 +301,52 @@ fn pushed(number: u32, force_n: f64) -> Simulated {
     one
 }
 
-/// Along the measured motion the truth is found from starts far away, and the fit from there is taken for the answer; an
-/// effect that is not there never is.
 #[test]
-fn starts_led_along_the_motion_end_at_an_effect_that_is_there() {
-    let [m, c, k] = USUAL;
-    let settings = IdentifySettings::default();
-    for (number, force_n) in [(1, 20.0), (2, -35.0), (3, 0.0)] {
-        let one = pushed(number, force_n);
-        let subject = one.subject();
-        let whitening = Whitening::of(subject.tightening, settings.fitted_output);
-        let attempt = Attempt::new(&subject, whitening.as_ref(), &settings).unwrap();
-        let rough = RoughRecord::of(&subject, settings.fitted_output).unwrap();
-        let valleys = attempt.valleys(&subject, &settings);
-        let guided = valleys.guided(&rough).unwrap().unwrap();
-        let ends = race(
-            &attempt.residual,
-            &guided.starts,
-            &attempt.set,
-            &settings.solver,
-            RULES,
-        );
-        let fit = best(ends.unwrap().0, guided.work).unwrap();
-        let is_there = force_n != 0.0;
-        assert_eq!(
-            valleys.is_beyond_doubt(&fit),
-            is_there,
-            "{force_n}: {fit:?}"
-        );
-        let answer = valleys.lowest().unwrap();
-        assert!(answer.cost <= fit.cost);
-        if is_there {
-            assert_eq!(answer.values, fit.values);
-            let errors = fit.covariance(ResidualNoise::Unit).standard_errors;
-            let truth = [m, c, k, force_n, 0.12, 0.06];
-            for ((found, truth), error) in fit.values.iter().zip(truth).zip(errors) {
-                assert!((found - truth).abs() < 4.0 * error.unwrap(), "{fit:?}");
-            }
-        }
+fn the_company_changes_no_bit() {
+    let mut pushes: Vec<Simulated> = (1..=9)
+        .map(|number| pushed(number, 4.0 * f64::from(number)))
+        .collect();
+    // One is shorter than the others, one has other effects.
+    pushes[3].input = pushes[3].input.beginning(600);
+    pushes[3].tightening = shortened(&pushes[3].tightening, 600);
+    pushes[5].model = Model::new(RIG, &[Effect::CubicStiffness]).unwrap();
+    for all in [all(), pushes] {
+        company_changes_no_bit(&all);
     }
 }
 
-#[test]
-fn what_is_unusual_is_there() {
-    let all = all();
+fn shortened(tightening: &Tightening, samples: usize) -> Tightening {
+    let mut shorter = tightening.clone();
+    shorter.torque_nm.truncate(samples);
+    for quantity in [
+        Quantity::Displacement,
+        Quantity::Velocity,
+        Quantity::Acceleration,
+    ] {
+        if let Some(signal) = tightening.motion.get(quantity) {
+            shorter.motion.set(quantity, signal[..samples].to_vec());
+        }
+    }
+    shorter
+}
+
+fn company_changes_no_bit(all: &[Simulated]) {
     let subjects: Vec<Subject<'_>> = all.iter().map(Simulated::subject).collect();
-    let found = identify_all(&subjects, &IdentifySettings::default());
-    let found: Vec<Estimate> = found.into_iter().map(Result::unwrap).collect();
-    assert_eq!(found[9].active_constraints, ["light_damping"]);
-    assert!(found[9].conic_solves > 0);
-    let passes = found.iter().map(|estimate| estimate.evaluations);
-    let usual = found[0].evaluations;
-    assert!(passes.max().unwrap() > usual, "a straggler");
-    // The cubic spring widens what the noise alone would leave.
-    let errors = |number: usize| found[number].parameters[2].standard_error.unwrap();
-    assert!(errors(11) > 3.0 * errors(0), "{} {}", errors(11), errors(0));
+    for settings in settings() {
+        let together = identify_all(&subjects, &settings);
+        let mut reversed = subjects.clone();
+        reversed.reverse();
+        let mut backwards = identify_all(&reversed, &settings);
+        backwards.reverse();
+        assert_eq!(together, backwards, "in the other order");
+        for size in [1, 3, 8] {
+            let groups = subjects.chunks(size);
+            let apart: Vec<_> = groups
+                .flat_map(|some| identify_all(some, &settings))
+                .collect();
+            assert_eq!(together, apart, "in groups of {size}");
+        }
+    }
 }
 
 #[test]
@@ -425,34 +363,4 @@ fn a_fit_without_the_fitted_output_leaves_the_others_alone() {
         found.iter().filter(|one| one.is_ok()).count(),
         all.len() - 1
     );
-}
-
-/// Searches that race are answered by simulations side by side; a fit may not depend on how many still run.
-#[test]
-fn what_is_simulated_beforehand_has_the_same_bits() {
-    let mut one = simulated(1, &plan());
-    one.model = Model::new(RIG, &[Effect::MaxwellBranch]).unwrap();
-    let (subject, settings) = (one.subject(), IdentifySettings::default());
-    let whitening = Whitening::of(subject.tightening, settings.fitted_output);
-    let attempt = Attempt::new(&subject, whitening.as_ref(), &settings).unwrap();
-    let free = attempt.residual.free().to_vec();
-    for with_slopes in [true, false] {
-        let evaluate = |mut residual: TighteningResidual<'_>, start: &[f64]| {
-            let count = residual.residual_count();
-            let (mut r, mut slopes) = (vec![0.0; count], vec![0.0; count * free.len()]);
-            let asked = with_slopes.then_some(&mut slopes[..]);
-            residual.evaluate(start, &mut r, asked).unwrap();
-            (r, slopes)
-        };
-        let mut prepared = vec![attempt.residual.clone(); attempt.starts.len()];
-        let mut runs: Vec<Run<'_>> = (prepared.iter_mut().zip(&attempt.starts))
-            .map(|(residual, start)| residual.foresee(start, with_slopes))
-            .collect();
-        simulate_side_by_side(&mut runs, if with_slopes { &free } else { &[] });
-        assert!(prepared.len() > 2);
-        for (residual, start) in prepared.into_iter().zip(&attempt.starts) {
-            let alone = evaluate(attempt.residual.clone(), start);
-            assert_eq!(evaluate(residual, start), alone);
-        }
-    }
 }
