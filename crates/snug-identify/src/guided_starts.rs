@@ -8,7 +8,10 @@ use crate::abreast::Simulator;
 use crate::race::{Rules, race};
 use crate::rough_starts::{RoughRecord, Tried, WORTH, apart, rough_solver};
 use crate::{Constraints, IdentifyError, IdentifySettings, Subject};
+use snug_model::Input;
 
+/// Rough samples from one restart to the next, some 3 ms: enough for a law to show in the velocity.
+const APART: usize = 4;
 /// A guided fit has gone far enough when this share of the residual could still be removed.
 const TOLERANCE: f64 = 0.1;
 /// Most steps of a guided fit.
@@ -45,6 +48,11 @@ pub(crate) async fn try_guided<'a>(
         tried.work.add(&work);
     }
     Ok(tried)
+}
+
+/// A rough record's torque with restarts from the measured motion.
+pub(crate) fn along_motion(input: Input, angle_rad: &[f64], velocity_rad_per_s: &[f64]) -> Input {
+    input.with_restarts(APART, motions_at(angle_rad, velocity_rad_per_s, APART))
 }
 
 /// Angle \[rad\] and velocity \[rad/s\] at every `apart`th sample, to restart a simulation from.

@@ -5,7 +5,7 @@
 
 use crate::abreast::Simulator;
 use crate::fit::{Fit, Work};
-use crate::guided_starts::motions_at;
+use crate::guided_starts::along_motion;
 use crate::race::{Rules, race};
 use crate::{Constraints, IdentifyError, IdentifySettings, Settings, Subject, TighteningResidual};
 use snug_campaign::{Intersample, Quantity};
@@ -22,8 +22,6 @@ const MOST_STEPS: usize = 150;
 /// Ends are worth a fit of every sample up to this multiple of the lowest rough cost, and at most so many.
 pub(crate) const WORTH: f64 = 1.2;
 const MOST_ENDS: usize = 2;
-/// Rough samples from one restart to the next, some 3 ms: enough for a law to show in the velocity.
-const APART: usize = 4;
 /// Of the race between rough fits.
 const RULES: Rules = Rules {
     heat: 12,
@@ -79,8 +77,7 @@ impl RoughRecord {
         let guided = (means_of(Quantity::Displacement).zip(means_of(Quantity::Velocity)))
             .filter(|_| quantity == Quantity::Acceleration)
             .map(|(angle_rad, velocity_rad_per_s)| {
-                let motions = motions_at(&angle_rad, &velocity_rad_per_s, APART);
-                rough.clone().with_restarts(APART, motions)
+                along_motion(rough.clone(), &angle_rad, &velocity_rad_per_s)
             });
         Some(Self {
             factor,
