@@ -109,8 +109,8 @@ fn a_diagnosis_takes_no_more_work_than_before_and_the_same_for_any_threads() {
         rankings: 1,
         signatures: 752,
         pooled_fits: 164,
-        steps: 1750,
-        linearizations: 11999,
+        steps: 1355,
+        linearizations: 11380,
         conic_solves: 155,
     };
     assert_eq!(counted, what_it_takes, "see the head of this file");

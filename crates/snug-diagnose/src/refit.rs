@@ -42,8 +42,8 @@ const LED: PooledSettings = PooledSettings {
 /// Samples to either side over which residuals are averaged where starts are led along the measured motion.
 const LED_REACH: usize = 8;
 
-/// Root mean square of a tightening's residual over the median of all from which it is left behind: it ended in a minimum
-/// of its own, where the others found theirs.
+/// Root mean square of a tightening's residual, and what it kept of it, over the median of all from which it is left behind:
+/// it ended in a minimum of its own, where the others found theirs.
 const LEFT_BEHIND: f64 = 1.15;
 
 /// Times that those who were left behind are fetched: with them the shared sizes move, and others may see the way.
@@ -193,7 +193,7 @@ fn catch_up(
 ) -> Result<PooledFit, DiagnoseError> {
     let begun = current.start(hypothesis).own;
     for _ in 0..MOST_ROUNDS {
-        let (behind, ahead) = left_behind(hypothesis, &end);
+        let (behind, ahead) = left_behind(hypothesis, current, &end);
         let pick = |own: &[Vec<f64>]| -> Vec<Vec<f64>> {
             ahead.iter().map(|&member| own[member].clone()).collect()
         };
@@ -218,13 +218,22 @@ fn catch_up(
     Ok(end)
 }
 
-/// The tightenings that were left behind, and the others.
-fn left_behind(hypothesis: &Hypothesis<'_>, end: &PooledFit) -> (Vec<usize>, Vec<usize>) {
-    let errors: Vec<f64> = (end.profiles.iter().enumerate())
-        .map(|(member, one)| (2.0 * one.cost / hypothesis.residual_count(member) as f64).sqrt())
+/// The tightenings that were left behind, which keep more of their error than the others and have more, and the others.
+fn left_behind(
+    hypothesis: &Hypothesis<'_>,
+    current: &Fitted,
+    end: &PooledFit,
+) -> (Vec<usize>, Vec<usize>) {
+    let squares = || end.profiles.iter().map(|one| 2.0 * one.cost).enumerate();
+    let errors: Vec<f64> = squares()
+        .map(|(member, squares)| (squares / hypothesis.residual_count(member) as f64).sqrt())
         .collect();
-    let limit = median(&errors).map_or(f64::INFINITY, |usual| LEFT_BEHIND * usual);
-    (0..errors.len()).partition(|&member| errors[member] > limit)
+    let kept: Vec<f64> = squares()
+        .map(|(member, squares)| (squares / current.blocks[member].squares).sqrt())
+        .collect();
+    let is_far =
+        |of: &[f64], member: usize| median(of).is_ok_and(|usual| of[member] > LEFT_BEHIND * usual);
+    (0..errors.len()).partition(|&member| is_far(&errors, member) && is_far(&kept, member))
 }
 
 /// By how much m, c and k are larger in `with` than in `without`, the median over tightenings; 1 for other parameters.
