@@ -1,5 +1,5 @@
 use crate::EvaluationError;
-use crate::dense::{dot, triangularize, upper_transposed_times};
+use crate::dense::{dot, triangularize, upper_times, upper_transposed_times};
 
 /// The local model of a least-squares problem: ½‖r + J d‖² = ½‖q + R d‖² + constant.
 ///
@@ -40,6 +40,13 @@ impl Linearization {
     /// Jᵀr, n entries.
     pub fn gradient(&self) -> &[f64] {
         &self.gradient
+    }
+
+    /// By how much a step raises the cost as far as r and J tell: ½‖r + J step‖² − ½‖r‖².
+    pub(crate) fn rise(&self, step: &[f64]) -> f64 {
+        let mut reached = vec![0.0; step.len()];
+        upper_times(&self.factor, step.len(), step, &mut reached);
+        dot(&reached, &self.reachable) + 0.5 * dot(&reached, &reached)
     }
 
     /// Takes r (m) and J (m × n, column-major) and factors J by Householder reflections; both are overwritten.

@@ -4,7 +4,7 @@
 //! take, its last rows are the sensitivity to α that β_i cannot imitate; stacked over i they give the step in α, and
 //! back-substitution gives every β_i's. Work and memory grow linearly with the number of members.
 
-use crate::dense::{add_scaled, dot, triangularize, upper_times, upper_transposed_times};
+use crate::dense::{add_scaled, dot, triangularize, upper_transposed_times};
 use crate::step::{Stepper, project};
 use crate::{Constraints, EvaluationError, IdentifyError, Linearization, Work};
 
@@ -389,9 +389,7 @@ impl Member {
     /// The decrease of ½‖r_i‖² that the step of β_i and `shift` promise together.
     fn promise(&self, shift: &[f64]) -> f64 {
         let step = [self.stepper.displacement(), shift].concat();
-        let mut reached = vec![0.0; step.len()];
-        upper_times(&self.here.factor, step.len(), &step, &mut reached);
-        -dot(&reached, &self.here.reachable) - 0.5 * dot(&reached, &reached)
+        -self.here.rise(&step)
     }
 
     /// Works out what is left to α once β_i follows as damping and constraints let it: along a face that its own step

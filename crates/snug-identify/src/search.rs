@@ -1,6 +1,5 @@
 mod patience;
 
-use crate::dense::{dot, upper_times};
 use crate::fit::{ActiveConstraint, Fit, Status, Work};
 use crate::identifiability::analyse;
 use crate::step::{NO_DAMPING, Stepper, project};
@@ -192,9 +191,7 @@ impl<'a> Search<'a> {
             .zip(&self.values)
             .map(|(to, from)| to - from)
             .collect();
-        let mut reached = vec![0.0; step.len()];
-        upper_times(&self.here.factor, step.len(), &step, &mut reached);
-        self.here.cost + dot(&reached, &self.here.reachable) + 0.5 * dot(&reached, &reached)
+        self.here.cost + self.here.rise(&step)
     }
 
     /// Decrease of the cost that is left by its derivatives, as far as the last step found shows.

@@ -43,17 +43,11 @@ impl Run<'_> {
 /// When more than [`MAXIMUM_FREE`] parameters are free, or a slice is too short.
 pub fn simulate_side_by_side(runs: &mut [Run<'_>], free: &[usize]) {
     for group in runs.chunk_by_mut(Run::is_alike) {
-        let is_few = group.len() < FEWEST;
-        let together = Together { runs: group, free };
-        if is_few {
-            together.one_by_one();
-        } else {
-            in_lanes(together);
-        }
+        in_lanes(Together { runs: group, free });
     }
 }
 
-/// Runs from which side by side they take less time than one after the other.
+/// Runs from which side by side they take less time than one after the other; where there are fewer lanes, as many as those.
 const FEWEST: usize = 3;
 
 /// Runs that are all alike.
@@ -62,22 +56,13 @@ struct Together<'a, 'r> {
     free: &'a [usize],
 }
 
-impl Together<'_, '_> {
-    fn one_by_one(self) {
-        self.run(0.0);
-    }
-}
-
 impl LaneTask for Together<'_, '_> {
     type Output = ();
     fn run<R: Real>(self, zero: R) {
         for runs in self.runs.chunks_mut(R::LANES) {
-            if runs.len() < FEWEST && R::LANES > 1 {
-                Together {
-                    runs,
-                    free: self.free,
-                }
-                .one_by_one();
+            if runs.len() < FEWEST.min(R::LANES) {
+                let free = self.free;
+                Together { runs, free }.run(0.0);
                 continue;
             }
             let side: Vec<(&Model, &Input, &[f64])> = (runs.iter())
