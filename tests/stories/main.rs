@@ -9,6 +9,7 @@ mod gap;
 mod interruption;
 mod intervals;
 mod layers;
+mod many;
 mod mystery;
 mod other_rigs;
 mod practice;

@@ -268,7 +268,7 @@ impl Examination<'_> {
             twins: twins.iter().map(|twin| twin.name().to_owned()).collect(),
             plausible: candidate.fitted.converged
                 && sizes.iter().all(EffectParameter::is_plausible),
-            explanation: wording::explanation(candidate.effect),
+            explanation: wording::explanation(candidate.effect, &candidate.fitted),
             parameters: sizes,
         }
     }
@@ -304,7 +304,7 @@ impl Examination<'_> {
                     needed: (self.climb.attempts.iter())
                         .find(|attempt| attempt.effect == effect)
                         .map(|attempt| attempt.loss / last.squares()),
-                    explanation: wording::explanation(effect),
+                    explanation: wording::explanation(effect, last),
                     parameters: sizes,
                 }
             })

@@ -2,6 +2,7 @@
 
 use crate::dense::{Square, dot};
 use crate::hypothesis::{Hypothesis, Room, Start};
+use crate::sizes::first_parameter;
 use crate::torque_noise::passed_on;
 use crate::units::Units;
 use snug_identify::PooledFit;
@@ -27,6 +28,8 @@ pub(crate) struct Fitted {
     pub effects: Vec<Effect>,
     own_names: Vec<String>,
     shared_names: Vec<String>,
+    /// Which of the model's parameters these are.
+    shared_indices: Vec<usize>,
     pub own: Vec<Vec<f64>>,
     pub shared: Vec<f64>,
     pub converged: bool,
@@ -65,6 +68,7 @@ impl Fitted {
             effects: hypothesis.effects.clone(),
             own_names: hypothesis.names(&hypothesis.own),
             shared_names: hypothesis.names(&hypothesis.shared),
+            shared_indices: hypothesis.shared.clone(),
             converged: fit.converged,
             blocks: Vec::new(),
             members: Vec::new(),
@@ -246,6 +250,14 @@ impl Fitted {
         names
             .map(|(column, name)| (name.clone(), mean(column)))
             .collect()
+    }
+
+    /// The first number of one of its effects, which is what its other numbers shape; 0 where it is held or each
+    /// tightening has its own.
+    pub fn size(&self, effect: Effect) -> f64 {
+        let index = first_parameter(&self.effects, effect);
+        let column = self.shared_indices.iter().position(|&known| known == index);
+        column.map_or(0.0, |column| self.shared[column])
     }
 
     /// Names of the shared parameters.

@@ -294,7 +294,7 @@ fn is_noise(left: &Fitted) -> bool {
 /// In units of the noise's variance.
 const NOISE_AND_A_LITTLE: f64 = 1.02;
 /// Share of the misfit left by one effect beyond which two are tried together.
-const MUCH_LEFT: f64 = 0.1;
+const MUCH_LEFT: f64 = 0.02;
 /// Share of the misfit left by two effects below which no other two are looked for.
 const LITTLE_LEFT: f64 = 0.05;
 /// Effects from which a second is looked for.

@@ -109,11 +109,12 @@ pub(crate) fn spoken(effect: Effect) -> String {
     }
 }
 
-/// An effect that these data cannot tell from others is named with them; a term that stands alone is put into words.
-fn with_twins(effect: Effect, twins: &[Effect]) -> String {
+/// An effect of `fitted` that these data cannot tell from others is named with them; a term that stands alone is put into
+/// words.
+fn with_twins(effect: Effect, twins: &[Effect], fitted: &Fitted) -> String {
     let names = std::iter::once(&effect).chain(twins);
     let names: Vec<String> = names.map(|&effect| spoken(effect)).collect();
-    match (twins, in_words(effect)) {
+    match (twins, in_words(effect, fitted.size(effect))) {
         ([], None) => names.concat(),
         ([], Some(words)) => format!("{} ({words})", names.concat()),
         _ => format!("{} (these data cannot tell which)", names.join(" or ")),
@@ -162,7 +163,7 @@ pub(crate) fn headline(situation: &Situation<'_>) -> String {
     let after = error(situation.after);
     let fell = fall(situation.before, situation.after);
     let added: Vec<String> = (situation.additions.iter())
-        .map(|one| with_twins(one.effect, &one.twins))
+        .map(|one| with_twins(one.effect, &one.twins, situation.after))
         .collect();
     if situation.stopped == Some(Stop::Interrupted) {
         return match added.as_slice() {
@@ -178,7 +179,7 @@ pub(crate) fn headline(situation: &Situation<'_>) -> String {
     }
     match (situation.verdict, situation.chosen) {
         (Verdict::MissingEffect | Verdict::UnlistedEffect, Some(chosen)) => {
-            let name = with_twins(chosen.effect, &situation.twins);
+            let name = with_twins(chosen.effect, &situation.twins, &chosen.fitted);
             let falls = fall(situation.after, &chosen.fitted);
             let what = match is_unlisted(chosen.effect) {
                 true => format!(
@@ -388,9 +389,9 @@ pub(crate) fn stopped(situation: &Situation<'_>) -> Option<String> {
     })
 }
 
-/// What an effect is, how it shows, what to check at the bench.
-pub(crate) fn explanation(effect: Effect) -> Vec<String> {
-    match declaration(effect.name()).zip(in_words(effect)) {
+/// What an effect of `fitted` is, how it shows, what to check at the bench.
+pub(crate) fn explanation(effect: Effect, fitted: &Fitted) -> Vec<String> {
+    match declaration(effect.name()).zip(in_words(effect, fitted.size(effect))) {
         Some((declared, words)) => vec![
             format!(
                 "A term in no catalogue: {words}. The hand's force gains {} ({}).",

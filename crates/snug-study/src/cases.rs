@@ -7,6 +7,7 @@ use rayon::prelude::*;
 use snug_campaign::Rejection;
 use snug_diagnose::Case;
 use snug_preprocess::preprocess;
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 /// Reads and prepares at most `most` tightenings, evenly spread over the files and within each; tightenings with faulty
@@ -15,30 +16,74 @@ pub fn cases(study: &Study, files: &[PathBuf], most: usize) -> Result<Vec<Case>,
     Ok(chosen(study, files, most)?.cases)
 }
 
+/// Tightenings of one file that take part at least, if it has them: what drifts within a file shows between two.
+const EACH: usize = 2;
+
 /// The same, with what is to be said of those that take no part.
 pub(crate) fn chosen(
     study: &Study,
     files: &[PathBuf],
     most: usize,
 ) -> Result<Comparable, StudyError> {
-    let stride = files.len().div_ceil(most.max(1)).max(1);
-    let some: Vec<&PathBuf> = files.iter().step_by(stride).collect();
-    let most_each = (most / some.len().max(1)).max(1);
-    let read = some
-        .par_iter()
-        .map(|path| {
-            let mut cases = cases_of_file(study, path)?;
-            let stride = cases.len().div_ceil(most_each).max(1);
-            let mut index = 0;
-            cases.retain(|_| {
-                index += 1;
-                (index - 1) % stride == 0
-            });
-            Ok(cases)
-        })
-        .collect::<Vec<Result<_, StudyError>>>();
-    let read = read.into_iter().collect::<Result<Vec<_>, _>>()?;
-    Ok(comparable(read.into_iter().flatten().collect()))
+    let stride = files.len().div_ceil((most / EACH).max(1)).max(1);
+    let each = (most * stride / files.len().max(1)).max(1);
+    let read = |from: usize| -> Result<Vec<Part>, StudyError> {
+        let some: Vec<usize> = (from..files.len()).step_by(stride).collect();
+        let parts = some.into_par_iter().map(|number| {
+            let all = cases_of_file(study, &files[number])?;
+            Ok(Part::of(number, all, each, number / stride))
+        });
+        parts.collect::<Vec<Result<_, _>>>().into_iter().collect()
+    };
+    let taken = |parts: &[Part]| parts.iter().map(|part| part.cases.len()).sum::<usize>();
+    let mut parts = read(0)?;
+    // Files with one tightening each: there is room for those between.
+    if stride > 1 && 2 * taken(&parts) <= most {
+        parts.extend(read(stride / 2)?);
+        parts.sort_by_key(|part| part.number);
+    }
+    let is_selection = parts.len() < files.len() || parts.iter().any(|part| part.is_selection);
+    let remark = selection(taken(&parts), parts.len(), files.len());
+    let mut comparable = comparable(parts.into_iter().flat_map(|part| part.cases).collect());
+    comparable.remarks.extend(is_selection.then_some(remark));
+    Ok(comparable)
+}
+
+/// What is taken of a file.
+struct Part {
+    /// Which file.
+    number: usize,
+    cases: Vec<Case>,
+    /// Whether it has more.
+    is_selection: bool,
+}
+
+impl Part {
+    /// At most `most` of the tightenings of a file, evenly spread and `later` by so many, round the end.
+    fn of(number: usize, all: Vec<Case>, most: usize, later: usize) -> Self {
+        let (count, picked) = (all.len(), most.min(all.len()));
+        let places: BTreeSet<usize> = (0..picked)
+            .map(|place| (place * count / picked + later) % count)
+            .collect();
+        let cases = all.into_iter().enumerate();
+        let kept = cases.filter_map(|(place, case)| places.contains(&place).then_some(case));
+        Self {
+            number,
+            cases: kept.collect(),
+            is_selection: picked < count,
+        }
+    }
+}
+
+/// That effects were learnt from some tightenings only.
+fn selection(taken: usize, read: usize, all: usize) -> String {
+    let from = match read < all {
+        true => format!("{read} of the {all} files"),
+        false => format!("each of the {all} files"),
+    };
+    format!(
+        "There are many tightenings: what is missing, and how large it is, was learnt from {taken}, taken evenly from {from}; every tightening was then evaluated with what was learnt. `diagnosis: (most_tightenings: …)` in the study says how many may be used."
+    )
 }
 
 fn cases_of_file(study: &Study, path: &Path) -> Result<Vec<Case>, StudyError> {

@@ -7,8 +7,8 @@ use std::collections::BTreeMap;
 /// Tightenings that are judged by one measure.
 pub(crate) struct Comparable {
     pub cases: Vec<Case>,
-    /// Why others take no part; nothing where all do.
-    pub remark: Option<String>,
+    /// Why others take no part; empty where all do.
+    pub remarks: Vec<String>,
 }
 
 /// The largest group of tightenings that have the compared output and a known (or unknown) noise in common; of equals,
@@ -35,7 +35,7 @@ pub(crate) fn comparable(cases: Vec<Case>) -> Comparable {
     };
     Comparable {
         cases: kept,
-        remark,
+        remarks: remark.into_iter().collect(),
     }
 }
 

@@ -157,7 +157,10 @@ pub fn diagnose(
     });
     let pool = pool(settings.threads)?;
     let most = study.diagnosis.most_tightenings;
-    let Comparable { cases, remark } = pool.install(|| chosen(study, &listing.files, most))?;
+    let Comparable {
+        cases,
+        remarks: left_out,
+    } = pool.install(|| chosen(study, &listing.files, most))?;
     if interrupted.load(Ordering::Relaxed) {
         return Err(StudyError::Interrupted);
     }
@@ -192,7 +195,7 @@ pub fn diagnose(
         answer => answer?,
     };
     answer.diagnosis.reasons.extend_from_slice(remarks);
-    answer.diagnosis.reasons.extend(remark);
+    answer.diagnosis.reasons.extend(left_out);
     drop(cases);
     let (last, diagnosis) = pool.install(|| climb(study, answer, &listing.files, progress))?;
     // Who ended the search wants to see what it found of all tightenings.
