@@ -21,7 +21,7 @@ fn rough_starts_lead_to_the_best_optimum_of_all() {
             .zip(noise);
         one.tightening.motion.acceleration_rad_per_s2 = Some(pairs.map(|(a, n)| a + n).collect());
         one.model = truth.clone();
-        let (subject, settings) = (one.subject(), IdentifySettings::default());
+        let (subject, settings) = (one.subject(), to_the_end());
         let whitening = Whitening::of(subject.tightening, settings.fitted_output);
         let mut attempt = Attempt::new(&subject, whitening.as_ref(), &settings).unwrap();
         assert!(attempt.starts.len() > 1);
