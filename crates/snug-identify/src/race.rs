@@ -35,9 +35,12 @@ pub(crate) async fn race<'a>(
     simulator: &Simulator<'a>,
 ) -> Result<(Vec<Fit>, Work), IdentifyError> {
     let (n, m) = (residual.parameter_count(), residual.residual_count());
+    // Over a contact's edges a second derivative says nothing of what comes next.
+    let is_bent = !residual.lets_go();
     let entrant = |start: &Vec<f64>| {
+        let search = Search::new(n, start, constraints, settings)?.of_measurement();
         Ok(Entrant {
-            search: Search::new(n, start, constraints, settings)?.of_measurement(),
+            search: if is_bent { search } else { search.straight() },
             problem: DenseResidual::new(residual.clone()),
         })
     };

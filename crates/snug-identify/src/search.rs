@@ -77,8 +77,9 @@ pub(crate) struct Search<'a> {
     gain: f64,
     /// The last trial was rejected, so the next is first judged by its cost alone.
     is_cautious: bool,
-    /// A trial was rejected some time: steps are bent along curved valleys.
+    /// A trial was rejected some time: steps are bent along curved valleys, where that is worth it.
     is_hard: bool,
+    bends: bool,
     bending: Vec<f64>,
     trusted_steps: usize,
     last_decrement: f64,
@@ -134,6 +135,7 @@ impl<'a> Search<'a> {
             gain: 1.0,
             is_cautious: false,
             is_hard: false,
+            bends: true,
             bending: vec![0.0; n],
             trusted_steps: 0,
             last_decrement: f64::INFINITY,
@@ -147,6 +149,14 @@ impl<'a> Search<'a> {
     pub fn of_measurement(self) -> Self {
         Self {
             patience: SHORT,
+            ..self
+        }
+    }
+
+    /// Never asks how the residual bends along a step.
+    pub fn straight(self) -> Self {
+        Self {
+            bends: false,
             ..self
         }
     }
@@ -285,7 +295,7 @@ impl<'a> Search<'a> {
 
     /// Bends a free step with the residual's second derivative along it first, where the fit is a hard one.
     fn try_step(&mut self) {
-        if self.is_hard && !self.is_unresolved() && !self.stepper.step.is_conic {
+        if self.bends && self.is_hard && !self.is_unresolved() && !self.stepper.step.is_conic {
             self.stage = Stage::Bending;
         } else {
             self.try_target();

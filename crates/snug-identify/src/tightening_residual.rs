@@ -2,7 +2,7 @@ use crate::abreast::Request;
 use crate::averaging::average;
 use crate::{EvaluationError, IdentifyError, Residual, Whitening};
 use snug_campaign::Quantity;
-use snug_model::{Input, Model, ScoredRecord};
+use snug_model::{Effect, Input, Model, ScoredRecord};
 
 /// Measured minus simulated output of one tightening over the model's free parameters, whitened where the noise is known.
 #[derive(Clone)]
@@ -93,6 +93,11 @@ impl<'a> TighteningResidual<'a> {
     /// Whether the residual is whitened with a known noise.
     pub fn is_whitened(&self) -> bool {
         self.whitening.is_some()
+    }
+
+    /// Whether one of the model's effects lets go of the hand's spring, at instants between which the residual jumps.
+    pub(crate) fn lets_go(&self) -> bool {
+        self.model.effects().any(Effect::lets_go)
     }
 
     /// Refuses fewer residuals than free parameters.

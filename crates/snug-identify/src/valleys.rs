@@ -11,7 +11,7 @@ use crate::{
     Constraints, Fit, IdentifyError, IdentifySettings, ResidualNoise, Settings, Status, Subject,
     TighteningResidual,
 };
-use snug_model::{BASE_PARAMETERS, Effect};
+use snug_model::BASE_PARAMETERS;
 use std::iter::once;
 
 /// Of the race between fits of every sample.
@@ -77,7 +77,7 @@ impl<'a> Valleys<'_, 'a> {
 
     /// Whether spikes in the residual hide the way: the measured acceleration jumps where an effect lets go.
     fn is_rugged(&self) -> bool {
-        self.residual.is_whitened() && self.subject.model.effects().any(Effect::lets_go)
+        self.residual.is_whitened() && self.residual.lets_go()
     }
 
     /// Where the residual leads to that is averaged over ever fewer samples.

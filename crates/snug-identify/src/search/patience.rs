@@ -26,10 +26,10 @@ pub(super) const THOROUGH: Patience = Patience {
 };
 /// For what can be told from chance: 1e-7 of the cost is two hundredths of a standard error in 3000 samples.
 pub(super) const SHORT: Patience = Patience {
-    promise: 1e-7,
+    promise: 1e-6,
     gain: 0.5,
     hope: f64::INFINITY,
     trials: 8,
-    optimum: 1e-7,
-    crawling: 1e-7,
+    optimum: 1e-6,
+    crawling: 1e-6,
 };
