@@ -15,7 +15,7 @@ const APART: usize = 4;
 /// A guided fit has gone far enough when this share of the residual could still be removed.
 const TOLERANCE: f64 = 0.1;
 /// Most steps of a guided fit.
-const MOST_STEPS: usize = 100;
+const MOST_STEPS: usize = 20;
 /// Most ends that go on freely.
 const MOST_ENDS: usize = 3;
 /// Of the race between guided fits.

@@ -18,7 +18,7 @@ const LONGEST_INTERVAL_S: f64 = 1e-3;
 /// A rough fit has gone far enough when this share of the residual could still be removed.
 const ROUGH_TOLERANCE: f64 = 1e-2;
 /// Most steps of a rough fit: what takes longer crawls.
-const MOST_STEPS: usize = 150;
+const MOST_STEPS: usize = 20;
 /// Ends are worth a fit of every sample up to this multiple of the lowest rough cost, and at most so many.
 pub(crate) const WORTH: f64 = 1.2;
 const MOST_ENDS: usize = 2;
