@@ -5,6 +5,7 @@
 mod bad_input;
 mod blind;
 mod campaign;
+mod coarse;
 mod gap;
 mod interruption;
 mod intervals;

@@ -1,27 +1,15 @@
 //! Of more tightenings than are wanted the diagnosis takes some, says so, and judges the model by all.
 
-use snug_ingest::{Format, ThesisLayout};
+use crate::coarse;
 use snug_study::{RunSettings, Study, Verb, diagnose};
-use snug_synthetic::{CampaignPlan, MatStyle, simulate};
+use snug_synthetic::CampaignPlan;
 use std::collections::BTreeSet;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
-/// A fifth of the usual samples, to be quick.
-const RATE_HZ: f64 = 2000.0;
-
+/// A campaign of so many files with so many tightenings each.
 fn campaign(folder: &Path, files: usize, each: usize) -> Study {
-    let mut plan = CampaignPlan::of_size(files, each);
-    plan.sample_rate_hz = RATE_HZ;
-    let data = folder.join("data");
-    let campaign = simulate(&plan, 4).unwrap();
-    campaign.write(&data, MatStyle::default()).unwrap();
-    let mut study = Study::on(data);
-    study.source.format = Format::Thesis(ThesisLayout {
-        sample_rate_hz: RATE_HZ,
-        ..ThesisLayout::default()
-    });
-    study
+    coarse::study(CampaignPlan::of_size(files, each), 4, folder)
 }
 
 /// File and number in it of each that is taken.

@@ -4,30 +4,18 @@
 //! same answer are a gain, more need a reason (a harder case that now converges, a candidate more in the catalogue).
 //! Then take over what the failing test prints, and say the reason in the commit.
 
+use crate::coarse;
 use snug_campaign::{Quantity, WorkDone};
 use snug_diagnose::{Case, DiagnoseSettings, Goal, Question, Watch, examine, fit_together};
 use snug_identify::{IdentifySettings, identify};
-use snug_ingest::{Format, ThesisLayout};
 use snug_model::Effect;
-use snug_study::Study;
-use snug_synthetic::{CampaignPlan, HiddenEffect, MatStyle, simulate};
-
-/// A fifth of the usual samples, to be quick.
-const RATE_HZ: f64 = 2000.0;
+use snug_synthetic::{CampaignPlan, HiddenEffect};
 
 /// Eight tightenings with a spring that hardens.
 fn cases() -> Vec<Case> {
-    let mut plan = CampaignPlan::of_size(4, 2).hiding(HiddenEffect::CubicStiffness, 0.35);
-    plan.sample_rate_hz = RATE_HZ;
+    let plan = CampaignPlan::of_size(4, 2).hiding(HiddenEffect::CubicStiffness, 0.35);
     let folder = tempfile::tempdir().unwrap();
-    let data = folder.path().join("data");
-    let campaign = simulate(&plan, 11).unwrap();
-    campaign.write(&data, MatStyle::default()).unwrap();
-    let mut study = Study::on(data);
-    study.source.format = Format::Thesis(ThesisLayout {
-        sample_rate_hz: RATE_HZ,
-        ..ThesisLayout::default()
-    });
+    let study = coarse::study(plan, 11, folder.path());
     let listing = snug_ingest::list(&study.source, &study.source.path).unwrap();
     let cases = snug_study::cases(&study, &listing.files, usize::MAX).unwrap();
     assert_eq!(cases.len(), 8, "every tightening can be used");
