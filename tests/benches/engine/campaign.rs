@@ -64,16 +64,21 @@ impl Campaign {
 
     /// Its tightenings, prepared.
     pub fn cases(&self) -> Vec<Case> {
-        cases(&self.data())
+        cases(&self.data(), usize::MAX)
+    }
+
+    /// As many of them as a study learns effects from by itself.
+    pub fn usual_cases(&self) -> Vec<Case> {
+        cases(&self.data(), self.study().diagnosis.most_tightenings)
     }
 }
 
-/// The tightenings in a folder of measurement files, prepared.
-pub fn cases(data: &Path) -> Vec<Case> {
+/// At most so many of the tightenings in a folder of measurement files, prepared.
+pub fn cases(data: &Path, most: usize) -> Vec<Case> {
     let study = Study::on(data.to_path_buf());
     let listing =
         snug_ingest::list(&study.source, &study.source.path).expect("the files were just written");
-    snug_study::cases(&study, &listing.files, usize::MAX).expect("the benchmark's own data")
+    snug_study::cases(&study, &listing.files, most).expect("the benchmark's own data")
 }
 
 /// Files that are simulated at a time.
