@@ -10,6 +10,17 @@ use crate::bench::Bench;
 use crate::effect::{Instant, Kinematics};
 use crate::plant::{Plant, initial_motion};
 
+const ENDS: f64 = 1.0 / 6.0;
+const MIDDLE: f64 = 1.0 / 3.0;
+
+/// How far ahead a stage is and how far on the next one, in intervals, and its weight in the mean.
+const STAGES: [(f64, f64, f64); 4] = [
+    (0.0, 0.5, ENDS),
+    (0.5, 0.5, MIDDLE),
+    (0.5, 1.0, MIDDLE),
+    (1.0, 0.0, ENDS),
+];
+
 /// Simulates from rest (or the effects' initial motion, or again and again from the input's restarts) and hands every
 /// sample's true motion to `sample`.
 ///
@@ -26,15 +37,6 @@ pub fn respond<N: Number, const X: usize>(
     acting_torque: &ActingTorque<'_, N>,
     mut sample: impl FnMut(usize, Kinematics<N>),
 ) {
-    const ENDS: f64 = 1.0 / 6.0;
-    const MIDDLE: f64 = 1.0 / 3.0;
-    // How far on the next stage is, in intervals, and a stage's weight in the mean.
-    let stages = [
-        (0.0, 0.5, ENDS),
-        (0.5, 0.5, MIDDLE),
-        (0.5, 1.0, MIDDLE),
-        (1.0, 0.0, ENDS),
-    ];
     let (h, lever, zero) = (bench.interval_s, bench.lever_arm_m, N::from(bench.zero));
     let per_lever = bench.zero.constant(1.0) / lever;
     let known = acting_torque.is_known();
@@ -51,8 +53,7 @@ pub fn respond<N: Number, const X: usize>(
     let mut own_rates = own;
     let points = bench.torque_nm().len();
     let last = points.saturating_sub(1);
-    let mut torque = acting_torque.at(0);
-    let mut index = 0;
+    let (mut torque, mut index) = (acting_torque.at(0), 0);
     for point in 0..points {
         if let Some(restart) = bench.restart_at(point) {
             let [angle, velocity] = restart.motion;
@@ -65,12 +66,11 @@ pub fn respond<N: Number, const X: usize>(
         (at.x_m, at.v_m_per_s) = (x, v);
         let mut own_at = own;
         let (mut x_after, mut v_after, mut own_after) = (x, v, own);
-        for (stage, (ahead, further, weight)) in stages.into_iter().enumerate() {
+        for (stage, (ahead, further, weight)) in STAGES.into_iter().enumerate() {
             let position = point as f64 + ahead;
-            let torque_nm = if known {
-                N::from(torque.value() + rise.value() * ahead)
-            } else {
-                torque + rise * ahead
+            let torque_nm = match known {
+                true => N::from(torque.value() + rise.value() * ahead),
+                false => torque + rise * ahead,
             };
             plant.drive(&mut at, position, torque_nm);
             let acceleration = plant.rates(position, &at, &own_at, &mut own_rates);
