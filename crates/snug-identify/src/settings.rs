@@ -8,8 +8,8 @@ pub struct Settings {
     /// Most accepted and rejected steps together \[–\]; default 3000.
     pub max_iterations: usize,
     /// Converged when the part of the residual that a feasible first-order step could still remove is at most this
-    /// share of the residual, √(2·predicted decrease)/‖r‖ \[–\]; default 1e-7. The estimate is then within about
-    /// this times √(residuals − parameters) standard errors of the optimum: 5e-6 of 3000 samples.
+    /// share of the residual, √(2·predicted decrease)/‖r‖ \[–\]; default 1e-9, of [a tightening](Self::of_measurement)
+    /// 1e-7. The estimate is then within about this times √(residuals − parameters) standard errors of the optimum.
     pub gradient_tolerance: f64,
     /// Converged, too, when a hardly damped step changes no parameter by more than this share of its value \[–\];
     /// default 1e-14. It ends fits whose residual vanishes.
@@ -22,7 +22,7 @@ impl Default for Settings {
     fn default() -> Self {
         Self {
             max_iterations: 3000,
-            gradient_tolerance: 1e-7,
+            gradient_tolerance: 1e-9,
             step_tolerance: 1e-14,
             initial_damping: 1e-3,
         }
@@ -30,6 +30,14 @@ impl Default for Settings {
 }
 
 impl Settings {
+    /// For a tightening: within 5e-6 standard errors of the optimum where 3000 samples are measured.
+    pub fn of_measurement() -> Self {
+        Self {
+            gradient_tolerance: 1e-7,
+            ..Self::default()
+        }
+    }
+
     /// Checks every field.
     ///
     /// # Errors

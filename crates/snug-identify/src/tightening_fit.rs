@@ -32,7 +32,7 @@ pub struct IdentifySettings {
     /// How the model is run beside the measurement: `Automatic`, `FreeRun` or `Restarted(every_s: …)`; default
     /// `Automatic`.
     pub simulation: Simulation,
-    /// The solver's own settings.
+    /// The solver's own settings; default [`Settings::of_measurement`].
     pub solver: Settings,
 }
 
@@ -43,7 +43,7 @@ impl Default for IdentifySettings {
             constraints: vec![ConstraintKind::Positive, ConstraintKind::LightlyDamped],
             unscored_samples: 0,
             simulation: Simulation::Automatic,
-            solver: Settings::default(),
+            solver: Settings::of_measurement(),
         }
     }
 }

@@ -160,9 +160,9 @@ fn both_ways_of_linearizing_agree() {
 fn the_work_of_a_fit_does_not_grow_unnoticed() {
     let work = fit_decay([1.0, 1.0], &Constraints::new(2)).work;
     let expected = Work {
-        iterations: 6,
+        iterations: 7,
         evaluations: 0,
-        linearizations: 7,
+        linearizations: 8,
         conic_solves: 0,
         polish_steps: 0,
     };

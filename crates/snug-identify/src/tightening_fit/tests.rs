@@ -225,10 +225,7 @@ fn settings() -> Vec<IdentifySettings> {
 /// Fits that end so close to the optimum that two ways there can be compared.
 fn to_the_end() -> IdentifySettings {
     IdentifySettings {
-        solver: Settings {
-            gradient_tolerance: 1e-9,
-            ..Settings::default()
-        },
+        solver: Settings::default(),
         ..IdentifySettings::default()
     }
 }
