@@ -5,7 +5,7 @@ use crate::sizes::held;
 use crate::{Case, DiagnoseError, Seen};
 use rayon::prelude::*;
 use snug_campaign::{Estimate, Motion};
-use snug_identify::{Subject, identify_all};
+use snug_identify::{SIDE_BY_SIDE, Subject, identify_all};
 use snug_model::Model;
 
 /// Motion and estimate of every case under one fitted model.
@@ -47,9 +47,6 @@ impl<'a> Sight<'a> {
             .collect()
     }
 }
-
-/// Tightenings that are fitted at a time.
-const SIDE_BY_SIDE: usize = 16;
 
 /// Estimates and motions of cases with the same settings, the shared parameters held where all tightenings together put them.
 fn see(cases: &[Case], fitted: &Fitted) -> Result<Vec<(Estimate, Motion)>, DiagnoseError> {

@@ -14,8 +14,6 @@ use snug_model::Input;
 const APART: usize = 4;
 /// A guided fit has gone far enough when this share of the residual could still be removed.
 const TOLERANCE: f64 = 0.1;
-/// Most steps of a guided fit.
-const MOST_STEPS: usize = 20;
 /// Most ends that go on freely.
 const MOST_ENDS: usize = 3;
 /// Of the race between guided fits.
@@ -38,7 +36,7 @@ pub(crate) async fn try_guided<'a>(
         return Ok(None);
     };
     let residual = rough.residual(subject.model, guided, settings);
-    let solver = rough_solver(settings, TOLERANCE, MOST_STEPS);
+    let solver = rough_solver(settings, TOLERANCE);
     let (ends, work) = race(&residual, starts, set, &solver, RULES, simulator).await?;
     let ends = apart(ends, MOST_ENDS);
     let mut tried = rough

@@ -60,6 +60,6 @@ pub use settings::Settings;
 pub use simulation::{Simulation, motions, widest_reach};
 pub use solver::solve;
 pub use starts::solve_from_starts;
-pub use tightening_fit::{IdentifySettings, Subject, identify, identify_all};
+pub use tightening_fit::{IdentifySettings, SIDE_BY_SIDE, Subject, identify, identify_all};
 pub use tightening_residual::TighteningResidual;
 pub use whitening::Whitening;

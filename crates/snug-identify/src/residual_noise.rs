@@ -7,7 +7,6 @@ use crate::instants::without_instants;
 use crate::integrated_noise::{IntegratedNoise, drift, to_source};
 use crate::{Fit, Residual, ResidualNoise, Subject, TighteningResidual};
 use snug_campaign::Tightening;
-use snug_model::Effect;
 
 /// Number of stretches whose summed scores are taken as independent where the residual holds more than noise.
 pub(crate) const STRETCHES: usize = 30;
@@ -96,7 +95,7 @@ impl Inquiry {
         let (tightening, input) = (subject.tightening, subject.input);
         Self {
             whitened: residual.is_whitened(),
-            lets_go: subject.model.effects().any(Effect::lets_go),
+            lets_go: residual.lets_go(),
             is_misfit: residual.is_whitened() && fit.sum_of_squares() / count > beyond_chance,
             constant_variance: gain * gain * bias_variance(tightening),
             integrated: match residual.is_whitened() {

@@ -17,7 +17,7 @@ const ENOUGH_SAMPLES: usize = 375;
 const LONGEST_INTERVAL_S: f64 = 1e-3;
 /// A rough fit has gone far enough when this share of the residual could still be removed.
 const ROUGH_TOLERANCE: f64 = 1e-2;
-/// Most steps of a rough fit: what takes longer crawls.
+/// Most steps of any fit that need not go far: what takes longer crawls.
 const MOST_STEPS: usize = 20;
 /// Ends are worth a fit of every sample up to this multiple of the lowest rough cost, and at most so many.
 pub(crate) const WORTH: f64 = 1.2;
@@ -74,11 +74,12 @@ impl RoughRecord {
         .with_rest_before(input.rest_before_s() + late_s)
         .with_zero_at(input.zero_at().map(|sample| sample / factor));
         let means_of = |quantity| Some(means(subject.tightening.motion.get(quantity)?, factor));
-        let guided = (means_of(Quantity::Displacement).zip(means_of(Quantity::Velocity)))
-            .filter(|_| quantity == Quantity::Acceleration)
-            .map(|(angle_rad, velocity_rad_per_s)| {
-                along_motion(rough.clone(), &angle_rad, &velocity_rad_per_s)
-            });
+        let guided = || {
+            let angle_rad = means_of(Quantity::Displacement)?;
+            let velocity_rad_per_s = means_of(Quantity::Velocity)?;
+            Some(along_motion(rough.clone(), &angle_rad, &velocity_rad_per_s))
+        };
+        let guided = (quantity == Quantity::Acceleration).then(guided).flatten();
         Some(Self {
             factor,
             input: rough,
@@ -109,7 +110,7 @@ impl RoughRecord {
         simulator: &Simulator<'a>,
     ) -> Result<Option<Tried>, IdentifyError> {
         let residual = self.residual(subject.model, &self.input, settings);
-        let solver = rough_solver(settings, ROUGH_TOLERANCE, MOST_STEPS);
+        let solver = rough_solver(settings, ROUGH_TOLERANCE);
         let (ends, work) = race(&residual, starts, set, &solver, RULES, simulator).await?;
         let starts = apart(ends, MOST_ENDS);
         Ok((!starts.is_empty()).then_some(Tried { starts, work }))
@@ -117,14 +118,10 @@ impl RoughRecord {
 }
 
 /// Settings of a fit that need not go far.
-pub(crate) fn rough_solver(
-    settings: &IdentifySettings,
-    tolerance: f64,
-    most_steps: usize,
-) -> Settings {
+pub(crate) fn rough_solver(settings: &IdentifySettings, tolerance: f64) -> Settings {
     Settings {
         gradient_tolerance: tolerance.max(settings.solver.gradient_tolerance),
-        max_iterations: most_steps.min(settings.solver.max_iterations),
+        max_iterations: MOST_STEPS.min(settings.solver.max_iterations),
         ..settings.solver.clone()
     }
 }

@@ -16,7 +16,7 @@ use snug_campaign::{
     Estimate, FitStatus, Identifiability, Interval, Parameter, ParameterEstimate, Quantity,
     Tightening,
 };
-use snug_model::{Effect, Input, Model, NormalEquations};
+use snug_model::{Input, Model, NormalEquations};
 use std::iter::once;
 
 /// How tightenings are identified.
@@ -84,6 +84,10 @@ pub fn identify(
     let mut outcomes = identify_all(&[alone], settings);
     outcomes.pop().expect("one outcome for one subject")
 }
+
+/// Tightenings worth handing over to [`identify_all`] at a time: more than the widest vector registers hold, since fits end one
+/// by one, and few enough to be shared out among threads.
+pub const SIDE_BY_SIDE: usize = 16;
 
 /// Identifies many tightenings, each as [`identify`] does and with the same bits, as many at a time as the processor's vector
 /// registers hold.
@@ -155,7 +159,7 @@ impl<'a> Attempt<'a> {
         );
         residual.check_length()?;
         let usual = starts(subject.model);
-        let is_rugged = usual.len() > 1 || subject.model.effects().any(Effect::lets_go);
+        let is_rugged = usual.len() > 1 || residual.lets_go();
         let near = integral_start(subject).filter(|_| is_rugged || residual.is_base());
         Ok(Self {
             residual,

@@ -35,9 +35,8 @@ const CLOSE: f64 = 1.1;
 /// Standard errors that an effect's parameter is away from zero when the effect is surely there.
 const SURE: f64 = 8.0;
 
-/// An averaged fit has gone far enough when this share of the residual could still be removed, or after so many steps.
+/// An averaged fit has gone far enough when this share of the residual could still be removed.
 const NEARER_TOLERANCE: f64 = 1e-2;
-const MOST_NEARER_STEPS: usize = 20;
 
 /// What is searched, and from where.
 pub(crate) struct Valleys<'s, 'a> {
@@ -82,7 +81,7 @@ impl<'a> Valleys<'_, 'a> {
 
     /// Where the residual leads to that is averaged over ever fewer samples.
     async fn ever_nearer(&self, start: &[f64], work: &mut Work) -> Result<Fit, IdentifyError> {
-        let rough = rough_solver(self.settings, NEARER_TOLERANCE, MOST_NEARER_STEPS);
+        let rough = rough_solver(self.settings, NEARER_TOLERANCE);
         let mut values = start.to_vec();
         for reach in REACHES {
             let averaged = self.residual.averaged(reach);
@@ -145,7 +144,7 @@ impl<'a> Valleys<'_, 'a> {
             return race(self.residual, starts, set, solver, RULES, simulator).await;
         }
         let averaged = self.residual.averaged(NEAR);
-        let rough = rough_solver(self.settings, NEARER_TOLERANCE, MOST_NEARER_STEPS);
+        let rough = rough_solver(self.settings, NEARER_TOLERANCE);
         let (ends, before) = race(&averaged, starts, set, &rough, NEAR_RULES, simulator).await?;
         let led = apart(ends, starts.len());
         let starts = if led.is_empty() { starts } else { &led };

@@ -4,6 +4,7 @@ use crate::evaluation::{Evaluated, fitted, validated, without_estimate};
 use crate::{Study, StudyError};
 use rayon::prelude::*;
 use snug_campaign::{Estimate, Finding, FitStatus, Recording, Rejection, Severity, TighteningId};
+use snug_identify::SIDE_BY_SIDE;
 use snug_preprocess::{Prepared, Preset, Window, preprocess};
 use std::path::Path;
 
@@ -112,9 +113,6 @@ pub fn outcomes(evaluated: &[Evaluated]) -> Vec<(TighteningId, Vec<Rejection>)> 
         })
         .collect()
 }
-
-/// Tightenings that are fitted at a time: more than the widest vector registers hold, since fits end one by one.
-const SIDE_BY_SIDE: usize = 16;
 
 /// Prepares and evaluates one recording: every segment gives a result, with an estimate or with the reason for none.
 fn evaluate(
