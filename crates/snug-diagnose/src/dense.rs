@@ -116,6 +116,26 @@ impl Square {
         lower
     }
 
+    /// Vectors, one for each row, whose inner products are A: the rows of its lower Cholesky factor.
+    pub fn root(&self) -> Vec<Vec<f64>> {
+        let n = self.size;
+        let unit = self.units();
+        let lower = self.scaled_cholesky(&unit);
+        let length = |row: usize| {
+            if unit[row] > 0.0 {
+                1.0 / unit[row]
+            } else {
+                0.0
+            }
+        };
+        (0..n)
+            .map(|i| {
+                let row = &lower[i * n..=i * n + i];
+                row.iter().map(|entry| entry * length(i)).collect()
+            })
+            .collect()
+    }
+
     /// The inverse, column by column.
     pub fn inverse(&self) -> Option<Self> {
         let mut inverse = Self::zero(self.size);
@@ -144,5 +164,20 @@ mod tests {
         assert_eq!(half.solve_scaled(&[2.0, 5.0]), Some(vec![0.5, 0.0]));
         let inverse = known.inverse().expect("finite");
         assert!((inverse.at(0, 0) - 3.0 / 11.0).abs() < 1e-14);
+    }
+
+    /// Three vectors of which the third is the sum of the others, by their inner products alone.
+    #[test]
+    fn rows_of_the_root_have_the_inner_products_of_the_matrix() {
+        let products = [9.0, 3.0, 12.0, 3.0, 5.0, 8.0, 12.0, 8.0, 20.0];
+        let rows = Square::new(3, products.to_vec()).root();
+        for (i, one) in rows.iter().enumerate() {
+            for (j, other) in rows.iter().enumerate() {
+                let shared = i.min(j) + 1;
+                let product = dot(&one[..shared], &other[..shared]);
+                assert!((product - products[3 * i + j]).abs() < 1e-13, "{i} {j}");
+            }
+        }
+        assert_eq!(rows[2][2], 0.0, "nothing is new in the sum");
     }
 }

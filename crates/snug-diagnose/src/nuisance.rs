@@ -1,22 +1,20 @@
-use crate::dense::dot;
+use crate::dense::{Square, dot};
 
-/// Coordinates of each signal in an orthonormal basis of all of them.
+/// Coordinates of each signal in an orthonormal basis of all of them: their inner products are all that it takes.
 pub(crate) fn coordinates(signals: &[Vec<f64>]) -> Vec<Vec<f64>> {
-    let mut span = Nuisance { basis: Vec::new() };
-    let along = |span: &Nuisance, signal: &[f64]| -> Vec<f64> {
-        span.basis
-            .iter()
-            .map(|direction| dot(direction, signal))
-            .collect()
-    };
-    for signal in signals {
-        span.extend(signal, SAME_DIRECTION);
+    let mut products = Square::zero(signals.len());
+    for (i, one) in signals.iter().enumerate() {
+        for (j, other) in signals[..=i].iter().enumerate() {
+            let product = dot(one, other);
+            products.set(i, j, product);
+            products.set(j, i, product);
+        }
     }
-    signals.iter().map(|signal| along(&span, signal)).collect()
+    products.root()
 }
 
 /// Squared share of a signal below which what is new in it is rounding.
-const SAME_DIRECTION: f64 = 1e-12;
+const ROUNDING: f64 = 1e-20;
 
 /// Orthonormal basis of what the own parameters can imitate.
 pub(crate) struct Nuisance {
@@ -28,19 +26,19 @@ impl Nuisance {
     pub fn new(jacobian: &[f64], count: usize, columns: usize) -> Self {
         let mut nuisance = Self { basis: Vec::new() };
         for column in jacobian.chunks_exact(count.max(1)).take(columns) {
-            nuisance.extend(column, 1e-20);
+            nuisance.extend(column);
         }
         nuisance
     }
 
-    /// Adds what is new in a signal, if that is more than `least` of its squared length.
-    fn extend(&mut self, signal: &[f64], least: f64) {
+    /// Adds what is new in a signal.
+    fn extend(&mut self, signal: &[f64]) {
         let mut rest = signal.to_vec();
         let before = dot(&rest, &rest);
         self.project(&mut rest);
         self.project(&mut rest);
         let length = dot(&rest, &rest);
-        if length > least * before && length > 0.0 && length.is_finite() {
+        if length > ROUNDING * before && length > 0.0 && length.is_finite() {
             let scale = 1.0 / length.sqrt();
             rest.iter_mut().for_each(|value| *value *= scale);
             self.basis.push(rest);

@@ -114,19 +114,12 @@ pub(crate) fn rank(
         campaigns: control_campaigns,
         seed: settings.seed,
     };
-    let Scored { columns, control } =
-        Scorer::new(&hypothesis, current, units, control).score(candidates)?;
+    let scorer = Scorer::new(&hypothesis, current, units, control);
+    let scored = scorer.score(candidates)?;
+    let control = negative_control(&scorer, &scored, candidates, settings);
+    let columns = scored.columns;
     cases.tally().signatures(cases.len() * columns.len());
     let family = Family::new(&columns, settings.sign_flips, settings.seed);
-    let false_alarms = control
-        .par_iter()
-        .filter(|columns| {
-            let family = Family::new(columns, CONTROL_FLIPS, settings.seed);
-            candidates
-                .iter()
-                .any(|&effect| family.p(columns, effect) <= settings.level)
-        })
-        .count();
     let heldout = current.heldout_beyond_torque_noise();
     let refitted: Vec<Result<Option<Candidate>, DiagnoseError>> = candidates
         .par_iter()
@@ -166,8 +159,26 @@ pub(crate) fn rank(
         candidates,
         impossible,
         columns,
-        control: (control.len(), false_alarms),
+        control,
     })
+}
+
+/// Campaigns of nothing but noise, and in how many of them one of the candidates would be called supported.
+fn negative_control(
+    scorer: &Scorer<'_, '_>,
+    scored: &Scored,
+    candidates: &[Effect],
+    settings: &DiagnoseSettings,
+) -> (usize, usize) {
+    let campaigns = scorer.control_campaigns();
+    let is_false_alarm = |&campaign: &usize| {
+        let columns = scorer.of_noise(scored, campaign);
+        let family = Family::new(&columns, CONTROL_FLIPS, settings.seed);
+        let mut ps = candidates.iter().map(|&effect| family.p(&columns, effect));
+        ps.any(|p| p <= settings.level)
+    };
+    let alarms = (0..campaigns).into_par_iter().filter(is_false_alarm);
+    (campaigns, alarms.count())
 }
 
 /// Those first that explain most.

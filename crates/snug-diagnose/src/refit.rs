@@ -122,14 +122,17 @@ fn promising(effect: Effect, columns: &[Column], most: usize) -> Vec<&[f64]> {
     starts
 }
 
-/// Fits what is seen from ever nearer; what is only a place to go on from is fitted roughly.
+/// Fits what is seen from afar, then as it is; by way of ever nearer where the acceleration jumps as an effect lets go. What is
+/// only a place to go on from is fitted roughly.
 fn from_afar(
     hypothesis: &mut Hypothesis<'_>,
     start: &Start,
     settings: &PooledSettings,
 ) -> Result<PooledFit, DiagnoseError> {
     let mut start = start.clone();
-    for reach in REACHES {
+    let jumps = hypothesis.effects.iter().any(|effect| effect.lets_go());
+    let reaches = if jumps { &REACHES[..] } else { &REACHES[..1] };
+    for &reach in reaches {
         start = Start::at(&hypothesis.fit_averaged(&start, &ROUGH, reach)?);
     }
     hypothesis.fit(&start, settings)

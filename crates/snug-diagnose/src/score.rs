@@ -34,7 +34,8 @@ const NOISE_REACH: usize = 5;
 /// instant at which the grip crosses it to a millisecond only, and there the acceleration jumps.
 const INSTANT_REACH: usize = 10;
 
-/// Tightenings that are simulated side by side, which bounds the memory.
+/// Tightenings that are simulated side by side. They come one group after the other, and threads share out each, which bounds
+/// the memory: a thread that waits in one group would begin another.
 const TOGETHER: usize = 8;
 
 /// How many campaigns of nothing but noise are drawn, and from which seed.
@@ -44,10 +45,11 @@ pub(crate) struct Control {
     pub seed: u64,
 }
 
-/// Columns of the measured campaign and of campaigns that hold nothing but noise.
+/// Columns of the measured campaign, and what campaigns that hold nothing but noise are made of.
 pub(crate) struct Scored {
     pub columns: Vec<Column>,
-    pub control: Vec<Vec<Column>>,
+    /// Tightening by tightening, campaign by campaign: s of each column, then the gradient over the shared parameters.
+    draws: Vec<Vec<Vec<f64>>>,
 }
 
 /// What one tightening adds to every column.
@@ -99,10 +101,9 @@ impl<'a, 'h> Scorer<'a, 'h> {
             others.push((effect, Hypothesis::new(self.hypothesis.cases, &with)?));
         }
         let members: Vec<usize> = (0..self.hypothesis.cases.len()).collect();
-        let contributions: Vec<Contribution> = (members.par_chunks(TOGETHER))
-            .flat_map_iter(|some| self.contributions(some, &columns, &others))
+        let contributions: Vec<Contribution> = (members.chunks(TOGETHER))
+            .flat_map(|some| self.contributions(some, &columns, &others))
             .collect();
-        let blank = columns.clone();
         for contribution in &contributions {
             for (index, column) in columns.iter_mut().enumerate() {
                 column.scores.extend(&contribution.scores[index]);
@@ -115,30 +116,31 @@ impl<'a, 'h> Scorer<'a, 'h> {
                 }
             }
         }
-        let gradients: Vec<&[f64]> = self
-            .fitted
-            .profiles()
-            .iter()
-            .map(|(_, g)| g.as_slice())
-            .collect();
-        let mut control = Vec::new();
-        for campaign in 0..self.control.campaigns {
-            let mut drawn = blank.clone();
-            for (index, column) in drawn.iter_mut().enumerate() {
-                column.variances.clone_from(&columns[index].variances);
-                column.cross.clone_from(&columns[index].cross);
-                let drawn = contributions.iter().map(|c| c.control[campaign][index]);
-                column.scores = drawn.collect();
-            }
-            let gradients: Vec<&[f64]> = contributions
-                .iter()
-                .map(|c| &c.control[campaign][columns.len()..])
-                .collect();
-            self.project_shared(&mut drawn, &gradients);
-            control.push(drawn);
-        }
+        let profiles = self.fitted.profiles();
+        let gradients: Vec<&[f64]> = profiles.iter().map(|(_, g)| g.as_slice()).collect();
         self.project_shared(&mut columns, &gradients);
-        Ok(Scored { columns, control })
+        let draws = contributions.into_iter().map(|of_one| of_one.control);
+        Ok(Scored {
+            columns,
+            draws: draws.collect(),
+        })
+    }
+
+    /// How many campaigns of nothing but noise there are.
+    pub fn control_campaigns(&self) -> usize {
+        self.control.campaigns
+    }
+
+    /// The columns of one of them.
+    pub fn of_noise(&self, scored: &Scored, campaign: usize) -> Vec<Column> {
+        let draws = || scored.draws.iter().map(|of_one| &of_one[campaign]);
+        let mut columns = scored.columns.clone();
+        for (index, column) in columns.iter_mut().enumerate() {
+            column.scores = draws().map(|draw| draw[index]).collect();
+        }
+        let gradients: Vec<&[f64]> = draws().map(|draw| &draw[columns.len()..]).collect();
+        self.project_shared(&mut columns, &gradients);
+        columns
     }
 
     /// What some tightenings, simulated side by side, add.
@@ -261,18 +263,17 @@ impl<'a, 'h> Scorer<'a, 'h> {
     /// Scores of campaigns that hold nothing but noise: white noise, seen through what the signatures span.
     fn draw(&self, member: usize, signatures: &[Vec<f64>], along_bias: &[f64]) -> Vec<Vec<f64>> {
         let coordinates = coordinates(signatures);
-        let most = coordinates.iter().map(Vec::len).max().unwrap_or(0);
         let mut random = ChaCha8Rng::seed_from_u64(self.control.seed);
         // Stream 0 flips signs.
         random.set_stream(1 + member as u64);
         (0..self.control.campaigns)
             .map(|_| {
-                let noise: Vec<f64> = (0..most)
+                let noise: Vec<f64> = (0..coordinates.len())
                     .map(|_| StandardNormal.sample(&mut random))
                     .collect();
                 let bias: f64 = StandardNormal.sample(&mut random);
                 (coordinates.iter().zip(along_bias))
-                    .map(|(own, along)| dot(own, &noise) + bias * along)
+                    .map(|(own, along)| dot(own, &noise[..own.len()]) + bias * along)
                     .collect()
             })
             .collect()

@@ -26,8 +26,9 @@ fn noise_level(signal: &[f64]) -> f64 {
     if bends.is_empty() {
         return 0.0;
     }
-    bends.sort_by(f64::total_cmp);
-    NORMAL_OVER_MEDIAN * bends[bends.len() / 2] / 6.0_f64.sqrt()
+    let middle = bends.len() / 2;
+    let (_, median, _) = bends.select_nth_unstable_by(middle, f64::total_cmp);
+    NORMAL_OVER_MEDIAN * *median / 6.0_f64.sqrt()
 }
 
 /// Expected Σ r² of each unit of every member from torque noise alone, the models at `values`; from one drawn noise, the
