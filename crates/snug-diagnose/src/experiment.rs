@@ -122,7 +122,7 @@ fn distance(
 
 /// A tightening as `first` says it would go under changed conditions, without noise.
 fn simulated(case: &Case, first: &Fitted, member: usize, change: &Change) -> Option<Case> {
-    let model = held(case, first)?;
+    let model = held(case, first, None)?;
     let samples = case.tightening.torque_nm.len();
     let interval_s = case.tightening.time_base.interval_s;
     let onset = case.tightening.onset.unwrap_or(0);

@@ -57,7 +57,7 @@ pub(crate) fn rung(cases: &[Case], fitted: &Fitted) -> Rung {
 fn rms_residual(cases: &[Case], fitted: &Fitted) -> f64 {
     let (mut squares, mut count) = (0.0, 0_usize);
     for (member, case) in cases.iter().enumerate() {
-        let Some(model) = held(case, fitted) else {
+        let Some(model) = held(case, fitted, None) else {
             continue;
         };
         let mut values: Vec<f64> = model.parameters().iter().map(|p| p.value).collect();

@@ -50,8 +50,9 @@ impl<'a> Sight<'a> {
 
 /// Estimates and motions of cases with the same settings, the shared parameters held where all tightenings together put them.
 fn see(cases: &[Case], fitted: &Fitted) -> Result<Vec<(Estimate, Motion)>, DiagnoseError> {
+    let errors = fitted.shared_errors();
     let models: Vec<Model> = (cases.iter())
-        .map(|case| held(case, fitted).unwrap_or_else(|| case.model.clone()))
+        .map(|case| held(case, fitted, errors.as_deref()).unwrap_or_else(|| case.model.clone()))
         .collect();
     let subjects: Vec<Subject<'_>> = (cases.iter().zip(&models))
         .map(|(case, model)| Subject {

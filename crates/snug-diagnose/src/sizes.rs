@@ -129,15 +129,14 @@ impl Fitted {
     }
 }
 
-/// The model of one case with everything but its own parameters held.
-pub(crate) fn held(case: &Case, fitted: &Fitted) -> Option<Model> {
+/// The model of one case with everything but its own parameters held, known as well as `errors` say.
+pub(crate) fn held(case: &Case, fitted: &Fitted, errors: Option<&[f64]>) -> Option<Model> {
     let mut model = case.model_with(&fitted.effects).ok()?;
-    let errors = fitted.shared_errors();
     for (column, (name, value)) in fitted.shared_named().into_iter().enumerate() {
         let parameter = model.parameters_mut().iter_mut().find(|p| p.name == name)?;
         parameter.value = value;
         parameter.fixed = true;
-        parameter.standard_error = errors.as_ref().map(|errors| errors[column]);
+        parameter.standard_error = errors.map(|errors| errors[column]);
     }
     Some(model)
 }

@@ -59,6 +59,8 @@ fn refined(samples: &[f64], factor: usize, lift: impl Fn(f64) -> f64) -> Vec<f64
     fine.process(&mut fine_lines, &mut grid)
         .expect("buffers were made by the plan and the real lines are real");
     grid.truncate(factor * (n - 1) + 1);
+    // Kept for as long as the input is: without the room of its reflection.
+    grid.shrink_to_fit();
     grid
 }
 

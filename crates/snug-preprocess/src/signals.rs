@@ -137,11 +137,10 @@ impl Signals {
             .chain(force)
     }
 
-    /// Keeps the samples of `window`, which must lie inside.
+    /// Keeps the samples of `window`, which must lie inside, and the memory of no others.
     pub(crate) fn crop(&mut self, window: &Range<usize>) {
         for (_, samples) in self.channels_mut() {
-            samples.truncate(window.end);
-            samples.drain(..window.start);
+            *samples = samples[window.clone()].to_vec();
         }
     }
 }
