@@ -1,6 +1,7 @@
 use crate::assembly::Part;
 use crate::bench::Bench;
 use crate::effect::{Instant, Law, LoggedTorque};
+use crate::input::Earlier;
 use crate::{Number, Real};
 
 /// The torque that acts on the joint, from the one that is logged.
@@ -68,20 +69,18 @@ impl<'a, N: Number> ActingTorque<'a, N> {
 /// The logged torque `delay_s` before every grid point; each lane looks it up in its own input.
 fn shifted<R: Real>(bench: &Bench<'_, R>, delay_s: R) -> Vec<Shifted<R>> {
     let (points, zero) = (bench.torque_nm().len(), bench.zero);
-    let mut found = vec![[0.0; 4]; R::LANES];
+    let found: Vec<Vec<Earlier>> = (bench.inputs().iter().zip(delay_s.lanes()))
+        .map(|(input, &delay_s)| input.before(delay_s))
+        .collect();
     (0..points)
         .map(|point| {
-            for (lane, input) in bench.inputs().iter().enumerate() {
-                let then_s = point as f64 * input.grid_interval_s() - delay_s.lanes()[lane];
-                let (torque, slope) = input.at(then_s);
-                let (rate, change) = input.slope_at(then_s);
-                found[lane] = [torque, slope, rate, change];
-            }
+            // A lane whose input has ended keeps its last value.
+            let of = |lane: usize| found[lane][point.min(found[lane].len() - 1)];
             Shifted {
-                torque_nm: zero.lane_by_lane(|lane| found[lane][0]),
-                slope_nm_per_s: zero.lane_by_lane(|lane| found[lane][1]),
-                rate_nm_per_s: zero.lane_by_lane(|lane| found[lane][2]),
-                change_nm_per_s2: zero.lane_by_lane(|lane| found[lane][3]),
+                torque_nm: zero.lane_by_lane(|lane| of(lane).torque_nm),
+                slope_nm_per_s: zero.lane_by_lane(|lane| of(lane).slope_nm_per_s),
+                rate_nm_per_s: zero.lane_by_lane(|lane| of(lane).rate_nm_per_s),
+                change_nm_per_s2: zero.lane_by_lane(|lane| of(lane).change_nm_per_s2),
             }
         })
         .collect()

@@ -1,5 +1,7 @@
-use realfft::RealFftPlanner;
+use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
+use std::cell::RefCell;
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 /// Grid values, `factor` per sample, whose straight-line interpolation has the samples' own spectrum below half the
 /// sampling rate.
@@ -36,14 +38,12 @@ fn refined(samples: &[f64], factor: usize, lift: impl Fn(f64) -> f64) -> Vec<f64
         .chain(samples[1..n - 1].iter().rev())
         .copied()
         .collect();
-    let mut planner = RealFftPlanner::<f64>::new();
-    let forward = planner.plan_fft_forward(period);
+    let Plan { forward, fine, .. } = Plan::of(period, period * factor);
     let mut lines = forward.make_output_vec();
     forward
         .process(&mut periodic, &mut lines)
         .expect("buffers were made by the plan");
 
-    let fine = planner.plan_fft_inverse(period * factor);
     let mut fine_lines = fine.make_input_vec();
     for (index, line) in lines.iter().enumerate() {
         let angle = PI * index as f64 / (period * factor) as f64;
@@ -62,6 +62,37 @@ fn refined(samples: &[f64], factor: usize, lift: impl Fn(f64) -> f64) -> Vec<f64
     // Kept for as long as the input is: without the room of its reflection.
     grid.shrink_to_fit();
     grid
+}
+
+/// How records of one length are transformed, and finer ones back.
+#[derive(Clone)]
+struct Plan {
+    lengths: (usize, usize),
+    forward: Arc<dyn RealToComplex<f64>>,
+    fine: Arc<dyn ComplexToReal<f64>>,
+}
+
+thread_local! {
+    /// The last one: tightenings of one campaign have the same length, and a plan takes longer to make than to use.
+    static LATEST: RefCell<Option<Plan>> = const { RefCell::new(None) };
+}
+
+impl Plan {
+    fn of(period: usize, fine: usize) -> Self {
+        let lengths = (period, fine);
+        LATEST.with_borrow_mut(|latest| match latest {
+            Some(plan) if plan.lengths == lengths => plan.clone(),
+            _ => {
+                let mut planner = RealFftPlanner::new();
+                let plan = Self {
+                    lengths,
+                    forward: planner.plan_fft_forward(period),
+                    fine: planner.plan_fft_inverse(fine),
+                };
+                latest.insert(plan).clone()
+            }
+        })
+    }
 }
 
 #[cfg(test)]

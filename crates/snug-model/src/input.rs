@@ -164,65 +164,53 @@ impl Input {
         self.samples
     }
 
-    /// Torque \[Nm\] and its slope \[Nm/s\] at `time_s` after the first sample; the ends are held.
+    /// The torque as it was `delay_s` before every grid point; the ends are held.
     ///
     /// Between samples it is what a torque without anything above half the sampling rate has there: that keeps the
     /// power of the torque's noise, where a straight line between samples takes half of it away and a shift by half a
-    /// sample would always fit better than none. The slope of a torque that is straight between samples is that of
-    /// [`Input::slope_at`], which hardly knows the noise: noise that moves along with a delay says nothing about it, and a
-    /// slope that counted it would make the delay's interval far too narrow. A held input is straight: shifted by part of
-    /// an interval, it has the straight line's values as its means over the intervals.
-    pub fn at(&self, time_s: f64) -> (f64, f64) {
-        if self.held {
-            return self.straight(time_s, |index| self.grid[index]);
-        }
-        let fine_interval_s =
-            self.grid_interval_s * self.substeps as f64 / BAND_LIMITED_SUBSTEPS as f64;
-        if self.substeps > 1 {
-            return curved(&self.grid, time_s, fine_interval_s);
-        }
-        let between = (self.between)
-            .get_or_init(|| band_limited::between_samples(&self.grid, BAND_LIMITED_SUBSTEPS));
-        let (torque, exact_slope) = curved(between, time_s, fine_interval_s);
-        let is_held = exact_slope == 0.0;
-        let slope = if is_held {
-            0.0
-        } else {
-            self.slope_at(time_s).0
-        };
-        (torque, slope)
-    }
-
-    /// Slope of the torque \[Nm/s\] and how fast it changes \[Nm/s²\] at `time_s` after the first sample.
-    ///
-    /// Straight between the grid points' own slopes, which are taken over as many milliseconds as the torque's course
-    /// allows: a slope from one neighbour to the other would be mostly noise, which a lag of several milliseconds
-    /// multiplies.
-    pub fn slope_at(&self, time_s: f64) -> (f64, f64) {
+    /// sample would always fit better than none. The slope of a torque that is straight between samples is its rate, which
+    /// hardly knows the noise: noise that moves along with a delay says nothing about it, and a slope that counted it would
+    /// make the delay's interval far too narrow. A held input is straight: shifted by part of an interval, it has the
+    /// straight line's values as its means over the intervals.
+    pub fn before(&self, delay_s: f64) -> Vec<Earlier> {
         let slopes = (self.slopes)
             .get_or_init(|| slope::slopes(&self.grid, self.grid_interval_s, self.substeps));
-        self.straight(time_s, |index| slopes[index])
+        let fine_interval_s =
+            self.grid_interval_s * self.substeps as f64 / BAND_LIMITED_SUBSTEPS as f64;
+        let (fine, step) = match self.substeps {
+            1 if !self.held => (self.between(), BAND_LIMITED_SUBSTEPS),
+            _ => (self.grid.as_slice(), 1),
+        };
+        // A delay is the same part of an interval before every grid point.
+        let then = Position::new(-delay_s / self.grid_interval_s);
+        let then_in_fine = Position::new(-delay_s / fine_interval_s);
+        let earlier = |point: usize| {
+            let then = then.moved(point);
+            let (rate_nm_per_s, change_nm_per_s2) = then.straight(slopes, self.grid_interval_s);
+            let (torque_nm, slope_nm_per_s) = match self.held {
+                true => then.straight(&self.grid, self.grid_interval_s),
+                false => then_in_fine
+                    .moved(step * point)
+                    .curved(fine, fine_interval_s),
+            };
+            let is_still = slope_nm_per_s == 0.0;
+            Earlier {
+                torque_nm,
+                slope_nm_per_s: match self.held || self.substeps > 1 || is_still {
+                    true => slope_nm_per_s,
+                    false => rate_nm_per_s,
+                },
+                rate_nm_per_s,
+                change_nm_per_s2,
+            }
+        };
+        (0..self.grid.len()).map(earlier).collect()
     }
 
-    /// Value and slope at `time_s` of the line through `of(index)` at the grid points; the ends are held.
-    #[inline(always)]
-    fn straight(&self, time_s: f64, of: impl Fn(usize) -> f64) -> (f64, f64) {
-        let Some(last) = self.grid.len().checked_sub(1) else {
-            return (0.0, 0.0);
-        };
-        let position = time_s / self.grid_interval_s;
-        if position < 0.0 {
-            return (of(0), 0.0);
-        }
-        let index = position as usize;
-        if index >= last {
-            return (of(last), 0.0);
-        }
-        let (here, step) = (of(index), of(index + 1) - of(index));
-        (
-            here + step * (position - index as f64),
-            step / self.grid_interval_s,
-        )
+    /// The samples and what lies between them, [`BAND_LIMITED_SUBSTEPS`] to an interval.
+    fn between(&self) -> &[f64] {
+        let made = || band_limited::between_samples(&self.grid, BAND_LIMITED_SUBSTEPS);
+        self.between.get_or_init(made)
     }
 
     /// Torque at the grid points \[Nm\].
@@ -246,31 +234,87 @@ impl Input {
     }
 }
 
-/// Value and slope at `time_s` of the cubics that meet at the `points`, `interval_s` apart, with the slopes from one
-/// neighbour to the other; the ends are held.
-fn curved(points: &[f64], time_s: f64, interval_s: f64) -> (f64, f64) {
-    let Some(last) = points.len().checked_sub(1) else {
-        return (0.0, 0.0);
-    };
-    let position = time_s / interval_s;
-    if position < 0.0 {
-        return (points[0], 0.0);
+/// A torque some time ago.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Earlier {
+    /// The torque \[Nm\].
+    pub torque_nm: f64,
+    /// How it changes with time \[Nm/s\].
+    pub slope_nm_per_s: f64,
+    /// The same over as many milliseconds as its course allows \[Nm/s\]: a slope from one neighbour to the other would be
+    /// mostly noise, which a lag of several milliseconds multiplies.
+    pub rate_nm_per_s: f64,
+    /// How fast that changes \[Nm/s²\].
+    pub change_nm_per_s2: f64,
+}
+
+/// A place among points: behind point number `index` by this part of an interval.
+#[derive(Clone, Copy)]
+struct Position {
+    index: isize,
+    part: f64,
+}
+
+impl Position {
+    fn new(intervals: f64) -> Self {
+        let index = intervals.floor();
+        Self {
+            index: index as isize,
+            part: intervals - index,
+        }
     }
-    let index = position as usize;
-    if index >= last {
-        return (points[last], 0.0);
+
+    #[inline(always)]
+    fn moved(self, points: usize) -> Self {
+        Self {
+            index: self.index + points as isize,
+            ..self
+        }
     }
-    let u = position - index as f64;
-    let (here, next) = (points[index], points[index + 1]);
-    let slope_here = 0.5 * (next - points[index.saturating_sub(1)]);
-    let slope_next = 0.5 * (points[(index + 2).min(last)] - here);
-    // Hermite form: here + u (m + u (b + u a)).
-    let a = 2.0 * (here - next) + slope_here + slope_next;
-    let b = 3.0 * (next - here) - 2.0 * slope_here - slope_next;
-    (
-        here + u * (slope_here + u * (b + u * a)),
-        (slope_here + u * (2.0 * b + 3.0 * u * a)) / interval_s,
-    )
+
+    /// The interval it lies in, or the point whose value is held there.
+    #[inline(always)]
+    fn among(self, points: &[f64]) -> Result<usize, f64> {
+        let last = points.len().saturating_sub(1);
+        match usize::try_from(self.index) {
+            Err(_) => Err(points.first().copied().unwrap_or(0.0)),
+            Ok(index) if index >= last => Err(points.last().copied().unwrap_or(0.0)),
+            Ok(index) => Ok(index),
+        }
+    }
+
+    /// Value and slope of the line between the points, `interval_s` apart; the ends are held.
+    #[inline(always)]
+    fn straight(self, points: &[f64], interval_s: f64) -> (f64, f64) {
+        match self.among(points) {
+            Err(held) => (held, 0.0),
+            Ok(index) => {
+                let (here, step) = (points[index], points[index + 1] - points[index]);
+                (here + step * self.part, step / interval_s)
+            }
+        }
+    }
+
+    /// Value and slope of the cubics that meet at the points, `interval_s` apart, with the slopes from one neighbour to
+    /// the other; the ends are held.
+    #[inline(always)]
+    fn curved(self, points: &[f64], interval_s: f64) -> (f64, f64) {
+        let index = match self.among(points) {
+            Err(held) => return (held, 0.0),
+            Ok(index) => index,
+        };
+        let (u, last) = (self.part, points.len() - 1);
+        let (here, next) = (points[index], points[index + 1]);
+        let slope_here = 0.5 * (next - points[index.saturating_sub(1)]);
+        let slope_next = 0.5 * (points[(index + 2).min(last)] - here);
+        // Hermite form: here + u (m + u (b + u a)).
+        let a = 2.0 * (here - next) + slope_here + slope_next;
+        let b = 3.0 * (next - here) - 2.0 * slope_here - slope_next;
+        (
+            here + u * (slope_here + u * (b + u * a)),
+            (slope_here + u * (2.0 * b + 3.0 * u * a)) / interval_s,
+        )
+    }
 }
 
 #[cfg(test)]
@@ -292,8 +336,11 @@ mod tests {
     fn a_shift_by_half_a_sample_keeps_the_power_of_noise() {
         let samples = even_noise(20_000);
         let input = Input::new(&samples, 1e-4, Intersample::Linear);
-        let shifted = power((100..19_900).map(|i| input.at((i as f64 + 0.5) * 1e-4).0));
-        let there = power((100..19_900).map(|i| input.at(i as f64 * 1e-4).0));
+        let power_before = |delay_s| {
+            let earlier = input.before(delay_s);
+            power(earlier[100..19_900].iter().map(|then| then.torque_nm))
+        };
+        let (shifted, there) = (power_before(0.5e-4), power_before(0.0));
         assert!(
             (there - 1.0).abs() < 0.03 && (shifted / there - 1.0).abs() < 0.02,
             "{there} {shifted}"
@@ -318,8 +365,9 @@ mod tests {
     fn the_slope_at_a_sample_does_not_know_its_noise() {
         let samples = even_noise(20_000);
         let input = Input::new(&samples, 1.0, Intersample::Linear);
+        let now = input.before(0.0);
         let product: f64 = (100..19_900)
-            .map(|i| input.at(i as f64).1 * samples[i])
+            .map(|i| now[i].slope_nm_per_s * samples[i])
             .sum();
         // Σ of 19 800 products of spread 0.7 and mean 0; a line to the next sample would give −19 800.
         assert!(product.abs() < 4.0 * 0.8 * 19_800_f64.sqrt(), "{product}");

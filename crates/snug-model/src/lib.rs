@@ -57,7 +57,7 @@ pub use effects::{Effect, TRENDS};
 pub use error::ModelError;
 pub use euler::euler_displacement;
 pub use forces::{inverse_dynamics_force, spring_damper_force};
-pub use input::Input;
+pub use input::{Earlier, Input};
 pub use invisible::{INVISIBLE, Invisible};
 pub use lanes::{LaneTask, Lanes, in_lanes, on_this_processor};
 pub use model::{Model, THESIS_START};
