@@ -8,6 +8,7 @@ use crate::units::Units;
 use snug_identify::PooledFit;
 use snug_model::{BASE_PARAMETERS, Effect};
 use snug_statistics::descriptive::median;
+use std::collections::BTreeMap;
 
 /// What a unit says about the parameters around the optimum: squared residual, gradient and curvature.
 #[derive(Debug, Clone)]
@@ -316,17 +317,17 @@ impl Fitted {
     /// r² + 2 gᵀδ + δᵀSδ. `group_of` names the group of a unit; each tightening's own parameters follow, and pay for it.
     pub fn heldout(&self, group_of: &dyn Fn(usize) -> usize) -> Vec<f64> {
         let scale = self.scale();
-        let groups: std::collections::BTreeSet<usize> =
-            (0..self.blocks.len()).map(group_of).collect();
+        let mut groups: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+        for unit in 0..self.blocks.len() {
+            groups.entry(group_of(unit)).or_default().push(unit);
+        }
         let mut squares: Vec<f64> = vec![0.0; self.blocks.len()];
-        for group in groups {
-            let units: Vec<usize> = (0..self.blocks.len())
-                .filter(|&u| group_of(u) == group)
-                .collect();
+        let all = self.shared_curvature();
+        for units in groups.values() {
             if self.units.are_whole() {
-                self.hold_out(&units, self.shared_curvature(), &mut squares);
+                self.hold_out(units, all.clone(), &mut squares);
             } else {
-                self.hold_out_stretches(&units, &mut squares);
+                self.hold_out_stretches(units, &mut squares);
             }
         }
         if self.units.are_whole() {
@@ -357,7 +358,7 @@ impl Fitted {
 
     /// Own parameters are fixed by the other stretches of the same tightening, the shared ones by everything else.
     fn hold_out_stretches(&self, units: &[usize], squares: &mut [f64]) {
-        let mut by_member: std::collections::BTreeMap<usize, Vec<usize>> = Default::default();
+        let mut by_member: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
         for &unit in units {
             by_member.entry(self.members[unit]).or_default().push(unit);
         }

@@ -68,6 +68,22 @@ pub(crate) fn fit_effects(
     Ok(Fitted::new(&hypothesis, end, &units))
 }
 
+/// What `fitted` says of the tightenings `members`, which are `cases`, when they are asked alone.
+pub(crate) fn fit_part(
+    cases: Cases<'_>,
+    members: &[usize],
+    fitted: &Fitted,
+    units: Units,
+) -> Result<Fitted, DiagnoseError> {
+    let mut hypothesis = Hypothesis::new(cases, &fitted.effects)?;
+    let start = Start {
+        own: fitted.own.clone(),
+        shared: fitted.shared.clone(),
+    };
+    let end = hypothesis.fit(&start.of_members(members), &PooledSettings::default())?;
+    Ok(Fitted::new(&hypothesis, end, &units))
+}
+
 /// Refits one effect from its most promising starts, first roughly on a few tightenings; the lowest cost wins.
 pub(crate) fn refit(
     cases: Cases<'_>,

@@ -5,7 +5,7 @@ use crate::cases::Cases;
 use crate::climb::{Addition, Climb, EQUAL, justified, misfit, twins};
 use crate::fitted::Fitted;
 use crate::ranking::{Candidate, Ranking, gains, rank};
-use crate::refit::fit_effects;
+use crate::refit::{fit_effects, fit_part};
 use crate::units::Units;
 use crate::unlisted::is_unlisted;
 use crate::{DiagnoseError, DiagnoseSettings, Watch};
@@ -255,21 +255,55 @@ impl Search<'_> {
             .begin(&format!("looking ahead from {}", list(&first.effects)))?;
         let mut seconds = candidates(&self.cases, first, self.custom)?;
         seconds.retain(|&effect| !is_unlisted(effect));
-        let next = rank(
-            self.cases,
-            first,
-            &seconds,
-            self.units,
-            self.settings,
-            0,
-            self.watch,
-        )?;
-        let Ok(second) = justified(&next, first, self.settings) else {
+        let mut found = match self.cases.len() > ENOUGH_AHEAD {
+            true => self.second_of_part(first, &seconds)?,
+            false => self.second_of(self.cases, first, &seconds)?,
+        };
+        if let Some((together, _)) = &mut found {
+            together.gains = gains(heldout, &together.fitted);
+        }
+        Ok(found)
+    }
+
+    /// What of `seconds` is justified beside `first`, a fit of `cases`.
+    fn second_of(
+        &self,
+        cases: Cases<'_>,
+        first: &Fitted,
+        seconds: &[Effect],
+    ) -> Result<Option<(Candidate, Step)>, DiagnoseError> {
+        let (units, settings) = (self.units, self.settings);
+        let next = rank(cases, first, seconds, units, settings, 0, self.watch)?;
+        let second = justified(&next, first, settings).ok();
+        Ok(second.map(|index| {
+            let together = next.candidates[index].clone();
+            (together, self.step(&next, index, first))
+        }))
+    }
+
+    /// The same of many tightenings: the second is found on a part of them, since two are looked for only where much is
+    /// left, then fitted to all. The chance and the twins are those of the part.
+    fn second_of_part(
+        &self,
+        first: &Fitted,
+        seconds: &[Effect],
+    ) -> Result<Option<(Candidate, Step)>, DiagnoseError> {
+        let members = first.spread(ENOUGH_AHEAD);
+        let part = self.cases.some(&members);
+        let cases = self.cases.others(&part);
+        let of_part = fit_part(cases, &members, first, self.units)?;
+        let Some((_, (ahead, _))) = self.second_of(cases, &of_part, seconds)? else {
             return Ok(None);
         };
-        let mut together = next.candidates[second].clone();
-        together.gains = gains(heldout, &together.fitted);
-        Ok(Some((together, self.step(&next, second, first))))
+        let found = self.second_of(self.cases, first, &[ahead.effect])?;
+        Ok(found.map(|(together, (addition, fitted))| {
+            let heldout_gain = addition.heldout_gain;
+            let addition = Addition {
+                heldout_gain,
+                ..ahead
+            };
+            (together, (addition, fitted))
+        }))
     }
 
     fn step(&self, ranking: &Ranking, index: usize, current: &Fitted) -> Step {
@@ -297,6 +331,8 @@ const NOISE_AND_A_LITTLE: f64 = 1.02;
 const MUCH_LEFT: f64 = 0.02;
 /// Share of the misfit left by two effects below which no other two are looked for.
 const LITTLE_LEFT: f64 = 0.05;
+/// Tightenings that are enough to find the second of two effects.
+const ENOUGH_AHEAD: usize = 80;
 /// Effects from which a second is looked for.
 const SEEDS: usize = 3;
 
