@@ -5,8 +5,8 @@ use crate::case::Case;
 use crate::cases::Cases;
 use crate::simulated::{Asked, Simulated, simulate};
 use snug_identify::{
-    Constraints, EvaluationError, PooledFit, PooledResidual, PooledSettings, Trial, Whitening,
-    average, convex_set, identify, solve_pooled,
+    Constraints, EvaluationError, PooledFit, PooledResidual, PooledSettings, Subject, Trial,
+    Whitening, average, convex_set, identify_all, solve_pooled,
 };
 use snug_model::{BASE_PARAMETERS, Effect, Law, Model, Scope};
 
@@ -54,13 +54,15 @@ impl Start {
     /// The same for some of the members only.
     pub fn of_members(&self, members: &[usize]) -> Self {
         Self {
-            own: members
-                .iter()
-                .map(|&member| self.own[member].clone())
-                .collect(),
+            own: pick(&self.own, members),
             shared: self.shared.clone(),
         }
     }
+}
+
+/// What some members have of their own.
+pub(crate) fn pick(own: &[Vec<f64>], members: &[usize]) -> Vec<Vec<f64>> {
+    members.iter().map(|&member| own[member].clone()).collect()
 }
 
 impl<'a> Hypothesis<'a> {
@@ -196,14 +198,50 @@ impl<'a> Hypothesis<'a> {
         end
     }
 
-    /// One member fitted by itself with the shared parameters held: its own parameters and ½‖r‖².
+    /// Members fitted each by itself with the shared parameters held, from its `own` start: its own parameters and ½‖r‖², or
+    /// nothing where it could not be fitted.
     pub fn fit_alone(
         &self,
-        member: usize,
-        own: &[f64],
+        members: &[usize],
+        own: &[Vec<f64>],
         shared: &[f64],
-    ) -> Result<(Vec<f64>, f64), DiagnoseError> {
-        let case = &self.cases[member];
+    ) -> Vec<Option<(Vec<f64>, f64)>> {
+        let models: Vec<Model> = (members.iter().zip(own))
+            .map(|(&member, own)| self.held(member, own, shared))
+            .collect();
+        let pairs: Vec<(usize, &Model)> = members.iter().copied().zip(&models).collect();
+        let settings = |member: usize| self.cases[member].settings();
+        let alike = pairs.chunk_by(|(one, _), (next, _)| settings(*one) == settings(*next));
+        alike.flat_map(|some| self.identify_alone(some)).collect()
+    }
+
+    /// Members that are identified with the same settings, each with its own model.
+    fn identify_alone(&self, some: &[(usize, &Model)]) -> Vec<Option<(Vec<f64>, f64)>> {
+        let subjects: Vec<Subject<'_>> = (some.iter())
+            .map(|&(member, model)| Subject {
+                model,
+                input: &self.cases[member].input,
+                tightening: &self.cases[member].tightening,
+            })
+            .collect();
+        let estimates = identify_all(&subjects, &self.cases[some[0].0].settings());
+        let mut room = Room::default();
+        let ends = estimates
+            .into_iter()
+            .zip(some)
+            .map(|(estimate, &(member, _))| {
+                let estimate = estimate.ok()?;
+                self.cases.tally().fit_alone(&estimate);
+                let found: Vec<f64> = estimate.parameters.iter().map(|p| p.value).collect();
+                let (residual, _) = self.weighted(member, &found, &[], &mut room);
+                let cost = 0.5 * residual.iter().map(|r| r * r).sum::<f64>();
+                Some((self.own.iter().map(|&index| found[index]).collect(), cost))
+            });
+        ends.collect()
+    }
+
+    /// One member's model, everything at these values and what all share held there.
+    fn held(&self, member: usize, own: &[f64], shared: &[f64]) -> Model {
         let mut model = self.models[member].clone();
         let values = self.values(member, own, shared);
         for (parameter, value) in model.parameters_mut().iter_mut().zip(values) {
@@ -212,13 +250,7 @@ impl<'a> Hypothesis<'a> {
         for &index in &self.shared {
             model.parameters_mut()[index].fixed = true;
         }
-        let estimate = identify(&model, &case.input, &case.tightening, &case.settings())?;
-        self.cases.tally().fit_alone(&estimate);
-        let found: Vec<f64> = estimate.parameters.iter().map(|p| p.value).collect();
-        let mut room = Room::default();
-        let (residual, _) = self.weighted(member, &found, &[], &mut room);
-        let cost = 0.5 * residual.iter().map(|r| r * r).sum::<f64>();
-        Ok((self.own.iter().map(|&index| found[index]).collect(), cost))
+        model
     }
 
     /// The compared output of every tightening that is `asked` for.

@@ -4,13 +4,13 @@ use crate::case::Case;
 use crate::cases::Cases;
 use crate::column::Column;
 use crate::fitted::Fitted;
-use crate::hypothesis::{Hypothesis, Start};
+use crate::hypothesis::{Hypothesis, Start, pick};
 use crate::long_record;
 use crate::sizes::first_parameter;
 use crate::units::Units;
 use crate::unlisted::is_unlisted;
 use crate::{DiagnoseError, DiagnoseSettings};
-use snug_identify::{IdentifyError, PooledFit, PooledSettings, REACHES};
+use snug_identify::{IdentifyError, PooledFit, PooledSettings, REACHES, SIDE_BY_SIDE};
 use snug_model::{BASE_PARAMETERS, Effect, Law, Scope};
 use snug_statistics::descriptive::median;
 
@@ -45,6 +45,9 @@ const LED_REACH: usize = 8;
 /// Root mean square of a tightening's residual, and what it kept of it, over the median of all from which it is left behind:
 /// it ended in a minimum of its own, where the others found theirs.
 const LEFT_BEHIND: f64 = 1.15;
+
+/// Share of the cost that is not worth fetching them for: a wrong model leaves behind whom it explains worst.
+const LITTLE: f64 = 1e-3;
 
 /// Times that those who were left behind are fetched: with them the shared sizes move, and others may see the way.
 const MOST_ROUNDS: usize = 3;
@@ -213,23 +216,30 @@ fn catch_up(
     let begun = current.start(hypothesis).own;
     for _ in 0..MOST_ROUNDS {
         let (behind, ahead) = left_behind(hypothesis, current, &end);
-        let pick = |own: &[Vec<f64>]| -> Vec<Vec<f64>> {
-            ahead.iter().map(|&member| own[member].clone()).collect()
-        };
-        let factors = astray(hypothesis, &pick(&end.own), &pick(&begun));
+        let little = LITTLE * end.cost();
+        let (with, without) = (pick(&end.own, &ahead), pick(&begun, &ahead));
+        let factors = astray(hypothesis, &with, &without);
         let mut start = Start::at(&end);
         let mut lowered = 0.0;
-        for member in behind {
-            let mut again = begun[member].clone();
-            times(&mut again, &factors);
-            if let Ok((own, cost)) = hypothesis.fit_alone(member, &again, &end.shared)
-                && cost < end.profiles[member].cost
-            {
-                lowered += end.profiles[member].cost - cost;
-                start.own[member] = own;
+        for some in behind.chunks(SIDE_BY_SIDE) {
+            let before = lowered;
+            let mut again = pick(&begun, some);
+            again.iter_mut().for_each(|own| times(own, &factors));
+            let alone = hypothesis.fit_alone(some, &again, &end.shared);
+            for (&member, found) in some.iter().zip(alone) {
+                if let Some((own, cost)) = found
+                    && cost < end.profiles[member].cost
+                {
+                    lowered += end.profiles[member].cost - cost;
+                    start.own[member] = own;
+                }
+            }
+            // Nobody of these was left behind, it is their model that is wrong; and so it is for the others.
+            if lowered - before <= little {
+                break;
             }
         }
-        if lowered <= ROUGH.cost_tolerance * end.cost() {
+        if lowered <= little {
             return Ok(end);
         }
         end = hypothesis.fit(&start, &CANDIDATE)?;
