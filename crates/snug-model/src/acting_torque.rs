@@ -75,7 +75,10 @@ fn shifted<R: Real>(bench: &Bench<'_, R>, delay_s: R) -> Vec<Shifted<R>> {
     (0..points)
         .map(|point| {
             // A lane whose input has ended keeps its last value.
-            let of = |lane: usize| found[lane][point.min(found[lane].len() - 1)];
+            let of = |lane: usize| -> Earlier {
+                let earlier = found[lane].get(point).or(found[lane].last());
+                earlier.copied().unwrap_or_default()
+            };
             Shifted {
                 torque_nm: zero.lane_by_lane(|lane| of(lane).torque_nm),
                 slope_nm_per_s: zero.lane_by_lane(|lane| of(lane).slope_nm_per_s),

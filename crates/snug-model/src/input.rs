@@ -235,7 +235,7 @@ impl Input {
 }
 
 /// A torque some time ago.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Earlier {
     /// The torque \[Nm\].
     pub torque_nm: f64,
@@ -267,7 +267,7 @@ impl Position {
     #[inline(always)]
     fn moved(self, points: usize) -> Self {
         Self {
-            index: self.index + points as isize,
+            index: self.index.saturating_add_unsigned(points),
             ..self
         }
     }

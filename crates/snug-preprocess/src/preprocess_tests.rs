@@ -8,12 +8,8 @@ use crate::{KnownInertia, Prepared};
 use snug_campaign::Rejection;
 
 fn snug(recording: &Recording) -> Preprocessed {
-    preprocess(
-        recording,
-        &PreprocessSettings::default(),
-        Quantity::Acceleration,
-    )
-    .unwrap()
+    let settings = PreprocessSettings::default();
+    preprocess(recording, &settings, Quantity::Acceleration).unwrap()
 }
 
 fn thesis(recording: &Recording) -> Preprocessed {
@@ -43,10 +39,7 @@ fn spoilt(spoil: impl Fn(&mut Recording)) -> (Option<Prepared>, Vec<Finding>) {
 }
 
 fn codes(findings: &[Finding]) -> Vec<&str> {
-    findings
-        .iter()
-        .map(|finding| finding.code.as_str())
-        .collect()
+    findings.iter().map(|f| f.code.as_str()).collect()
 }
 
 fn rejected_for(code: &str, spoil: impl Fn(&mut Recording)) {
