@@ -296,12 +296,8 @@ impl Search<'_> {
             return Ok(None);
         };
         let found = self.second_of(self.cases, first, &[ahead.effect])?;
-        Ok(found.map(|(together, (addition, fitted))| {
-            let heldout_gain = addition.heldout_gain;
-            let addition = Addition {
-                heldout_gain,
-                ..ahead
-            };
+        Ok(found.map(|(together, (mut addition, fitted))| {
+            (addition.p_family, addition.twins) = (ahead.p_family, ahead.twins);
             (together, (addition, fitted))
         }))
     }

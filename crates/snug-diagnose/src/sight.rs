@@ -21,8 +21,9 @@ impl<'a> Sight<'a> {
         let alike: Vec<&[Case]> = (cases.chunks(SIDE_BY_SIDE))
             .flat_map(|some| some.chunk_by(|one, next| one.settings() == next.settings()))
             .collect();
+        let errors = fitted.shared_errors();
         let seen = (alike.into_par_iter())
-            .map(|some| see(some, fitted))
+            .map(|some| see(some, fitted, errors.as_deref()))
             .collect::<Result<Vec<_>, _>>()?;
         let (estimates, simulated) = seen.into_iter().flatten().unzip();
         Ok(Self {
@@ -49,10 +50,13 @@ impl<'a> Sight<'a> {
 }
 
 /// Estimates and motions of cases with the same settings, the shared parameters held where all tightenings together put them.
-fn see(cases: &[Case], fitted: &Fitted) -> Result<Vec<(Estimate, Motion)>, DiagnoseError> {
-    let errors = fitted.shared_errors();
+fn see(
+    cases: &[Case],
+    fitted: &Fitted,
+    errors: Option<&[f64]>,
+) -> Result<Vec<(Estimate, Motion)>, DiagnoseError> {
     let models: Vec<Model> = (cases.iter())
-        .map(|case| held(case, fitted, errors.as_deref()).unwrap_or_else(|| case.model.clone()))
+        .map(|case| held(case, fitted, errors).unwrap_or_else(|| case.model.clone()))
         .collect();
     let subjects: Vec<Subject<'_>> = (cases.iter().zip(&models))
         .map(|(case, model)| Subject {

@@ -177,9 +177,10 @@ impl Input {
             .get_or_init(|| slope::slopes(&self.grid, self.grid_interval_s, self.substeps));
         let fine_interval_s =
             self.grid_interval_s * self.substeps as f64 / BAND_LIMITED_SUBSTEPS as f64;
-        let (fine, step) = match self.substeps {
-            1 if !self.held => (self.between(), BAND_LIMITED_SUBSTEPS),
-            _ => (self.grid.as_slice(), 1),
+        let is_straight = self.substeps == 1 && !self.held;
+        let (fine, step) = match is_straight {
+            true => (self.between(), BAND_LIMITED_SUBSTEPS),
+            false => (self.grid.as_slice(), 1),
         };
         // A delay is the same part of an interval before every grid point.
         let then = Position::new(-delay_s / self.grid_interval_s);
@@ -196,9 +197,9 @@ impl Input {
             let is_still = slope_nm_per_s == 0.0;
             Earlier {
                 torque_nm,
-                slope_nm_per_s: match self.held || self.substeps > 1 || is_still {
-                    true => slope_nm_per_s,
-                    false => rate_nm_per_s,
+                slope_nm_per_s: match is_straight && !is_still {
+                    true => rate_nm_per_s,
+                    false => slope_nm_per_s,
                 },
                 rate_nm_per_s,
                 change_nm_per_s2,
