@@ -32,6 +32,8 @@ impl Output for File {
 pub trait Disk: Debug + Send + Sync {
     /// What is known of a file or folder.
     fn metadata(&self, path: &Path) -> io::Result<Metadata>;
+    /// What is known of a file, a folder or a link itself.
+    fn link_metadata(&self, path: &Path) -> io::Result<Metadata>;
     /// The entries of a folder, in no order.
     fn entries(&self, folder: &Path) -> io::Result<Vec<PathBuf>>;
     /// Opens a file for reading.
@@ -61,6 +63,10 @@ pub struct Host;
 impl Disk for Host {
     fn metadata(&self, path: &Path) -> io::Result<Metadata> {
         std::fs::metadata(path)
+    }
+
+    fn link_metadata(&self, path: &Path) -> io::Result<Metadata> {
+        std::fs::symlink_metadata(path)
     }
 
     fn entries(&self, folder: &Path) -> io::Result<Vec<PathBuf>> {

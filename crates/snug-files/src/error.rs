@@ -53,7 +53,6 @@ pub enum FilesError {
 }
 
 impl FilesError {
-    #[expect(dead_code, reason = "until results are written through here")]
     pub(crate) fn refused<'a>(
         action: &'static str,
         path: &'a Path,

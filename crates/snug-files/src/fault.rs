@@ -142,6 +142,11 @@ impl Disk for FaultyDisk {
         Host.metadata(path)
     }
 
+    fn link_metadata(&self, path: &Path) -> io::Result<Metadata> {
+        self.pass()?;
+        Host.link_metadata(path)
+    }
+
     fn entries(&self, folder: &Path) -> io::Result<Vec<PathBuf>> {
         self.pass()?;
         Host.entries(folder)

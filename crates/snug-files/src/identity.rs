@@ -27,10 +27,7 @@ impl Identity {
         };
         #[cfg(unix)]
         {
-            use std::os::unix::fs::MetadataExt;
-            Ok(Some(Self {
-                device_and_inode: (metadata.dev(), metadata.ino()),
-            }))
+            Ok(Some(Self::of_metadata(&metadata)))
         }
         #[cfg(not(unix))]
         {
@@ -38,6 +35,15 @@ impl Identity {
             Ok(Some(Self {
                 full_path: std::fs::canonicalize(path)?,
             }))
+        }
+    }
+
+    /// Of what is known of it.
+    #[cfg(unix)]
+    pub(crate) fn of_metadata(metadata: &std::fs::Metadata) -> Self {
+        use std::os::unix::fs::MetadataExt;
+        Self {
+            device_and_inode: (metadata.dev(), metadata.ino()),
         }
     }
 }

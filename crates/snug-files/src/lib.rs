@@ -1,11 +1,25 @@
 #![doc = include_str!("../README.md")]
 
+mod apart;
+mod digest;
 mod disk;
 mod error;
 #[cfg(feature = "faults")]
 pub mod fault;
 mod identity;
+mod journal;
+mod lock;
+mod manifest;
+mod results;
+mod whole_file;
 
+pub use apart::{Inputs, keep_apart};
 pub use disk::{Disk, Host, Input, Output};
 pub use error::{FilesError, remedy};
 pub use identity::Identity;
+pub use lock::Waiting;
+pub use results::{Exchanged, Growing, Results};
+pub use whole_file::{WholeFile, write_whole};
+
+#[cfg(test)]
+mod tests;
