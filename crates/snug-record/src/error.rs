@@ -1,9 +1,20 @@
+//! Why a recording could not be written or read.
+
+use std::error::Error as _;
 use std::path::PathBuf;
 use thiserror::Error;
 
 /// Why a recording could not be written or read.
 #[derive(Debug, Error)]
 pub enum RecordError {
+    /// A file of that name is there already; nothing is ever replaced.
+    #[error(
+        "the recording {path} exists already and is not replaced: move it away or choose another name"
+    )]
+    Exists {
+        /// Where the recording was to be.
+        path: PathBuf,
+    },
     /// The file could not be made.
     #[error("cannot create the recording {path}: {source}")]
     Create {
@@ -12,10 +23,11 @@ pub enum RecordError {
         /// What the operating system said.
         source: std::io::Error,
     },
-    /// Writing failed (disk full, device gone); what was flushed before stays readable.
-    #[error("cannot write the recording: {source}")]
+    /// Writing failed (disk full, device gone); what was flushed before stays readable. The message is the first cause,
+    /// as the operating system names it.
+    #[error("cannot write the recording: {}", cause(source))]
     Write {
-        /// What the MCAP writer said.
+        /// What the MCAP writer said; the first cause is at the end of its chain of sources.
         #[from]
         source: mcap::McapError,
     },
@@ -57,4 +69,18 @@ pub enum RecordError {
         /// Its first bytes, at most eight.
         start: Vec<u8>,
     },
+}
+
+/// The error of the operating system at the bottom, which says what a person can mend; the layers above it only say that
+/// something failed.
+fn cause(error: &mcap::McapError) -> String {
+    let mut cause = error.to_string();
+    let mut next = error.source();
+    while let Some(error) = next {
+        if error.is::<std::io::Error>() {
+            cause = error.to_string();
+        }
+        next = error.source();
+    }
+    cause
 }

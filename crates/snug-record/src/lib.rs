@@ -14,6 +14,7 @@ mod shape;
 mod signals;
 mod statistics;
 pub mod topic;
+mod until_failure;
 mod window;
 mod wire;
 

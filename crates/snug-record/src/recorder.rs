@@ -1,6 +1,9 @@
+//! The recorder: every kind of result as messages on its topic, one after another.
+
 use crate::schema::Message;
 use crate::shape::{Shape, tidy};
 use crate::signals::{self, Columns};
+use crate::until_failure::UntilFailure;
 use crate::{Compression, RecordError, RecordSettings, Window, topic};
 use crate::{diagnosis, estimate, finding, measurement, statistics, window};
 use mcap::records::{MessageHeader, Metadata};
@@ -14,7 +17,7 @@ use snug_campaign::{
 use std::borrow::Cow;
 use std::collections::{BTreeMap, HashMap};
 use std::fs::File;
-use std::io::{BufWriter, Write};
+use std::io::{BufWriter, ErrorKind, Write};
 use std::path::Path;
 
 /// The recording's time axis begins here, because some viewers take a time of zero for "no time".
@@ -27,7 +30,7 @@ const PLACE_NS: u64 = 100_000_000;
 /// Memory stays below a few chunks however long the recording gets. Every call that adds a tightening, a measurement file
 /// or the study ends with a flush, so that a run killed later leaves it readable. The same calls give the same bytes.
 pub struct Recorder<W: Write> {
-    writer: Writer<NoSeek<W>>,
+    writer: Writer<NoSeek<UntilFailure<W>>>,
     settings: RecordSettings,
     channels: HashMap<String, OpenChannel>,
     /// Where the next message stands on the time axis.
@@ -45,15 +48,19 @@ struct OpenChannel {
 }
 
 impl Recorder<BufWriter<File>> {
-    /// Begins a recording in a new file; an old one of that name is replaced.
+    /// Begins a recording in a new file. A file that is there already is never touched: the measurements and results in
+    /// it may exist nowhere else.
     ///
     /// # Errors
-    /// [`RecordError::Create`], [`RecordError::Write`], [`RecordError::Setting`].
+    /// [`RecordError::Exists`], [`RecordError::Create`], [`RecordError::Write`], [`RecordError::Setting`].
     pub fn create(path: &Path, settings: RecordSettings) -> Result<Self, RecordError> {
         settings.check()?;
-        let file = File::create(path).map_err(|source| RecordError::Create {
-            path: path.to_owned(),
-            source,
+        let file = File::create_new(path).map_err(|source| {
+            let path = path.to_owned();
+            match source.kind() {
+                ErrorKind::AlreadyExists => RecordError::Exists { path },
+                _ => RecordError::Create { path, source },
+            }
         })?;
         Self::new(BufWriter::new(file), settings)
     }
@@ -81,7 +88,7 @@ impl<W: Write> Recorder<W> {
             // without a length.
             .disable_seeking(true)
             .library(concat!("snug-record ", env!("CARGO_PKG_VERSION")))
-            .create(NoSeek::new(writer))?;
+            .create(NoSeek::new(UntilFailure::new(writer)))?;
         Ok(Self {
             writer,
             settings,
@@ -283,13 +290,14 @@ impl<W: Write> Recorder<W> {
         Ok(self.writer.flush()?)
     }
 
-    /// Ends the recording with its index and gives the writer back. Dropping a recorder does the same, but hides errors.
+    /// Ends the recording with its index and gives the writer back. Dropping a recorder does the same, but hides errors;
+    /// after a failed write nothing more is written.
     ///
     /// # Errors
     /// [`RecordError::Write`].
     pub fn finish(mut self) -> Result<W, RecordError> {
         self.writer.finish()?;
-        let mut inner = self.writer.into_inner().into_inner();
+        let mut inner = self.writer.into_inner().into_inner().into_inner();
         inner.flush().map_err(mcap::McapError::from)?;
         Ok(inner)
     }

@@ -1,6 +1,8 @@
+//! What a cut, a kill and a failed write leave behind.
+
 use super::{bits, record, small_chunks, tightenings};
 use crate::read::{Completeness, recordings};
-use crate::{RecordError, RecordSettings, Recorder};
+use crate::{Compression, RecordError, RecordSettings, Recorder};
 use std::cell::RefCell;
 use std::io::Write;
 use std::rc::Rc;
@@ -91,4 +93,93 @@ fn a_killed_process_leaves_a_file() {
         Recorder::create(&missing, RecordSettings::default()),
         Err(RecordError::Create { .. })
     ));
+}
+
+#[test]
+fn an_existing_recording_is_never_replaced() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("recording.mcap");
+    std::fs::write(&path, b"results of a week").unwrap();
+    match Recorder::create(&path, RecordSettings::default()) {
+        Err(RecordError::Exists { path: named }) => assert_eq!(named, path),
+        other => panic!("{:?}", other.err()),
+    }
+    assert_eq!(std::fs::read(&path).unwrap(), b"results of a week");
+}
+
+/// A disk that is full at one call, and has space again after it.
+struct FullDisk {
+    calls: usize,
+    full_at: usize,
+    longest: usize,
+    taken: Vec<u8>,
+}
+
+impl FullDisk {
+    fn call(&mut self) -> std::io::Result<()> {
+        self.calls += 1;
+        if self.calls == self.full_at {
+            // ENOSPC
+            return Err(std::io::Error::from_raw_os_error(28));
+        }
+        assert!(self.calls < self.full_at, "written on after a failure");
+        Ok(())
+    }
+}
+
+impl Write for FullDisk {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        self.call()?;
+        let length = bytes.len().min(self.longest);
+        self.taken.extend_from_slice(&bytes[..length]);
+        Ok(length)
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        self.call()
+    }
+}
+
+fn two_tightenings_on(disk: &mut FullDisk, settings: RecordSettings) -> Result<(), RecordError> {
+    let mut recorder = Recorder::new(disk, settings)?;
+    recorder.study("(title: \"full\")")?;
+    for (result, traces) in &tightenings()[..2] {
+        recorder.tightening(result, traces, None)?;
+    }
+    recorder.finish()?;
+    Ok(())
+}
+
+/// Whatever call fails first, the error names the disk's reason, the recorder can be dropped, and what came before is
+/// readable: nothing is written behind half a record.
+#[test]
+fn a_full_disk_is_named_at_every_call() {
+    for compression in [Compression::Zstd, Compression::Lz4, Compression::Off] {
+        let settings = RecordSettings {
+            compression,
+            ..small_chunks()
+        };
+        for longest in [usize::MAX, 1000] {
+            for full_at in 1.. {
+                let mut disk = FullDisk {
+                    calls: 0,
+                    full_at,
+                    longest,
+                    taken: Vec::new(),
+                };
+                let Err(error) = two_tightenings_on(&mut disk, settings) else {
+                    assert!(full_at > 20, "{full_at} calls");
+                    break;
+                };
+                let text = error.to_string();
+                assert!(
+                    text.contains("No space left on device (os error 28)"),
+                    "call {full_at}: {text}"
+                );
+                if disk.taken.len() >= 8 {
+                    recordings(&disk.taken).unwrap();
+                }
+            }
+        }
+    }
 }
