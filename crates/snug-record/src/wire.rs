@@ -1,4 +1,4 @@
-//! Protobuf's wire format: tagged varints, fixed words and length-prefixed bytes.
+//! Protobuf's wire format (tagged varints, fixed words and length-prefixed bytes), and the words that MCAP shares with it.
 
 /// One field's value as it stands on the wire.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -58,6 +58,17 @@ pub(crate) fn take<'a>(bytes: &mut &'a [u8], length: usize) -> Option<&'a [u8]> 
     let (head, rest) = bytes.split_at_checked(length)?;
     *bytes = rest;
     Some(head)
+}
+
+pub(crate) fn take_fixed16(bytes: &mut &[u8]) -> Option<u16> {
+    let head = take(bytes, 2)?;
+    Some(u16::from_le_bytes(head.try_into().ok()?))
+}
+
+/// Bytes behind their length in four bytes, as MCAP writes texts and maps.
+pub(crate) fn take_framed<'a>(bytes: &mut &'a [u8]) -> Option<&'a [u8]> {
+    let length = usize::try_from(take_fixed32(bytes)?).ok()?;
+    take(bytes, length)
 }
 
 pub(crate) fn take_fixed32(bytes: &mut &[u8]) -> Option<u32> {

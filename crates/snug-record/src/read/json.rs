@@ -1,44 +1,166 @@
+//! Numbers of JSON messages, read without building a tree: `[[],[]]` would take thirty times its length.
+
 use super::decoded::{ARRAY_TOO_LONG, Decoded, LONGEST_ARRAY};
-use serde_json::Value;
-use std::fmt::Write as _;
+use serde::de::{DeserializeSeed, Deserializer, Error, MapAccess, SeqAccess, Visitor};
+use std::fmt::{Formatter, Write as _};
 
 /// Gives every number of a JSON message with its path.
 pub(super) fn decode(data: &[u8], put: &mut impl FnMut(&str, f64)) -> Decoded {
-    let value: Value =
-        serde_json::from_slice(data).map_err(|_| "a message is not valid JSON and was left out")?;
-    let mut path = String::new();
-    visit(&value, &mut path, put)
+    // Once without giving anything, so that a malformed message leaves no half of its values behind, and so that the
+    // length of every array is known when it begins.
+    let mut survey = Walk::new(&[], |_: &str, _| {});
+    survey.message(data)?;
+    let mut long = survey.found_long;
+    long.sort_unstable();
+    if !long.is_empty() {
+        Walk::new(&long, put).message(data)?;
+        return Err(ARRAY_TOO_LONG);
+    }
+    Walk::new(&[], put).message(data)
 }
 
-fn visit(value: &Value, path: &mut String, put: &mut impl FnMut(&str, f64)) -> Decoded {
-    let length = path.len();
-    let mut decoded = Ok(());
-    match value {
-        Value::Number(number) => {
-            if let Some(number) = number.as_f64() {
-                put(path, number);
-            }
+struct Walk<'a, P> {
+    path: String,
+    put: P,
+    /// Arrays that were begun, in the order of their beginnings.
+    arrays: usize,
+    /// Places in that order of the arrays that are too long, ascending.
+    long: &'a [usize],
+    found_long: Vec<usize>,
+    /// Within how many arrays that are too long.
+    muted: usize,
+}
+
+impl<'a, P: FnMut(&str, f64)> Walk<'a, P> {
+    fn new(long: &'a [usize], put: P) -> Self {
+        Self {
+            path: String::new(),
+            put,
+            arrays: 0,
+            long,
+            found_long: Vec::new(),
+            muted: 0,
         }
-        Value::Bool(flag) => put(path, f64::from(u8::from(*flag))),
-        Value::Array(items) if items.len() > LONGEST_ARRAY => decoded = Err(ARRAY_TOO_LONG),
-        Value::Array(items) => {
-            for (index, item) in items.iter().enumerate() {
-                write!(path, "[{index}]").expect("a String takes all text");
-                decoded = visit(item, path, put).and(decoded);
-                path.truncate(length);
-            }
-        }
-        Value::Object(fields) => {
-            for (name, field) in fields {
-                if length > 0 {
-                    path.push('.');
-                }
-                path.push_str(name);
-                decoded = visit(field, path, put).and(decoded);
-                path.truncate(length);
-            }
-        }
-        Value::Null | Value::String(_) => {}
     }
-    decoded
+
+    fn message(&mut self, data: &[u8]) -> Decoded {
+        let mut deserializer = serde_json::Deserializer::from_slice(data);
+        self.deserialize(&mut deserializer)
+            .and_then(|()| deserializer.end())
+            .map_err(|_| "a message is not valid JSON and was left out")
+    }
+
+    fn number(&mut self, number: f64) {
+        if self.muted == 0 {
+            (self.put)(&self.path, number);
+        }
+    }
+}
+
+impl<'de, P: FnMut(&str, f64)> DeserializeSeed<'de> for &mut Walk<'_, P> {
+    type Value = ();
+
+    fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<(), D::Error> {
+        deserializer.deserialize_any(self)
+    }
+}
+
+impl<'de, P: FnMut(&str, f64)> Visitor<'de> for &mut Walk<'_, P> {
+    type Value = ();
+
+    fn expecting(&self, formatter: &mut Formatter<'_>) -> std::fmt::Result {
+        formatter.write_str("JSON")
+    }
+
+    fn visit_bool<E: Error>(self, flag: bool) -> Result<(), E> {
+        self.number(f64::from(u8::from(flag)));
+        Ok(())
+    }
+
+    fn visit_u64<E: Error>(self, number: u64) -> Result<(), E> {
+        self.number(number as f64);
+        Ok(())
+    }
+
+    fn visit_i64<E: Error>(self, number: i64) -> Result<(), E> {
+        self.number(number as f64);
+        Ok(())
+    }
+
+    fn visit_f64<E: Error>(self, number: f64) -> Result<(), E> {
+        self.number(number);
+        Ok(())
+    }
+
+    fn visit_str<E: Error>(self, _: &str) -> Result<(), E> {
+        Ok(())
+    }
+
+    fn visit_unit<E: Error>(self) -> Result<(), E> {
+        Ok(())
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut items: A) -> Result<(), A::Error> {
+        let place = self.arrays;
+        self.arrays += 1;
+        let muted = usize::from(self.long.binary_search(&place).is_ok());
+        self.muted += muted;
+        let length = self.path.len();
+        let mut count = 0;
+        loop {
+            write!(self.path, "[{count}]").expect("a String takes all text");
+            let item = items.next_element_seed(&mut *self)?;
+            self.path.truncate(length);
+            if item.is_none() {
+                break;
+            }
+            count += 1;
+        }
+        self.muted -= muted;
+        if count > LONGEST_ARRAY {
+            self.found_long.push(place);
+        }
+        Ok(())
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut fields: A) -> Result<(), A::Error> {
+        let length = self.path.len();
+        loop {
+            if length > 0 {
+                self.path.push('.');
+            }
+            let field = fields.next_key_seed(Name(&mut self.path))?;
+            if field.is_some() {
+                fields.next_value_seed(&mut *self)?;
+            }
+            self.path.truncate(length);
+            if field.is_none() {
+                return Ok(());
+            }
+        }
+    }
+}
+
+/// Appends a field's name to the path.
+struct Name<'a>(&'a mut String);
+
+impl<'de> DeserializeSeed<'de> for Name<'_> {
+    type Value = ();
+
+    fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<(), D::Error> {
+        deserializer.deserialize_str(self)
+    }
+}
+
+impl Visitor<'_> for Name<'_> {
+    type Value = ();
+
+    fn expecting(&self, formatter: &mut Formatter<'_>) -> std::fmt::Result {
+        formatter.write_str("the name of a field")
+    }
+
+    fn visit_str<E: Error>(self, name: &str) -> Result<(), E> {
+        self.0.push_str(name);
+        Ok(())
+    }
 }

@@ -1,4 +1,9 @@
-use super::decoded::{ARRAY_TOO_LONG, Decoded, LONGEST_ARRAY};
+//! Protobuf messages by their own descriptor set.
+
+use super::budget::Budget;
+use super::decoded::{
+    ARRAY_TOO_LONG, Decoded, LONGEST_ARRAY, LONGEST_NAME_BYTES, MOST_DECLARED, WORK_SPENT, work,
+};
 use crate::wire::{Fields, Value, take_fixed32, take_fixed64, take_varint};
 use std::collections::HashMap;
 use std::fmt::Write as _;
@@ -57,7 +62,7 @@ struct Declared<'a> {
 }
 
 impl Decoder {
-    /// `None` when the bytes are no descriptor set or `root` is not in it.
+    /// `None` when the bytes are no descriptor set, `root` is not in it, or it declares more than any real one.
     pub(super) fn new(descriptor_set: &[u8], root: &str) -> Option<Self> {
         let mut names = HashMap::new();
         let mut declared = Vec::new();
@@ -67,6 +72,10 @@ impl Decoder {
             }
         }
         let root = *names.get(root.trim_start_matches('.'))?;
+        let fields: usize = declared.iter().map(|message| message.fields.len()).sum();
+        if fields > MOST_DECLARED {
+            return None;
+        }
         let messages = declared
             .iter()
             .map(|message| link(message, &names))
@@ -74,10 +83,22 @@ impl Decoder {
         Some(Self { messages, root })
     }
 
-    pub(super) fn decode(&self, data: &[u8], put: &mut impl FnMut(&str, f64)) -> Decoded {
+    /// Every field of every message on the way costs a step of `budget`, whether it is there or not.
+    pub(super) fn decode(
+        &self,
+        data: &[u8],
+        budget: &mut Budget,
+        put: &mut impl FnMut(&str, f64),
+    ) -> Decoded {
         // The whole message is checked first, so that a malformed one leaves no half of its values behind.
         self.check(self.root, data, 0)?;
-        self.visit(self.root, data, &mut String::new(), put, 0)
+        let mut visit = Visit {
+            decoder: self,
+            path: String::new(),
+            budget,
+            put,
+        };
+        visit.message(self.root, data, 0)
     }
 
     fn check(&self, message: usize, data: &[u8], depth: usize) -> Decoded {
@@ -98,34 +119,36 @@ impl Decoder {
         }
         Ok(())
     }
+}
 
+/// One message on its way into numbers.
+struct Visit<'a, P> {
+    decoder: &'a Decoder,
+    path: String,
+    budget: &'a mut Budget,
+    put: &'a mut P,
+}
+
+impl<P: FnMut(&str, f64)> Visit<'_, P> {
     /// Gives every number of a message with its path; the message was checked.
-    fn visit(
-        &self,
-        message: usize,
-        data: &[u8],
-        path: &mut String,
-        put: &mut impl FnMut(&str, f64),
-        depth: usize,
-    ) -> Decoded {
-        let message = &self.messages[message];
+    fn message(&mut self, message: usize, data: &[u8], depth: usize) -> Decoded {
+        let message = &self.decoder.messages[message];
+        work(self.budget, 1 + message.fields.len())?;
         let occurrences = message.occurrences(data)?;
-        let decoded = message.put_singular(&occurrences, path, put);
-        self.put_repeated_and_nested(message, &occurrences, data, path, put, depth)
+        let decoded = message.put_singular(&occurrences, &mut self.path, self.put);
+        self.repeated_and_nested(message, &occurrences, data, depth)
             .and(decoded)
     }
 
     /// Elements of arrays, and what stands in nested messages. An array that is too long is passed over.
-    fn put_repeated_and_nested(
-        &self,
+    fn repeated_and_nested(
+        &mut self,
         message: &Message,
         occurrences: &[Occurrences],
         data: &[u8],
-        path: &mut String,
-        put: &mut impl FnMut(&str, f64),
         depth: usize,
     ) -> Decoded {
-        let length = path.len();
+        let length = self.path.len();
         let mut decoded = Ok(());
         let mut position = vec![0usize; message.fields.len()];
         for (number, value) in Fields::of(data).flatten() {
@@ -136,8 +159,8 @@ impl Decoder {
             if field.repeated && occurrences[index].count > LONGEST_ARRAY {
                 continue;
             }
-            join(path, &field.name);
-            let stem = path.len();
+            join(&mut self.path, &field.name);
+            let stem = self.path.len();
             let mut element = |path: &mut String| {
                 write!(path, "[{}]", position[index]).expect("a String takes all text");
                 position[index] += 1;
@@ -145,20 +168,24 @@ impl Decoder {
             match field.kind {
                 Kind::Message(inner) if depth < DEEPEST => {
                     if field.repeated {
-                        element(path);
+                        element(&mut self.path);
                     }
                     let bytes = value.bytes().unwrap_or_default();
-                    decoded = self.visit(inner, bytes, path, put, depth + 1).and(decoded);
+                    let inner = self.message(inner, bytes, depth + 1);
+                    if inner == Err(WORK_SPENT) {
+                        return inner;
+                    }
+                    decoded = inner.and(decoded);
                 }
                 Kind::Message(_) | Kind::Other => {}
                 kind if field.repeated => each_number(kind, value, &mut |number| {
-                    element(path);
-                    put(path, number);
-                    path.truncate(stem);
+                    element(&mut self.path);
+                    (self.put)(&self.path, number);
+                    self.path.truncate(stem);
                 })?,
                 _ => {}
             }
-            path.truncate(length);
+            self.path.truncate(length);
         }
         decoded
     }
@@ -317,6 +344,9 @@ fn declare_message<'a>(
     } else {
         format!("{scope}.{name}")
     };
+    if full.len() > LONGEST_NAME_BYTES || declared.len() >= MOST_DECLARED {
+        return None;
+    }
     names.insert(full.clone(), declared.len());
     declared.push(Declared { proto3, fields });
     for inner in nested {
@@ -343,6 +373,9 @@ fn link(declared: &Declared<'_>, names: &HashMap<String, usize>) -> Option<Messa
                 (9, _) => in_choice = true,
                 _ => {}
             }
+        }
+        if name.len() > LONGEST_NAME_BYTES {
+            return None;
         }
         let repeated = label == 3;
         message.by_number.insert(number, message.fields.len());

@@ -1,9 +1,13 @@
+//! Snug's own recordings as measurements.
+
+use super::DEFAULT_LIMIT_BYTES;
+use super::budget::{Budget, Exhausted};
 use super::stream::{Completeness, Item, scan};
 use crate::measurement::Assembly;
 use crate::signals::{self, MeasuredSample};
 use crate::{RecordError, Window, topic};
 use snug_campaign::{Motion, Quantity, Recording, Segment, TimeBase};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::ops::ControlFlow;
 
 /// How much of a measurement file a recording holds.
@@ -48,18 +52,36 @@ pub struct RecordedCampaign {
 ///
 /// A file that was kept whole comes back whole; of others come the windows of their tightenings. Tightenings of one file
 /// with different sampling intervals or channels come as separate recordings of the same file. What is not Snug's is passed over, so a
-/// foreign MCAP gives no files.
+/// foreign MCAP gives no files. Memory: [`DEFAULT_LIMIT_BYTES`].
 ///
 /// # Errors
 /// [`RecordError::NotMcap`] when the data do not begin as an MCAP file.
 pub fn recordings(bytes: &[u8]) -> Result<RecordedCampaign, RecordError> {
+    recordings_within(bytes, DEFAULT_LIMIT_BYTES)
+}
+
+/// [`recordings`] in at most about `limit_bytes` of memory beside `bytes`; what does not fit ends the reading as
+/// [`Completeness::TooLarge`]. A sample of a window takes 100 bytes while it is read, one of a whole file 16 per channel.
+///
+/// # Errors
+/// As [`recordings`].
+pub fn recordings_within(bytes: &[u8], limit_bytes: u64) -> Result<RecordedCampaign, RecordError> {
     let mut reader = Reader::default();
-    let completeness = scan(bytes, |item| {
-        reader.item(&item);
-        ControlFlow::Continue(())
+    let completeness = scan(bytes, limit_bytes, |item, budget| {
+        reader
+            .item(&item, budget)
+            .map_or(ControlFlow::Break(()), ControlFlow::Continue)
     })?;
     Ok(reader.finish(completeness))
 }
+
+/// Longest message about a window \[bytes\]; real ones have a few thousand.
+const LONGEST_WINDOW_BYTES: usize = 1 << 20;
+/// Memory that a window's or file's message takes when it is understood, per byte of its text, and beside it.
+const MESSAGE_GROWTH: usize = 16;
+const ENTRY_BYTES: usize = 1024;
+/// Memory of a window's sample in its columns \[bytes\].
+const COLUMNS_BYTES: u64 = 48;
 
 /// Snug's topics that hold measurements.
 #[derive(Clone, Copy)]
@@ -80,27 +102,52 @@ struct Reader {
 }
 
 impl Reader {
-    fn item(&mut self, item: &Item<'_>) {
+    fn item(&mut self, item: &Item<'_>, budget: &mut Budget) -> Result<(), Exhausted> {
         match item {
             Item::Channel { id, channel } => {
-                let found = match (channel.topic.as_str(), channel.schema_name.as_str()) {
+                let found = match (channel.topic.as_str(), channel.schema.name.as_str()) {
                     (topic::WINDOW, "snug.Window") => Topic::Window,
                     (topic::SIGNALS, "snug.Signals") => Topic::Signals,
                     (topic::MEASUREMENT_FILE, "snug.MeasurementFile") => Topic::File,
                     (topic::MEASUREMENT_SAMPLES, "snug.MeasurementSamples") => Topic::Samples,
-                    _ => return,
+                    _ => {
+                        self.topics.remove(id);
+                        return Ok(());
+                    }
                 };
                 self.topics.insert(*id, found);
             }
-            Item::Metadata { name, entries } => {
-                if *name == topic::STUDY {
-                    self.study_ron = entries.get("study_ron").cloned();
+            Item::Metadata(metadata) => {
+                if metadata.name == topic::STUDY {
+                    let study = metadata.entries.get("study_ron");
+                    budget.spend(study.map_or(0, str::len) as u64)?;
+                    self.study_ron = study.map(str::to_owned);
                 }
             }
             Item::Message { id, data, .. } => {
                 if let Some(&topic) = self.topics.get(id) {
+                    self.pay(topic, data.len(), budget)?;
                     let understood = self.message(topic, data).is_some();
                     self.malformed += u64::from(!understood);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Pays for what a message of that length leaves in memory.
+    fn pay(&mut self, topic: Topic, length: usize, budget: &mut Budget) -> Result<(), Exhausted> {
+        match topic {
+            Topic::Window if length > LONGEST_WINDOW_BYTES => Ok(()),
+            Topic::Window | Topic::File => {
+                budget.spend((MESSAGE_GROWTH.saturating_mul(length) + ENTRY_BYTES) as u64)
+            }
+            Topic::Samples => budget.spend(2 * length as u64),
+            Topic::Signals => {
+                budget.spend(COLUMNS_BYTES)?;
+                match self.windows.last_mut() {
+                    Some((_, samples)) => budget.grow(samples),
+                    None => Ok(()),
                 }
             }
         }
@@ -108,6 +155,7 @@ impl Reader {
 
     fn message(&mut self, topic: Topic, data: &[u8]) -> Option<()> {
         match topic {
+            Topic::Window if data.len() > LONGEST_WINDOW_BYTES => return None,
             Topic::Window => {
                 let window: Window = serde_json::from_slice(data).ok()?;
                 if window.stored_every == 0 {
@@ -143,14 +191,15 @@ impl Reader {
                 extent: Extent::Whole,
             });
         }
-        let whole = files.len();
+        let whole: HashSet<String> = files
+            .iter()
+            .map(|file| file.recording.file.clone())
+            .collect();
+        let mut places = HashMap::new();
         let mut windows = Vec::with_capacity(self.windows.len());
         for (window, samples) in self.windows {
-            let kept_whole = files[..whole]
-                .iter()
-                .any(|file| file.recording.file == window.file);
-            if !kept_whole {
-                append(&mut files, whole, &window, &samples);
+            if !whole.contains(&window.file) {
+                append(&mut files, &mut places, &window, &samples);
             }
             windows.push(window);
         }
@@ -164,10 +213,19 @@ impl Reader {
     }
 }
 
-/// Puts a window behind the windows of the same file with the same interval and channels.
+/// What windows have in common that stand in one recording.
+#[derive(PartialEq, Eq, Hash)]
+struct Kin {
+    file: String,
+    conditions: String,
+    interval_bits: u64,
+    channels: [bool; 4],
+}
+
+/// Puts a window behind the windows of the same file with the same conditions, interval and channels.
 fn append(
     files: &mut Vec<RecordedFile>,
-    whole: usize,
+    places: &mut HashMap<Kin, usize>,
     window: &Window,
     samples: &[MeasuredSample],
 ) {
@@ -176,23 +234,22 @@ fn append(
         ..window.stored_time_base()
     };
     let has = |name: &str| window.channels.iter().any(|channel| channel == name);
-    let place = files[whole..].iter().position(|file| {
-        let recording = &file.recording;
-        recording.file == window.file
-            && recording.time_base == base
-            && recording.conditions == window.conditions
-            && recording.motion.displacement_rad.is_some() == has("displacement_rad")
-            && recording.motion.velocity_rad_per_s.is_some() == has("velocity_rad_per_s")
-            && recording.motion.acceleration_rad_per_s2.is_some() == has("acceleration_rad_per_s2")
-            && recording.grip_force_n.is_some() == has("grip_force_n")
-    });
-    let file = match place {
-        Some(place) => &mut files[whole + place],
-        None => {
-            files.push(empty(window, base, has));
-            files.last_mut().expect("pushed just above")
-        }
+    let kin = Kin {
+        file: window.file.clone(),
+        conditions: format!("{:?}", window.conditions),
+        interval_bits: base.interval_s.to_bits(),
+        channels: [
+            has("displacement_rad"),
+            has("velocity_rad_per_s"),
+            has("acceleration_rad_per_s2"),
+            has("grip_force_n"),
+        ],
     };
+    let place = *places.entry(kin).or_insert_with(|| {
+        files.push(empty(window, base, has));
+        files.len() - 1
+    });
+    let file = &mut files[place];
     let Extent::Windows { stored_every } = &mut file.extent else {
         return;
     };
@@ -220,7 +277,7 @@ fn append(
         number: window.number,
         start,
         // Beyond the samples when the recording ends within this window.
-        end: start + window.stored_samples(),
+        end: start.saturating_add(window.stored_samples()),
         event_times_s: None,
     });
 }

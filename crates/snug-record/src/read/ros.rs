@@ -1,4 +1,9 @@
-use super::decoded::{ARRAY_TOO_LONG, Decoded, LONGEST_ARRAY};
+//! ROS 1 and ROS 2 messages by their concatenated `.msg` definitions.
+
+use super::budget::Budget;
+use super::decoded::{
+    ARRAY_TOO_LONG, Decoded, LONGEST_ARRAY, LONGEST_NAME_BYTES, MOST_DECLARED, WORK_SPENT, work,
+};
 use crate::wire::take;
 use std::collections::HashMap;
 use std::fmt::Write as _;
@@ -59,7 +64,8 @@ pub(super) struct Decoder {
 }
 
 impl Decoder {
-    /// `None` when the definition uses a type that is neither built in nor defined in it.
+    /// `None` when the definition uses a type that is neither built in nor defined in it, or declares more than any real
+    /// one.
     pub(super) fn new(definition: &[u8], root: &str, wire: Wire) -> Option<Self> {
         let text = std::str::from_utf8(definition).ok()?;
         let mut sections: Vec<(String, Vec<&str>)> = vec![(short(root), Vec::new())];
@@ -73,33 +79,48 @@ impl Decoder {
                 sections.last_mut()?.1.push(line);
             }
         }
+        let longest = sections.iter().map(|(name, _)| name.len()).max();
+        if longest > Some(LONGEST_NAME_BYTES) || sections.len() > MOST_DECLARED {
+            return None;
+        }
         let names: HashMap<String, usize> = sections
             .iter()
             .enumerate()
             .map(|(index, (name, _))| (name.clone(), index))
             .collect();
         let mut messages = Vec::new();
+        let mut declared = 0;
         for (name, lines) in &sections {
             let package = name.rsplit_once('/').map_or("", |(package, _)| package);
             let mut fields = Vec::new();
             for line in lines {
                 fields.extend(field(line, package, &names, wire)?);
             }
+            declared += fields.len();
+            if declared > MOST_DECLARED {
+                return None;
+            }
             messages.push(fields);
         }
         Some(Self { messages, wire })
     }
 
-    pub(super) fn decode(&self, data: &[u8], put: &mut dyn FnMut(&str, f64)) -> Decoded {
+    /// Every field of every message on the way costs a step of `budget`.
+    pub(super) fn decode(
+        &self,
+        data: &[u8],
+        budget: &mut Budget,
+        put: &mut dyn FnMut(&str, f64),
+    ) -> Decoded {
         // Once without giving anything, so that a malformed message leaves no half of its values behind.
-        let dry = self.read(data, &mut |_, _| {});
-        if dry == Err(MALFORMED) {
+        let dry = self.read(data, budget, &mut |_, _| {});
+        if dry == Err(MALFORMED) || dry == Err(WORK_SPENT) {
             return dry;
         }
-        self.read(data, put)
+        self.read(data, budget, put)
     }
 
-    fn read(&self, data: &[u8], put: &mut dyn FnMut(&str, f64)) -> Decoded {
+    fn read(&self, data: &[u8], budget: &mut Budget, put: &mut dyn FnMut(&str, f64)) -> Decoded {
         let mut cursor = match self.wire {
             Wire::Ros1 => Cursor {
                 data,
@@ -108,6 +129,7 @@ impl Decoder {
                 big_endian: false,
                 long: false,
                 steps: 0,
+                budget,
             },
             Wire::Cdr => {
                 let (header, data) = data.split_first_chunk::<4>().ok_or(MALFORMED)?;
@@ -121,6 +143,7 @@ impl Decoder {
                     big_endian: header[1] == 0,
                     long: false,
                     steps: 0,
+                    budget,
                 }
             }
         };
@@ -134,12 +157,13 @@ impl Decoder {
     fn message(
         &self,
         message: usize,
-        cursor: &mut Cursor<'_>,
+        cursor: &mut Cursor<'_, '_>,
         path: &mut String,
         put: &mut dyn FnMut(&str, f64),
         depth: usize,
     ) -> Decoded {
         let fields = &self.messages[message];
+        work(cursor.budget, 1 + fields.len())?;
         cursor.steps += 1;
         if depth > DEEPEST || cursor.steps > DEEPEST * (cursor.data.len() + DEEPEST) {
             return Err(MALFORMED);
@@ -186,7 +210,7 @@ impl Decoder {
     fn value(
         &self,
         kind: Kind,
-        cursor: &mut Cursor<'_>,
+        cursor: &mut Cursor<'_, '_>,
         path: &mut String,
         put: &mut dyn FnMut(&str, f64),
         depth: usize,
@@ -230,8 +254,9 @@ impl Decoder {
     }
 }
 
-struct Cursor<'a> {
+struct Cursor<'a, 'b> {
     data: &'a [u8],
+    budget: &'b mut Budget,
     position: usize,
     aligned: bool,
     big_endian: bool,
@@ -241,7 +266,7 @@ struct Cursor<'a> {
     steps: usize,
 }
 
-impl Cursor<'_> {
+impl Cursor<'_, '_> {
     /// The next value of `N` bytes in this machine's byte order.
     fn word<const N: usize>(&mut self) -> Result<[u8; N], &'static str> {
         if self.aligned {
@@ -300,6 +325,9 @@ fn field(
             (element, count)
         }
     };
+    if name.len() > LONGEST_NAME_BYTES {
+        return None;
+    }
     let element = element.split("<=").next().unwrap_or_default();
     let kind = match element {
         "bool" => Kind::Flag,

@@ -1,9 +1,13 @@
-use super::records::{Stop, walk};
+//! Channels, messages and metadata from first to last, within a budget.
+
+use super::budget::{Budget, Limits};
+use super::content;
+use super::fault::Fault;
+use super::records::{Found, Stop, walk};
 use crate::RecordError;
-use mcap::records::Record;
-use mcap::{McapError, parse_record};
-use std::collections::{BTreeMap, HashMap};
+use std::collections::HashMap;
 use std::ops::ControlFlow;
+use std::rc::Rc;
 
 /// How much of the file could be read.
 #[derive(Debug, Clone, PartialEq)]
@@ -12,34 +16,39 @@ pub enum Completeness {
     Complete,
     /// The file ends early, as after a killed run or a broken copy; everything before the cut was read.
     Truncated,
-    /// A record or chunk is damaged; everything before it was read (of a compressed chunk also its beginning, whose
-    /// values may be wrong).
+    /// A record or chunk is damaged; everything before it was read, and nothing of a chunk whose checksum is wrong.
     Damaged {
         /// Messages read before the damage.
         messages: u64,
         /// What is wrong with the record.
         fault: String,
     },
-    /// Reading stopped at the limit for one file's values; everything before it was read.
+    /// Reading stopped at the limit for one file's memory; everything before it was read.
     TooLarge {
         /// Messages read before the limit.
         messages: u64,
     },
 }
 
+/// What describes the messages of a channel; channels of one schema share it.
+#[derive(Debug, Default, PartialEq, Eq)]
+pub(super) struct Schema {
+    pub(super) name: String,
+    pub(super) encoding: String,
+    pub(super) data: Vec<u8>,
+}
+
 /// A channel with its schema, as the file declares them.
-#[derive(Debug, Clone)]
+#[derive(Debug, PartialEq, Eq)]
 pub(super) struct Channel {
     pub(super) topic: String,
     pub(super) message_encoding: String,
-    pub(super) schema_name: String,
-    pub(super) schema_encoding: String,
-    pub(super) schema: Vec<u8>,
+    pub(super) schema: Rc<Schema>,
 }
 
 /// What the scan meets, in file order.
 pub(super) enum Item<'a> {
-    /// A channel is declared; messages of this id follow. A file may repeat the declaration.
+    /// A channel is declared, or declared differently; messages of this id follow.
     Channel { id: u16, channel: &'a Channel },
     /// One message of a declared channel.
     Message {
@@ -48,56 +57,73 @@ pub(super) enum Item<'a> {
         data: &'a [u8],
     },
     /// A metadata record.
-    Metadata {
-        name: &'a str,
-        entries: &'a BTreeMap<String, String>,
-    },
+    Metadata(content::Metadata<'a>),
 }
 
-/// Visits channels, messages and metadata from first to last; a visitor's `Break` ends it as [`Completeness::TooLarge`].
+/// Checks that the data begin with MCAP's magic number.
+///
+/// # Errors
+/// [`RecordError::NotMcap`].
+pub(crate) fn check_magic(bytes: &[u8]) -> Result<(), RecordError> {
+    if bytes.starts_with(mcap::MAGIC) {
+        return Ok(());
+    }
+    Err(RecordError::NotMcap {
+        length: bytes.len(),
+        start: bytes[..bytes.len().min(8)].to_vec(),
+    })
+}
+
+/// What the end of a walk means for a file.
+pub(crate) fn completeness(bytes: &[u8], end: Result<(), Stop>, messages: u64) -> Completeness {
+    let damaged = |fault: Fault| Completeness::Damaged {
+        messages,
+        fault: fault.to_string(),
+    };
+    match end {
+        Ok(()) => Completeness::Complete,
+        Err(Stop::TooLarge) => Completeness::TooLarge { messages },
+        // A file that ends as it should but whose records do not add up is damaged, not cut.
+        Err(Stop::Truncated) if bytes.len() > 8 && bytes.ends_with(mcap::MAGIC) => {
+            damaged(Fault::BeyondFile)
+        }
+        Err(Stop::Truncated) => Completeness::Truncated,
+        Err(Stop::Fault(fault)) => damaged(fault),
+    }
+}
+
+/// Visits channels, messages and metadata from first to last. The visitor pays for what it keeps, and its `Break` ends the
+/// scan as [`Completeness::TooLarge`].
 ///
 /// # Errors
 /// [`RecordError::NotMcap`] when the first eight bytes are not MCAP's magic number; every later fault is a
 /// [`Completeness`].
 pub(super) fn scan(
     bytes: &[u8],
-    mut visit: impl FnMut(Item<'_>) -> ControlFlow<()>,
+    limit_bytes: u64,
+    mut visit: impl FnMut(Item<'_>, &mut Budget) -> ControlFlow<()>,
 ) -> Result<Completeness, RecordError> {
-    if !bytes.starts_with(mcap::MAGIC) {
-        return Err(RecordError::NotMcap {
-            length: bytes.len(),
-            start: bytes[..bytes.len().min(8)].to_vec(),
-        });
-    }
-    let mut state = Scan::default();
-    let end = walk(&bytes[mcap::MAGIC.len()..], &mut |opcode, data| match state
-        .record(opcode, data, &mut visit)?
-    {
-        ControlFlow::Continue(()) => Ok(()),
-        ControlFlow::Break(()) => Err(Stop::Limit),
+    check_magic(bytes)?;
+    let limits = Limits::new(limit_bytes, bytes.len());
+    let mut state = Scan {
+        budget: Budget::new(limits.kept_bytes),
+        schemas: HashMap::new(),
+        channels: HashMap::new(),
+        messages: 0,
+    };
+    let walked = walk(bytes, limits, &mut |found| match found {
+        Found::Record { opcode, body, .. } => state.record(opcode, body, &mut visit),
+        Found::Damage { fault, .. } => Err(fault.into()),
     });
-    let messages = state.messages;
-    Ok(match end {
-        Ok(()) => Completeness::Complete,
-        Err(Stop::Limit) => Completeness::TooLarge { messages },
-        // A file that ends as it should but whose records do not add up is damaged, not cut.
-        Err(Stop::Truncated) if bytes.len() > 8 && bytes.ends_with(mcap::MAGIC) => {
-            Completeness::Damaged {
-                messages,
-                fault: "a record runs beyond the end of the file".to_owned(),
-            }
-        }
-        Err(Stop::Truncated) => Completeness::Truncated,
-        Err(Stop::Fault(error)) => Completeness::Damaged {
-            messages,
-            fault: error.to_string(),
-        },
-    })
+    Ok(completeness(bytes, walked.end, state.messages))
 }
 
-#[derive(Default)]
+/// What a schema or channel takes beside its texts \[bytes\].
+const DECLARATION_BYTES: usize = 256;
+
 struct Scan {
-    schemas: HashMap<u16, (String, String, Vec<u8>)>,
+    budget: Budget,
+    schemas: HashMap<u16, Rc<Schema>>,
     channels: HashMap<u16, Channel>,
     messages: u64,
 }
@@ -106,62 +132,92 @@ impl Scan {
     fn record(
         &mut self,
         opcode: u8,
-        data: &[u8],
-        visit: &mut impl FnMut(Item<'_>) -> ControlFlow<()>,
-    ) -> Result<ControlFlow<()>, McapError> {
+        body: &[u8],
+        visit: &mut impl FnMut(Item<'_>, &mut Budget) -> ControlFlow<()>,
+    ) -> Result<(), Stop> {
         use mcap::records::op;
         // Only what is used is parsed: an index or attachment with a fault costs no message.
-        match opcode {
-            op::SCHEMA | op::CHANNEL | op::MESSAGE | op::METADATA => {}
-            _ => return Ok(ControlFlow::Continue(())),
-        }
-        match parse_record(opcode, data)? {
-            Record::Schema { header, data } => {
-                let schema = (header.name, header.encoding, data.into_owned());
-                self.schemas.insert(header.id, schema);
-            }
-            Record::Channel(declared) => {
-                let (schema_name, schema_encoding, schema) = self
-                    .schemas
-                    .get(&declared.schema_id)
-                    .cloned()
-                    .unwrap_or_default();
-                let channel = Channel {
-                    topic: declared.topic,
-                    message_encoding: declared.message_encoding,
-                    schema_name,
-                    schema_encoding,
-                    schema,
-                };
-                let flow = visit(Item::Channel {
+        let flow = match opcode {
+            op::SCHEMA => return self.schema(&content::Schema::read(body)?),
+            op::CHANNEL => {
+                let declared = content::Channel::read(body)?;
+                if !self.channel(&declared)? {
+                    return Ok(());
+                }
+                let item = Item::Channel {
                     id: declared.id,
-                    channel: &channel,
-                });
-                self.channels.insert(declared.id, channel);
-                return Ok(flow);
+                    channel: &self.channels[&declared.id],
+                };
+                visit(item, &mut self.budget)
             }
-            Record::Message { header, data } => {
-                if !self.channels.contains_key(&header.channel_id) {
-                    return Err(McapError::UnknownChannel(
-                        header.sequence,
-                        header.channel_id,
-                    ));
+            op::MESSAGE => {
+                let message = content::Message::read(body)?;
+                if !self.channels.contains_key(&message.channel_id) {
+                    return Err(Stop::Fault(Fault::UnknownChannel {
+                        channel: message.channel_id,
+                        sequence: message.sequence,
+                    }));
                 }
                 self.messages += 1;
-                return Ok(visit(Item::Message {
-                    id: header.channel_id,
-                    log_time_ns: header.log_time,
-                    data: &data,
-                }));
+                let item = Item::Message {
+                    id: message.channel_id,
+                    log_time_ns: message.log_time_ns,
+                    data: message.data,
+                };
+                visit(item, &mut self.budget)
             }
-            Record::Metadata(metadata) => {
-                return Ok(visit(Item::Metadata {
-                    name: &metadata.name,
-                    entries: &metadata.metadata,
-                }));
-            }
-            _ => {}
+            op::METADATA => visit(
+                Item::Metadata(content::Metadata::read(body)?),
+                &mut self.budget,
+            ),
+            _ => return Ok(()),
+        };
+        match flow {
+            ControlFlow::Continue(()) => Ok(()),
+            ControlFlow::Break(()) => Err(Stop::TooLarge),
         }
-        Ok(ControlFlow::Continue(()))
+    }
+
+    /// Keeps a schema. Many writers repeat it in every chunk, which costs nothing.
+    fn schema(&mut self, declared: &content::Schema<'_>) -> Result<(), Stop> {
+        let known = self.schemas.get(&declared.id).is_some_and(|schema| {
+            schema.name == declared.name
+                && schema.encoding == declared.encoding
+                && schema.data == declared.data
+        });
+        if !known {
+            let text = declared.name.len() + declared.encoding.len() + declared.data.len();
+            self.budget.spend((text + DECLARATION_BYTES) as u64)?;
+            let schema = Schema {
+                name: declared.name.to_owned(),
+                encoding: declared.encoding.to_owned(),
+                data: declared.data.to_vec(),
+            };
+            self.schemas.insert(declared.id, Rc::new(schema));
+        }
+        Ok(())
+    }
+
+    /// Keeps a channel; false when it is known already.
+    fn channel(&mut self, declared: &content::Channel<'_>) -> Result<bool, Stop> {
+        let schema = self.schemas.get(&declared.schema_id);
+        let known = self.channels.get(&declared.id).is_some_and(|channel| {
+            channel.topic == declared.topic
+                && channel.message_encoding == declared.message_encoding
+                && schema.map_or(*channel.schema == Schema::default(), |schema| {
+                    Rc::ptr_eq(schema, &channel.schema)
+                })
+        });
+        if !known {
+            let text = declared.topic.len() + declared.message_encoding.len();
+            self.budget.spend((text + DECLARATION_BYTES) as u64)?;
+            let channel = Channel {
+                topic: declared.topic.to_owned(),
+                message_encoding: declared.message_encoding.to_owned(),
+                schema: schema.cloned().unwrap_or_default(),
+            };
+            self.channels.insert(declared.id, channel);
+        }
+        Ok(!known)
     }
 }

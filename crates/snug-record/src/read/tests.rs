@@ -1,4 +1,9 @@
 #![allow(clippy::unwrap_used)]
+//! What the readers make of files that other programs wrote.
+
+mod forge;
+mod hostile;
+
 use super::*;
 use crate::RecordError;
 use proptest::prelude::*;
@@ -239,7 +244,8 @@ proptest! {
     #[test]
     fn decoders_never_panic(schema in prop::collection::vec(any::<u8>(), 0..80), data in prop::collection::vec(any::<u8>(), 0..80)) {
         if let Some(decoder) = protobuf::Decoder::new(&schema, "") {
-            let _ = decoder.decode(&data, &mut |_, _| {});
+            let mut budget = budget::Budget::new(1 << 20);
+            let _ = decoder.decode(&data, &mut budget, &mut |_, _| {});
         }
     }
 
@@ -248,7 +254,8 @@ proptest! {
         let definition = b"A[] many\nB[200][200] empty\nfloat64[] values\n===\nMSG: A\nA[] inner\nB[300] none\n===\nMSG: B\n";
         for wire in [ros::Wire::Cdr, ros::Wire::Ros1] {
             let decoder = ros::Decoder::new(definition, "pkg/Root", wire).unwrap();
-            let _ = decoder.decode(&data, &mut |_, _| {});
+            let mut budget = budget::Budget::new(1 << 20);
+            let _ = decoder.decode(&data, &mut budget, &mut |_, _| {});
         }
     }
 }
