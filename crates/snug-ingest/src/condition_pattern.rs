@@ -4,6 +4,7 @@ mod template;
 
 pub use template::Template;
 
+use crate::excerpt::excerpt;
 use crate::finding_log::{About, FindingLog};
 use serde::{Deserialize, Serialize};
 use snug_campaign::Conditions;
@@ -71,7 +72,9 @@ impl ConditionPattern {
                         "unknown_condition",
                         About::File,
                         format!(
-                            "label {label:?}: {field} {word:?} is none of {}; left without {field}",
+                            "label {:?}: {field} {:?} is none of {}; left without {field}",
+                            excerpt(label),
+                            excerpt(word),
                             known.join(", ")
                         ),
                     );
@@ -84,7 +87,7 @@ impl ConditionPattern {
             About::File,
             format!(
                 "{} does not follow the pattern {}; the file has no conditions",
-                labels.join(", "),
+                excerpt(&labels.join(", ")),
                 String::from(self.template.clone())
             ),
         );

@@ -1,12 +1,14 @@
 //! CSV files with declared columns.
 
 mod number;
+mod rows;
 mod table;
 
 pub use number::Decimal;
 pub use table::{Delimiter, Header};
 
 use crate::finding_log::{About, FindingLog};
+use crate::memory::Budget;
 use crate::range::{self, Range};
 use crate::sampling::{self, Timed};
 use crate::signal::{self, Signal, Unit};
@@ -189,14 +191,25 @@ impl CsvLayout {
     /// The recording in a CSV file's content; `path` names it, `lever_arm_m` turns lengths of the grip into angles.
     ///
     /// # Errors
-    /// [`IngestError::MissingChannel`] for a column that is not there, [`IngestError::CsvSyntax`],
-    /// [`IngestError::NoRows`], [`IngestError::TimeNotRising`] and [`IngestError::TimeGap`].
+    /// [`IngestError::NotText`], [`IngestError::MissingChannel`] for a column that is not there,
+    /// [`IngestError::CsvSyntax`], [`IngestError::RowTooLong`], [`IngestError::NoRows`], [`IngestError::TimeNotRising`] and [`IngestError::TimeGap`].
     pub fn recording(
         &self,
         content: &[u8],
         path: &Path,
         lever_arm_m: f64,
     ) -> Result<Ingested, IngestError> {
+        self.within(content, path, lever_arm_m, &Budget::new(None))
+    }
+
+    pub(crate) fn within(
+        &self,
+        content: &[u8],
+        path: &Path,
+        lever_arm_m: f64,
+        budget: &Budget,
+    ) -> Result<Ingested, IngestError> {
+        check_text(content)?;
         if content.trim_ascii().is_empty() {
             return Err(IngestError::EmptyFile);
         }
@@ -211,8 +224,8 @@ impl CsvLayout {
             .to_string_lossy()
             .into_owned();
         let mut log = FindingLog::new(&file);
-        let table = table::read(content, self, &self.wanted(), &mut log)?;
-        let (time_base, columns) = self.on_a_grid(table, &mut log)?;
+        let table = table::read(content, self, &self.wanted(), budget, &mut log)?;
+        let (time_base, columns) = self.on_a_grid(table, budget, &mut log)?;
         let samples = columns.first().map_or(0, Vec::len);
         let recording = Recording {
             conditions: self
@@ -260,6 +273,7 @@ impl CsvLayout {
     fn on_a_grid(
         &self,
         table: Table,
+        budget: &Budget,
         log: &mut FindingLog,
     ) -> Result<(TimeBase, Vec<Vec<f64>>), IngestError> {
         let Table { mut columns, lines } = table;
@@ -279,6 +293,7 @@ impl CsvLayout {
                     times_s,
                     channels: &mut columns,
                     place: &|index| format!("line {}", lines[index]),
+                    budget,
                 };
                 sampling::uniform(timed, *tolerance_ratio, log)?
             }
@@ -329,6 +344,30 @@ pub(crate) fn assemble(
         event_times_s: None,
     }];
     recording
+}
+
+/// Bytes at the start of a file by which it is judged.
+const FIRST_BLOCK_BYTES: usize = 1 << 16;
+
+/// Whether the start of a file can be text: UTF-16, and whatever a broken disk leaves, has zero bytes.
+pub(crate) fn check_text(content: &[u8]) -> Result<(), IngestError> {
+    let start = &content[..content.len().min(FIRST_BLOCK_BYTES)];
+    match start.iter().position(|&byte| byte == 0) {
+        Some(offset) => Err(IngestError::NotText { offset }),
+        None => Ok(()),
+    }
+}
+
+/// Says that quotes hold rows together.
+fn report_open_quotes(lines: usize, first: u64, log: &mut FindingLog) {
+    log.left_out(
+        "quoted_lines",
+        About::File,
+        format!(
+            "{lines} lines stand within quotes, as parts of the cell before them, and are no rows (first: the row at line \
+             {first}); is a quote open?"
+        ),
+    );
 }
 
 /// Says how many cells of a column are no numbers.

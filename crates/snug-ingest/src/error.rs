@@ -1,3 +1,4 @@
+use crate::excerpt::{cut, excerpt};
 use crate::signal::{Signal, Unit};
 use snug_campaign::{Finding, Severity, did_you_mean};
 use std::path::{Path, PathBuf};
@@ -18,27 +19,61 @@ pub enum IngestError {
     /// The operating system refused.
     #[error("cannot be read: {0}")]
     Read(#[source] std::io::Error),
+    /// The file asks for more memory than it may take.
+    #[error(
+        "{what} would take {} MB of memory, and the file may take {} MB; if it is not damaged, raise source.memory_mb, or \
+         make room in the machine's memory",
+        megabytes(needed_bytes),
+        megabytes(budget_bytes)
+    )]
+    OverBudget {
+        /// What the memory was to be for.
+        what: &'static str,
+        /// What the file would take with it.
+        needed_bytes: u64,
+        /// What it may take.
+        budget_bytes: u64,
+    },
     /// The data folder or file is not there.
     #[error("{} does not exist: the study's data path must name a folder or file", path.display())]
     NoSuchPath {
         /// The path.
         path: PathBuf,
     },
-    /// The data path names a device, a pipe or the like.
-    #[error("{} is neither a folder nor a regular file: the study's data path must name one of them", path.display())]
+    /// The data path, or a file that the source names, is a link that leads nowhere.
+    #[error("{} is a link that leads nowhere: what it named was moved or removed", path.display())]
+    DanglingLink {
+        /// The link.
+        path: PathBuf,
+    },
+    /// The data path, or a file that the source names, is a link that leads back to itself.
+    #[error("{} is a link that leads back to itself", path.display())]
+    LinkLoop {
+        /// The link.
+        path: PathBuf,
+    },
+    /// The data path names a device, a pipe or the like, or a file that the source names is none.
+    #[error("{} is {found}; it must be {expected}", path.display())]
     NotAFile {
         /// The path.
         path: PathBuf,
+        /// What is there.
+        found: &'static str,
+        /// What it should be.
+        expected: &'static str,
     },
     /// The folder holds no file of the formats that the source reads.
-    #[error("{} holds no file to read: {others} file(s) are there, none ends in {expected}; folders inside it are not looked into", folder.display())]
+    #[error(
+        "{} holds no file to read, that is none that ends in {expected}: {}; folders inside it are not looked into",
+        folder.display(), if found.is_empty() { "it is empty".to_owned() } else { format!("there are {}", listed(found)) }
+    )]
     NothingToRead {
         /// The folder.
         folder: PathBuf,
         /// The endings looked for.
         expected: String,
-        /// Number of other files.
-        others: usize,
+        /// What is there instead, by name.
+        found: Vec<String>,
     },
     /// A file named in the source is not in the folder.
     #[error("the source names the file {file}, which {} does not hold", folder.display())]
@@ -66,7 +101,7 @@ pub enum IngestError {
     )]
     NotMat {
         /// Length of the content.
-        bytes: usize,
+        bytes: u64,
         /// Its start.
         first_bytes: Vec<u8>,
     },
@@ -190,7 +225,7 @@ pub enum IngestError {
     },
     /// The HDF5 inside a 7.3 file is broken or beyond the library.
     #[cfg(feature = "hdf5")]
-    #[error("HDF5 object {object}: {source}")]
+    #[error("HDF5 object {object}: {}", excerpt(&source.to_string()))]
     Hdf5 {
         /// Path of the object.
         object: String,
@@ -265,7 +300,7 @@ pub enum IngestError {
         "no {channel} channel: expected {}, the file holds {}{}",
         accepted.join(" or "),
         listed(present),
-        accepted.iter().map(|name| did_you_mean(name, present)).collect::<String>()
+        meant(accepted, present)
     )]
     MissingChannel {
         /// What is measured.
@@ -285,6 +320,16 @@ pub enum IngestError {
         /// Shape and class.
         found: String,
     },
+    /// A variable that is needed is there, but damaged.
+    #[error("the {channel} variable {variable} cannot be read: {source}")]
+    DamagedVariable {
+        /// What it holds.
+        channel: String,
+        /// Its name in the file.
+        variable: String,
+        /// What is wrong with it.
+        source: Box<IngestError>,
+    },
     /// The table of events has no third column.
     #[error(
         "the event table {variable} is {found}; expected N×3 text or numbers with the time in the third column"
@@ -295,8 +340,22 @@ pub enum IngestError {
         /// Shape and class.
         found: String,
     },
+    /// Bytes that no text has.
+    #[error("not text: byte {offset} is zero, which no text in UTF-8 or an 8-bit encoding has")]
+    NotText {
+        /// The first such byte.
+        offset: usize,
+    },
+    /// A line, or what a quote holds together, that is no row of numbers.
+    #[error("the row at line {line} is longer than {limit} bytes; a quote may be open")]
+    RowTooLong {
+        /// 1-based line where it starts; 0 where that is unknown.
+        line: u64,
+        /// The limit.
+        limit: usize,
+    },
     /// The text of a CSV file breaks its own quoting, or cannot be read.
-    #[error("line {line}: {source}")]
+    #[error("line {line}: {}", excerpt(&source.to_string()))]
     CsvSyntax {
         /// 1-based line; 0 where it is unknown.
         line: u64,
@@ -335,6 +394,12 @@ pub enum IngestError {
         /// Samples in the file.
         rows: usize,
     },
+    /// A file that does not start as MCAP files do.
+    #[error("not an MCAP file: it starts with {first_bytes:02x?}")]
+    NotMcap {
+        /// Its start.
+        first_bytes: Vec<u8>,
+    },
     /// An MCAP file that cannot be opened as one.
     #[cfg(feature = "mcap")]
     #[error(transparent)]
@@ -350,6 +415,10 @@ pub enum IngestError {
     },
 }
 
+fn megabytes(bytes: &u64) -> u64 {
+    bytes.div_ceil(1_000_000)
+}
+
 fn units(units: &[Unit]) -> String {
     let names: Vec<String> = units.iter().map(|unit| format!("{unit:?}")).collect();
     names.join(", ")
@@ -360,9 +429,31 @@ fn listed(names: &[String]) -> String {
     const SHOWN: usize = 12;
     match names.len() {
         0 => "nothing".to_owned(),
-        1..=SHOWN => names.join(", "),
-        count => format!("{} and {} more", names[..SHOWN].join(", "), count - SHOWN),
+        1..=SHOWN => excerpts(names),
+        count => format!("{} and {} more", excerpts(&names[..SHOWN]), count - SHOWN),
     }
+}
+
+/// Which of a file's names was meant; in a file with thousands, or of names that nobody types, nothing is said of them.
+fn meant(accepted: &[String], present: &[String]) -> String {
+    const LOOKED_AT: usize = 1000;
+    const LONGEST: usize = 100;
+    const SHOWN: usize = 300;
+    let typed: Vec<&String> = present
+        .iter()
+        .take(LOOKED_AT)
+        .filter(|name| name.len() <= LONGEST)
+        .collect();
+    let meant: String = accepted
+        .iter()
+        .map(|name| did_you_mean(name, &typed))
+        .collect();
+    cut(&meant, SHOWN)
+}
+
+fn excerpts(names: &[String]) -> String {
+    let shown: Vec<String> = names.iter().map(|name| excerpt(name)).collect();
+    shown.join(", ")
 }
 
 impl IngestError {
@@ -371,7 +462,9 @@ impl IngestError {
         let file = match self {
             Self::File { path, .. } => path.file_name(),
             Self::NoSuchPath { path }
-            | Self::NotAFile { path }
+            | Self::NotAFile { path, .. }
+            | Self::DanglingLink { path }
+            | Self::LinkLoop { path }
             | Self::NothingToRead { folder: path, .. } => path.file_name(),
             _ => None,
         };
@@ -392,15 +485,19 @@ impl IngestError {
     pub fn code(&self) -> &'static str {
         match self {
             Self::File { source, .. } => source.code(),
-            Self::NoSuchPath { .. }
-            | Self::NotAFile { .. }
-            | Self::NothingToRead { .. }
-            | Self::NoSuchFile { .. } => "missing_data",
+            Self::NoSuchPath { .. } | Self::NothingToRead { .. } | Self::NoSuchFile { .. } => {
+                "missing_data"
+            }
+            Self::NotAFile { .. } => "not_a_file",
+            Self::DanglingLink { .. } => "dangling_link",
+            Self::LinkLoop { .. } => "link_loop",
             Self::Setting { .. } | Self::UnitOfSignal { .. } => "bad_setting",
             Self::FormatNotBuilt { .. } => "unknown_format",
+            Self::OverBudget { .. } => "over_budget",
             Self::MissingChannel { .. } => "missing_channel",
             Self::UnusableChannel { .. } => "unusable_channel",
-            Self::EventTable { .. } => "unusable_events",
+            Self::DamagedVariable { channel, .. } if channel != "events" => "unusable_channel",
+            Self::EventTable { .. } | Self::DamagedVariable { .. } => "unusable_events",
             Self::NoRows { .. } | Self::NoRecordings { .. } | Self::EmptyFile => "no_data",
             Self::TimeNotRising { .. } | Self::TimeGap { .. } => "unusable_time",
             _ => "unreadable_file",
@@ -411,11 +508,16 @@ impl IngestError {
         match self {
             Self::File { source, .. } => source.channel(),
             Self::MissingChannel { channel, .. } => Some(channel),
-            Self::UnusableChannel { variable, .. } | Self::EventTable { variable, .. } => {
-                Some(variable)
-            }
+            Self::UnusableChannel { variable, .. }
+            | Self::DamagedVariable { variable, .. }
+            | Self::EventTable { variable, .. } => Some(variable),
             _ => None,
         }
+    }
+
+    /// Whether it would meet every part of the file, rather than this one.
+    pub(crate) fn is_of_the_file(&self) -> bool {
+        matches!(self, Self::OverBudget { .. } | Self::Read(_))
     }
 
     /// Adds the file, unless it is already named.

@@ -3,9 +3,11 @@
 mod condition_pattern;
 pub mod csv;
 mod error;
+mod excerpt;
 mod finding_log;
 pub mod mat;
 pub mod mcap;
+mod memory;
 mod range;
 mod sampling;
 mod signal;
@@ -17,5 +19,5 @@ pub use condition_pattern::{ConditionPattern, Template};
 pub use error::IngestError;
 pub use range::Range;
 pub use signal::{Signal, Unit};
-pub use source::{Format, Ingested, Listing, Source, list, read};
+pub use source::{Format, Ingested, Listing, Source, list, list_on, read, read_on};
 pub use thesis_layout::ThesisLayout;

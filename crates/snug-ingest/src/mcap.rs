@@ -85,6 +85,22 @@ impl McapLayout {
     }
 }
 
+/// What every MCAP file starts with.
+const MAGIC: &[u8] = b"\x89MCAP0\r\n";
+
+/// Whether the start of a file is that of an MCAP file.
+pub(crate) fn check_start(start: &[u8]) -> Result<(), IngestError> {
+    if start.is_empty() {
+        return Err(IngestError::EmptyFile);
+    }
+    if start.starts_with(MAGIC) {
+        return Ok(());
+    }
+    Err(IngestError::NotMcap {
+        first_bytes: start.iter().take(MAGIC.len()).copied().collect(),
+    })
+}
+
 /// The recordings in an MCAP file's content.
 #[cfg(feature = "mcap")]
 pub(crate) use reading::read;
@@ -95,6 +111,7 @@ pub(crate) fn read(
     _: &[u8],
     _: &std::path::Path,
     _: f64,
+    _: &crate::memory::Budget,
 ) -> Result<crate::Ingested, IngestError> {
     Err(IngestError::FormatNotBuilt {
         format: "MCAP",

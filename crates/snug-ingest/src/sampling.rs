@@ -2,6 +2,7 @@
 
 use crate::IngestError;
 use crate::finding_log::{About, FindingLog};
+use crate::memory::Budget;
 use snug_campaign::TimeBase;
 
 /// A filled record may have this many times the measured samples.
@@ -15,6 +16,8 @@ pub(crate) struct Timed<'a> {
     pub(crate) channels: &'a mut [Vec<f64>],
     /// How a sample's place is called in messages, by its index: `line 7`.
     pub(crate) place: &'a dyn Fn(usize) -> String,
+    /// What the file may take.
+    pub(crate) budget: &'a Budget,
 }
 
 /// One channel with times of its own.
@@ -136,7 +139,7 @@ pub(crate) fn uniform(
     let times = &timed.times_s;
     let (start_s, end_s) = (times[0], times[times.len() - 1]);
     let mean_s = (end_s - start_s) / (times.len() - 1) as f64;
-    let on_grid = (0..).zip(times).all(|(index, time)| {
+    let on_grid = (0_u32..).zip(times).all(|(index, time)| {
         (time - start_s - f64::from(index) * mean_s).abs() <= tolerance_ratio * mean_s
     });
     if on_grid {
@@ -151,6 +154,10 @@ pub(crate) fn uniform(
 impl Timed<'_> {
     fn keep_rising(&mut self, log: &mut FindingLog) -> Result<(), IngestError> {
         let rows = self.times_s.len();
+        // Which samples stay, and the intervals between them.
+        let on_the_way = self.budget.mark();
+        self.budget.spend_on::<[f64; 4]>("the times", rows)?;
+        self.budget.back_to(on_the_way);
         let mut latest = f64::NEG_INFINITY;
         let mut first_break = None;
         let mut kept = Vec::with_capacity(rows);
@@ -204,7 +211,8 @@ impl Timed<'_> {
         let start_s = times[0];
         // The smallest tolerance keeps a last sample that lies on the grid up to rounding.
         let samples = ((times[times.len() - 1] - start_s) / interval_s + 1e-9).floor() + 1.0;
-        if samples > LARGEST_FILL * times.len() as f64 {
+        // Times near the largest numbers give none.
+        if samples.is_nan() || samples > LARGEST_FILL * times.len() as f64 {
             return Err(IngestError::TimeGap {
                 gap_s,
                 time_s: times[widest],
@@ -212,6 +220,10 @@ impl Timed<'_> {
                 rows: times.len(),
             });
         }
+        self.budget.spend_on::<f64>(
+            "samples between the measured ones",
+            (samples as usize).saturating_mul(self.channels.len()),
+        )?;
         let grid = TimeBase {
             start_s,
             interval_s,

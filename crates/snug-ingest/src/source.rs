@@ -1,12 +1,20 @@
+//! Where measurements lie, and how one file of them is read.
+
+mod entry;
+mod listing;
+
+pub use listing::{Listing, list, list_on};
+
 use crate::csv::CsvLayout;
-use crate::finding_log::{About, FindingLog};
-use crate::mat::MatFile;
 use crate::mcap::McapLayout;
+use crate::memory::Budget;
 use crate::range::Range;
 use crate::thesis_layout::ThesisLayout;
-use crate::{IngestError, mcap};
+use crate::{IngestError, csv, mat, mcap};
 use serde::{Deserialize, Serialize};
 use snug_campaign::{Finding, Recording};
+use snug_files::{Disk, Host, Input};
+use std::io::{Read as _, SeekFrom};
 use std::path::{Path, PathBuf};
 
 /// Where measurements lie and how they are written: the `source` of a study.
@@ -21,6 +29,8 @@ pub struct Source {
     pub files: Vec<String>,
     /// How they are written. Default `Thesis`.
     pub format: Format,
+    /// Memory that reading one file may take \[MB\]; none (default): a quarter of what this machine has to give.
+    pub memory_mb: Option<u32>,
 }
 
 /// How measurement files are written.
@@ -40,15 +50,6 @@ impl Default for Format {
     }
 }
 
-/// The files that a source reads, and what else lies there.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Listing {
-    /// Files in the order in which they are to be read.
-    pub files: Vec<PathBuf>,
-    /// Files that look like data, but are of another format.
-    pub findings: Vec<Finding>,
-}
-
 /// What one file gave.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ingested {
@@ -57,12 +58,6 @@ pub struct Ingested {
     /// What a reader of the results must know about the file.
     pub findings: Vec<Finding>,
 }
-
-/// Endings of files that hold measurements in some program.
-const DATA_ENDINGS: &[&str] = &[
-    "mat", "mcap", "csv", "tsv", "txt", "json", "h5", "hdf5", "parquet", "arrow", "feather", "xls",
-    "xlsx", "tdms", "dxd", "d7d", "dat", "bag", "db3", "mf4", "mdf", "zip", "gz",
-];
 
 impl Format {
     /// Endings of the files it reads, in lower case.
@@ -81,6 +76,13 @@ impl Source {
     /// # Errors
     /// [`IngestError::Setting`] naming the field.
     pub fn check(&self) -> Result<(), IngestError> {
+        if self.memory_mb == Some(0) {
+            return Err(IngestError::Setting {
+                field: "memory_mb",
+                value: "0".to_owned(),
+                allowed: "a positive number, or none",
+            });
+        }
         match &self.format {
             Format::Thesis(layout) => layout.check(),
             Format::Csv(layout) => layout.check(),
@@ -98,152 +100,99 @@ impl Source {
     }
 }
 
-/// The files of a source in `path` (a folder, or one file whatever its ending), sorted by name unless the source names
-/// them.
-///
-/// Of a folder only its own files count, not those of folders within. MCAP recordings beside MAT files are not read: they
-/// may hold the same tightenings. They, and files that other programs keep data in, are a finding; anything else is
-/// passed over.
-///
-/// # Errors
-/// [`IngestError::NoSuchPath`], [`IngestError::NotAFile`], [`IngestError::NothingToRead`], [`IngestError::NoSuchFile`].
-pub fn list(source: &Source, path: &Path) -> Result<Listing, IngestError> {
-    if path.is_file() {
-        return Ok(Listing {
-            files: vec![path.to_owned()],
-            findings: Vec::new(),
-        });
-    }
-    if !path.is_dir() {
-        let path = path.to_owned();
-        return Err(if path.exists() {
-            IngestError::NotAFile { path }
-        } else {
-            IngestError::NoSuchPath { path }
-        });
-    }
-    if !source.files.is_empty() {
-        return named(source, path);
-    }
-    let endings = source.format.endings();
-    let mut files = Vec::new();
-    let mut others = Vec::new();
-    for entry in std::fs::read_dir(path).map_err(|error| IngestError::Read(error).in_file(path))? {
-        let file = entry
-            .map_err(|error| IngestError::Read(error).in_file(path))?
-            .path();
-        // `._x.mat` and the like are shadows that systems and programs leave behind.
-        let hidden = file
-            .file_name()
-            .is_some_and(|name| name.to_string_lossy().starts_with('.'));
-        if !file.is_file() || hidden {
-            continue;
-        }
-        if endings.contains(&ending(&file).as_str()) {
-            files.push(file);
-        } else {
-            others.push(file);
-        }
-    }
-    if files.is_empty() {
-        return Err(IngestError::NothingToRead {
-            folder: path.to_owned(),
-            expected: dotted(endings),
-            others: others.len(),
-        });
-    }
-    if files.iter().any(|file| ending(file) == "mat") {
-        // A recording beside the files it was made of would count every tightening twice.
-        let (read, recordings) = files.into_iter().partition(|file| ending(file) == "mat");
-        files = read;
-        others.extend::<Vec<PathBuf>>(recordings);
-    }
-    files.sort();
-    others.sort();
-    Ok(Listing {
-        files,
-        findings: others
-            .iter()
-            .filter_map(|file| other_format(file, endings))
-            .collect(),
-    })
-}
-
-fn named(source: &Source, folder: &Path) -> Result<Listing, IngestError> {
-    let mut files = Vec::with_capacity(source.files.len());
-    for name in &source.files {
-        let file = folder.join(name);
-        if !file.is_file() {
-            return Err(IngestError::NoSuchFile {
-                folder: folder.to_owned(),
-                file: name.clone(),
-            });
-        }
-        files.push(file);
-    }
-    Ok(Listing {
-        files,
-        findings: Vec::new(),
-    })
-}
-
-fn other_format(file: &Path, endings: &[&str]) -> Option<Finding> {
-    if !DATA_ENDINGS.contains(&ending(file).as_str()) {
-        return None;
-    }
-    let name = file.file_name().unwrap_or_default().to_string_lossy();
-    let mut log = FindingLog::new(&name);
-    if endings.contains(&ending(file).as_str()) {
-        log.note(
-            "recording_beside_mat",
-            About::File,
-            "not read, because it may hold the same tightenings as the .mat files beside it"
-                .to_owned(),
-        );
-    } else {
-        log.note(
-            "other_format",
-            About::File,
-            format!(
-                "not read: the study's source reads {} only",
-                dotted(endings)
-            ),
-        );
-    }
-    log.finish().pop()
-}
-
 /// Reads one file of a source; `lever_arm_m` is the rig's, by which lengths of the grip become angles.
 ///
 /// # Errors
-/// [`IngestError::File`] around the reason; [`IngestError::finding`] makes a finding of it.
+/// As [`read_on`].
 pub fn read(source: &Source, file: &Path, lever_arm_m: f64) -> Result<Ingested, IngestError> {
-    tracing::debug!(file = %file.display(), "reading");
-    read_content(&source.format, file, lever_arm_m).map_err(|error| error.in_file(file))
+    read_on(&Host, source, file, lever_arm_m)
 }
 
-fn read_content(format: &Format, file: &Path, lever_arm_m: f64) -> Result<Ingested, IngestError> {
-    let content = std::fs::read(file).map_err(IngestError::Read)?;
+/// Reads one file of a source that lies on `disk`.
+///
+/// The file's start is judged before the rest is read, and all that is made of the file is taken from its budget
+/// ([`Source::memory_mb`]). Of files whose reading takes more than their share of it, one is read at a time.
+///
+/// # Errors
+/// [`IngestError::File`] around the reason; [`IngestError::finding`] makes a finding of it.
+pub fn read_on(
+    disk: &dyn Disk,
+    source: &Source,
+    file: &Path,
+    lever_arm_m: f64,
+) -> Result<Ingested, IngestError> {
+    tracing::debug!(file = %file.display(), "reading");
+    let budget = Budget::new(source.memory_mb);
+    disk.open(file)
+        .map_err(IngestError::Read)
+        .and_then(|mut input| {
+            read_input(&source.format, input.as_mut(), file, lever_arm_m, &budget)
+        })
+        .map_err(|error| error.in_file(file))
+}
+
+fn read_input(
+    format: &Format,
+    input: &mut dyn Input,
+    file: &Path,
+    lever_arm_m: f64,
+    budget: &Budget,
+) -> Result<Ingested, IngestError> {
     match format {
         Format::Thesis(_) if ending(file) == "mcap" => {
-            mcap::read(&McapLayout::default(), &content, file, lever_arm_m)
+            let content = content(input, budget, mcap::check_start)?;
+            mcap::read(&McapLayout::default(), &content, file, lever_arm_m, budget)
         }
-        Format::Thesis(layout) => layout.recording(&MatFile::from_bytes(content)?, file),
-        Format::Csv(layout) => layout.recording(&content, file, lever_arm_m),
-        Format::Mcap(layout) => mcap::read(layout, &content, file, lever_arm_m),
+        Format::Thesis(layout) => {
+            let selection = mat::select(input, &|name| layout.wants(name), budget)?;
+            layout.within(selection, file, budget)
+        }
+        Format::Csv(layout) => {
+            let content = content(input, budget, csv::check_text)?;
+            layout.within(&content, file, lever_arm_m, budget)
+        }
+        Format::Mcap(layout) => {
+            let content = content(input, budget, mcap::check_start)?;
+            mcap::read(layout, &content, file, lever_arm_m, budget)
+        }
     }
 }
 
+/// Bytes at the start of a file by which it is judged.
+const FIRST_BLOCK_BYTES: usize = 1 << 16;
+
+/// The whole content of a file whose start `check` lets pass.
+fn content(
+    input: &mut dyn Input,
+    budget: &Budget,
+    check: fn(&[u8]) -> Result<(), IngestError>,
+) -> Result<Vec<u8>, IngestError> {
+    let length = input.seek(SeekFrom::End(0)).map_err(IngestError::Read)?;
+    input.rewind().map_err(IngestError::Read)?;
+    let mut start = Vec::new();
+    (&mut *input)
+        .take(FIRST_BLOCK_BYTES as u64)
+        .read_to_end(&mut start)
+        .map_err(IngestError::Read)?;
+    check(&start)?;
+    let mut content: Vec<u8> =
+        budget.list("the file", usize::try_from(length).unwrap_or(usize::MAX))?;
+    content.extend_from_slice(&start);
+    // Not beyond the length for which there is room, should the file grow meanwhile.
+    let rest = length.saturating_sub(start.len() as u64);
+    input
+        .take(rest)
+        .read_to_end(&mut content)
+        .map_err(IngestError::Read)?;
+    Ok(content)
+}
+
+/// In lower case, without the point.
 fn ending(file: &Path) -> String {
     file.extension()
         .unwrap_or_default()
         .to_string_lossy()
         .to_lowercase()
-}
-
-fn dotted(endings: &[&str]) -> String {
-    let dotted: Vec<String> = endings.iter().map(|ending| format!(".{ending}")).collect();
-    dotted.join(" or ")
 }
 
 #[cfg(test)]

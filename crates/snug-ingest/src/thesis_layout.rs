@@ -3,11 +3,15 @@
 mod events;
 
 use crate::finding_log::{About, FindingLog};
-use crate::mat::{Content, MatFile, Value};
+use crate::mat::{Content, MatFile, MatSelection, Value};
+use crate::memory::Budget;
 use crate::{ConditionPattern, IngestError, Ingested};
 use serde::{Deserialize, Serialize};
 use snug_campaign::{Motion, Recording, Segment, TimeBase};
 use std::path::Path;
+
+/// A label is a name, and names are short \[characters\].
+const LONGEST_LABEL: usize = 255;
 
 /// Under which names a MAT file holds what. Of several accepted names the first that is present counts.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -78,12 +82,47 @@ impl ThesisLayout {
         Ok(())
     }
 
+    /// Whether a variable of this name is read.
+    pub fn wants(&self, name: &str) -> bool {
+        [
+            &self.acceleration,
+            &self.torque,
+            &self.force,
+            &self.events,
+            &self.file_name,
+            &self.sample_rate,
+        ]
+        .into_iter()
+        .flatten()
+        .any(|wanted| wanted == name)
+    }
+
     /// The recording that a MAT file holds; `path` names it.
     ///
     /// # Errors
-    /// [`IngestError::MissingChannel`] or [`IngestError::UnusableChannel`] for acceleration and torque,
-    /// [`IngestError::EventTable`] for a table of events that is none. Everything less is a finding.
-    pub fn recording(&self, mat: &MatFile, path: &Path) -> Result<Ingested, IngestError> {
+    /// As [`ThesisLayout::selected`].
+    pub fn recording(&self, mat: MatFile, path: &Path) -> Result<Ingested, IngestError> {
+        self.selected(mat.into(), path)
+    }
+
+    /// The recording in the variables that [`ThesisLayout::wants`]; `path` names it.
+    ///
+    /// A damaged force, label or sampling rate costs itself, and is a finding.
+    ///
+    /// # Errors
+    /// [`IngestError::MissingChannel`], [`IngestError::UnusableChannel`] or [`IngestError::DamagedVariable`] for
+    /// acceleration and torque, [`IngestError::EventTable`] or [`IngestError::DamagedVariable`] for events. Everything
+    /// less is a finding.
+    pub fn selected(&self, mat: MatSelection, path: &Path) -> Result<Ingested, IngestError> {
+        self.within(mat, path, &Budget::new(None))
+    }
+
+    pub(crate) fn within(
+        &self,
+        mut mat: MatSelection,
+        path: &Path,
+        budget: &Budget,
+    ) -> Result<Ingested, IngestError> {
         let file = path
             .file_name()
             .unwrap_or_default()
@@ -95,29 +134,21 @@ impl ThesisLayout {
             .to_string_lossy()
             .into_owned();
         let mut log = FindingLog::new(&file);
+        let mat = &mut mat;
         let mut channels = Channels {
-            acceleration: required(mat, "acceleration", &self.acceleration, &mut log)?,
-            torque: required(mat, "torque", &self.torque, &mut log)?,
+            acceleration: required(mat, "acceleration", &self.acceleration, budget, &mut log)?,
+            torque: required(mat, "torque", &self.torque, budget, &mut log)?,
             force: None,
         };
         let force = present(mat, &self.force, &mut log);
+        let grip_force_channel = force.as_ref().map(|(name, _)| (*name).to_owned());
         if let Some((name, value)) = force {
-            channels.force = vector(value);
-            if channels.force.is_none() {
-                log.left_out(
-                    "unusable_channel",
-                    About::Channel(name),
-                    format!(
-                        "the grip-force channel is {}; expected a non-empty real vector",
-                        value.describe()
-                    ),
-                );
-            }
+            channels.force = grip_force(name, value, budget, &mut log)?;
         }
         let samples = channels.equalise(&mut log);
         let rate_hz = self.rate_hz(mat, &mut log);
-        let segments = self.segments(mat, rate_hz, samples, &mut log)?;
-        let file_name = present(mat, &self.file_name, &mut log).and_then(|(_, value)| label(value));
+        let segments = self.segments(mat, rate_hz, samples, budget, &mut log)?;
+        let file_name = self.label(mat, &mut log);
         let labels: Vec<&str> = file_name
             .iter()
             .map(String::as_str)
@@ -138,8 +169,8 @@ impl ThesisLayout {
                 ..Motion::default()
             },
             grip_force_n: channels.force,
-            has_force_channel: force.is_some(),
-            grip_force_channel: force.map(|(name, _)| name.to_owned()),
+            has_force_channel: grip_force_channel.is_some(),
+            grip_force_channel,
             segments,
         };
         Ok(Ingested {
@@ -148,15 +179,30 @@ impl ThesisLayout {
         })
     }
 
-    fn rate_hz(&self, mat: &MatFile, log: &mut FindingLog) -> f64 {
+    fn rate_hz(&self, mat: &mut MatSelection, log: &mut FindingLog) -> f64 {
         let Some((name, value)) = present(mat, &self.sample_rate, log) else {
             return self.sample_rate_hz;
         };
         let declared = self.sample_rate_hz;
-        let found = match value.to_f64().as_deref() {
-            Some(&[rate]) => Some(rate),
-            _ => value.text().and_then(|text| events::number(&text)),
+        let value = match value {
+            Ok(value) => value,
+            Err(reason) => {
+                log.note(
+                    "sample_rate_unusable",
+                    About::Channel(name),
+                    format!("cannot be read: {reason}; the study's {declared} Hz are used"),
+                );
+                return declared;
+            }
         };
+        let single = |numbers: Vec<f64>| match numbers.as_slice() {
+            &[rate] => Some(rate),
+            _ => None,
+        };
+        let found = value
+            .to_f64()
+            .and_then(single)
+            .or_else(|| value.text().and_then(|text| events::number(&text)));
         match found.filter(|rate| rate.is_finite() && *rate > 0.0) {
             Some(rate) => {
                 if (rate - declared).abs() > 1e-6 * declared {
@@ -182,11 +228,32 @@ impl ThesisLayout {
         }
     }
 
+    /// The text that names the conditions.
+    fn label(&self, mat: &mut MatSelection, log: &mut FindingLog) -> Option<String> {
+        let (name, value) = present(mat, &self.file_name, log)?;
+        let reason = match value {
+            Ok(value) => match label(&value) {
+                Some(label) if label.chars().count() > LONGEST_LABEL => {
+                    format!("is longer than {LONGEST_LABEL} characters")
+                }
+                label => return label,
+            },
+            Err(reason) => format!("cannot be read: {reason}"),
+        };
+        log.note(
+            "label_unusable",
+            About::Channel(name),
+            format!("{reason}; the file's own name is used"),
+        );
+        None
+    }
+
     fn segments(
         &self,
-        mat: &MatFile,
+        mat: &mut MatSelection,
         rate_hz: f64,
         samples: usize,
+        budget: &Budget,
         log: &mut FindingLog,
     ) -> Result<Vec<Segment>, IngestError> {
         let Some((name, table)) = present(mat, &self.events, log) else {
@@ -205,7 +272,10 @@ impl ThesisLayout {
                 event_times_s: None,
             }]);
         };
-        let times = events::times(table).ok_or_else(|| IngestError::EventTable {
+        // A damaged table is not one without events: the tightenings in it would be lost silently.
+        let table = table.map_err(|reason| damaged("events", name, reason))?;
+        budget.spend_on::<[u64; 16]>("events", events::rows(&table))?;
+        let times = events::times(&table).ok_or_else(|| IngestError::EventTable {
             variable: name.to_owned(),
             found: table.describe(),
         })?;
@@ -245,56 +315,102 @@ impl Channels {
     }
 }
 
+/// A variable's value, or why it cannot be read.
+type Found = Result<Value, IngestError>;
+
 /// The variable under the first accepted name that is there.
 fn present<'a>(
-    mat: &'a MatFile,
+    mat: &mut MatSelection,
     accepted: &'a [String],
     log: &mut FindingLog,
-) -> Option<(&'a str, &'a Value)> {
+) -> Option<(&'a str, Found)> {
     let mut found = accepted
         .iter()
-        .filter_map(|name| mat.variable(name).map(|value| (name.as_str(), value)));
+        .map(String::as_str)
+        .filter(|name| mat.present.iter().any(|present| present == name));
     let first = found.next()?;
-    for (other, _) in found {
+    for other in found {
         log.note(
             "channel_twice",
             About::Channel(other),
-            format!(
-                "the file holds both {} and {other}; {} is used",
-                first.0, first.0
-            ),
+            format!("the file holds both {first} and {other}; {first} is used"),
         );
     }
-    Some(first)
+    let copies = mat.present.iter().filter(|name| *name == first).count();
+    if copies > 1 {
+        log.note(
+            "channel_twice",
+            About::Channel(first),
+            format!("the file holds {first} {copies} times; the first is used"),
+        );
+    }
+    mat.take(first).map(|found| (first, found))
 }
 
 fn required(
-    mat: &MatFile,
+    mat: &mut MatSelection,
     channel: &str,
     accepted: &[String],
+    budget: &Budget,
     log: &mut FindingLog,
 ) -> Result<Vec<f64>, IngestError> {
     let (name, value) = present(mat, accepted, log).ok_or_else(|| IngestError::MissingChannel {
         channel: channel.to_owned(),
         accepted: accepted.to_vec(),
-        present: mat
-            .variables
-            .iter()
-            .map(|variable| variable.name.clone())
-            .collect(),
+        present: mat.present.clone(),
     })?;
-    vector(value).ok_or_else(|| IngestError::UnusableChannel {
+    let value = value.map_err(|reason| damaged(channel, name, reason))?;
+    let found = value.describe();
+    vector(value, budget)?.ok_or_else(|| IngestError::UnusableChannel {
         channel: channel.to_owned(),
         variable: name.to_owned(),
-        found: value.describe(),
+        found,
     })
 }
 
+fn damaged(channel: &str, variable: &str, reason: IngestError) -> IngestError {
+    IngestError::DamagedVariable {
+        channel: channel.to_owned(),
+        variable: variable.to_owned(),
+        source: Box::new(reason),
+    }
+}
+
+/// The grip force, which may be missing.
+fn grip_force(
+    name: &str,
+    value: Found,
+    budget: &Budget,
+    log: &mut FindingLog,
+) -> Result<Option<Vec<f64>>, IngestError> {
+    let reason = match value {
+        Ok(value) => {
+            let found = value.describe();
+            match vector(value, budget)? {
+                Some(samples) => return Ok(Some(samples)),
+                None => format!("is {found}; expected a non-empty real vector"),
+            }
+        }
+        Err(reason) => format!("cannot be read: {reason}"),
+    };
+    log.left_out(
+        "unusable_channel",
+        About::Channel(name),
+        format!("the grip-force channel {reason}"),
+    );
+    Ok(None)
+}
+
 /// The samples of a non-empty real vector.
-fn vector(value: &Value) -> Option<Vec<f64>> {
-    value
-        .to_f64()
-        .filter(|samples| !samples.is_empty() && value.is_vector())
+fn vector(value: Value, budget: &Budget) -> Result<Option<Vec<f64>>, IngestError> {
+    if !value.is_vector() {
+        return Ok(None);
+    }
+    let (count, stored) = value.numbers_held();
+    budget.spend_on::<f64>("a channel", count)?;
+    let samples = value.into_f64().filter(|samples| !samples.is_empty());
+    budget.give_back(stored);
+    Ok(samples)
 }
 
 /// Text, or a cell with nothing but text in it.

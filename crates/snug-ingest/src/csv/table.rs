@@ -1,11 +1,13 @@
-use super::{Column, CsvLayout, report_gaps};
-use crate::IngestError;
-use crate::finding_log::FindingLog;
-use csv::{ReaderBuilder, StringRecord, Trim};
-use serde::{Deserialize, Serialize};
+//! Text to columns of numbers.
 
-/// Lines of text below the header (units, remarks) that are passed over.
-const MOST_TEXT_LINES: usize = 10;
+use super::rows::Rows;
+use super::{Column, CsvLayout, report_gaps, report_open_quotes};
+use crate::IngestError;
+use crate::excerpt::excerpt;
+use crate::finding_log::FindingLog;
+use crate::memory::Budget;
+use csv::StringRecord;
+use serde::{Deserialize, Serialize};
 
 /// What separates the columns.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -55,11 +57,11 @@ pub(super) fn read(
     content: &[u8],
     layout: &CsvLayout,
     wanted: &[(String, &Column)],
+    budget: &Budget,
     log: &mut FindingLog,
 ) -> Result<Table, IngestError> {
     let content = content.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(content);
-    let (content, skipped) = skip_lines(content, layout.skip_lines);
-    let mut rows = Rows::new(content, layout, skipped);
+    let mut rows = Rows::new(content, layout);
     let mut row = rows.next()?;
     let header = has_header(layout.header, wanted, row.as_ref(), layout);
     let names: Vec<String> = match &row {
@@ -72,21 +74,32 @@ pub(super) fn read(
         .map(|(channel, column)| reading(channel, column, &names, width))
         .collect::<Result<Vec<Reading>, IngestError>>()?;
     if header {
+        let places: Vec<usize> = columns.iter().map(|column| column.index).collect();
         row = rows.next()?;
-        row = rows.skip_text_lines(row, &columns)?;
+        row = rows.skip_text_lines(row, &places)?;
     }
     let mut lines = Vec::new();
+    let (mut swallowed, mut first_swallowed) = (0, None);
     while let Some((line, record)) = row {
         for column in &mut columns {
-            column.push(record.get(column.index).unwrap_or_default(), line, layout);
+            let cell = record.get(column.index).unwrap_or_default();
+            column.push(cell, line, layout, budget)?;
         }
-        lines.push(line);
+        let inside = rows.rows_in_quotes(&record);
+        if inside > 0 {
+            swallowed += inside;
+            first_swallowed.get_or_insert(line);
+        }
+        budget.push("the lines' numbers", &mut lines, line)?;
         row = rows.next()?;
     }
     if lines.is_empty() {
         return Err(IngestError::NoRows {
-            lines: rows.reader.position().line() - 1 + rows.skipped,
+            lines: rows.lines(),
         });
+    }
+    if let Some(line) = first_swallowed {
+        report_open_quotes(swallowed, line, log);
     }
     for (column, (channel, _)) in columns.iter().zip(wanted) {
         if column.gaps == lines.len() {
@@ -107,113 +120,25 @@ pub(super) fn read(
 }
 
 impl Reading {
-    fn push(&mut self, cell: &str, line: u64, layout: &CsvLayout) {
-        self.values
-            .push(layout.decimal.parse(cell).unwrap_or_else(|| {
-                self.gaps += 1;
-                self.first_gap.get_or_insert((line, cell.to_owned()));
-                f64::NAN
-            }));
-    }
-}
-
-/// The records of a file, blank and comment lines passed over.
-struct Rows<'a> {
-    reader: csv::Reader<&'a [u8]>,
-    skipped: u64,
-    layout: &'a CsvLayout,
-}
-
-type Row = Option<(u64, StringRecord)>;
-
-impl<'a> Rows<'a> {
-    fn new(content: &'a [u8], layout: &'a CsvLayout, skipped: u64) -> Self {
-        let comment = layout
-            .comment
-            .and_then(|comment| u8::try_from(comment).ok());
-        let delimiter = match layout.delimiter {
-            Delimiter::Comma => b',',
-            Delimiter::Semicolon => b';',
-            Delimiter::Tab => b'\t',
-            Delimiter::Auto => delimiter_of(content, comment),
-        };
-        let reader = ReaderBuilder::new()
-            .has_headers(false)
-            .flexible(true)
-            .trim(Trim::All)
-            .delimiter(delimiter)
-            .comment(comment)
-            .from_reader(content);
-        Self {
-            reader,
-            skipped,
-            layout,
-        }
-    }
-
-    /// The next record with its line; text that is not UTF-8 (a header's `°` in an old encoding) is read as far as it is.
-    fn next(&mut self) -> Result<Row, IngestError> {
-        let mut record = csv::ByteRecord::new();
-        let more = self
-            .reader
-            .read_byte_record(&mut record)
-            .map_err(|source| IngestError::CsvSyntax {
-                line: source
-                    .position()
-                    .map_or(0, |place| place.line() + self.skipped),
-                source,
-            })?;
-        let line = record.position().map_or(0, csv::Position::line) + self.skipped;
-        Ok(more.then(|| (line, StringRecord::from_byte_record_lossy(record))))
-    }
-
-    /// Passes over lines in which every declared column holds text.
-    fn skip_text_lines(&mut self, mut row: Row, columns: &[Reading]) -> Result<Row, IngestError> {
-        for _ in 0..MOST_TEXT_LINES {
-            let Some((_, record)) = &row else {
-                return Ok(row);
-            };
-            let text = |column: &Reading| {
-                record.get(column.index).is_some_and(|cell| {
-                    !cell.is_empty() && self.layout.decimal.parse(cell).is_none()
-                })
-            };
-            if !columns.iter().all(text) {
-                return Ok(row);
-            }
-            row = self.next()?;
-        }
-        Ok(row)
+    fn push(
+        &mut self,
+        cell: &str,
+        line: u64,
+        layout: &CsvLayout,
+        budget: &Budget,
+    ) -> Result<(), IngestError> {
+        let number = layout.decimal.parse(cell).unwrap_or_else(|| {
+            self.gaps += 1;
+            self.first_gap.get_or_insert_with(|| (line, excerpt(cell)));
+            f64::NAN
+        });
+        budget.push("a column", &mut self.values, number)
     }
 }
 
 /// A blank before a quote makes the quote part of the text.
 fn unquoted(name: &str) -> String {
     name.trim_matches([' ', '"']).to_owned()
-}
-
-fn skip_lines(content: &[u8], count: usize) -> (&[u8], u64) {
-    let mut rest = content;
-    let mut skipped = 0;
-    for _ in 0..count {
-        match rest.iter().position(|&byte| byte == b'\n') {
-            Some(end) => rest = &rest[end + 1..],
-            None => rest = &[],
-        }
-        skipped += 1;
-    }
-    (rest, skipped)
-}
-
-fn delimiter_of(content: &[u8], comment: Option<u8>) -> u8 {
-    let line = content
-        .split(|&byte| byte == b'\n')
-        .find(|line| !line.trim_ascii().is_empty() && line.first().copied() != comment)
-        .unwrap_or_default();
-    [b';', b'\t']
-        .into_iter()
-        .find(|delimiter| line.contains(delimiter))
-        .unwrap_or(b',')
 }
 
 fn has_header(

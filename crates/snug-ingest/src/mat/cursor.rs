@@ -1,10 +1,20 @@
 use crate::IngestError;
+use crate::memory::Budget;
 
 /// The order of the bytes of a number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum ByteOrder {
     Little,
     Big,
+}
+
+impl ByteOrder {
+    pub(crate) fn u32(self, bytes: [u8; 4]) -> u32 {
+        match self {
+            Self::Little => u32::from_le_bytes(bytes),
+            Self::Big => u32::from_be_bytes(bytes),
+        }
+    }
 }
 
 /// A place in a stretch of bytes that never reads past its end.
@@ -15,16 +25,24 @@ pub(crate) struct Cursor<'a> {
     /// Where the stretch starts in its file, or in its inflated element.
     base: usize,
     pub(crate) order: ByteOrder,
+    /// What is made of the bytes is taken from here.
+    pub(crate) budget: &'a Budget,
 }
 
 impl<'a> Cursor<'a> {
-    pub(crate) fn new(bytes: &'a [u8], base: usize, order: ByteOrder) -> Self {
+    pub(crate) fn new(bytes: &'a [u8], base: usize, order: ByteOrder, budget: &'a Budget) -> Self {
         Self {
             bytes,
             position: 0,
             base,
             order,
+            budget,
         }
+    }
+
+    /// Another stretch of the same file.
+    pub(crate) fn within(&self, bytes: &'a [u8], base: usize) -> Self {
+        Self::new(bytes, base, self.order, self.budget)
     }
 
     /// Offset for error messages.
@@ -65,9 +83,6 @@ impl<'a> Cursor<'a> {
             .take(4, what)?
             .try_into()
             .expect("take returns the count asked for");
-        Ok(match self.order {
-            ByteOrder::Little => u32::from_le_bytes(bytes),
-            ByteOrder::Big => u32::from_be_bytes(bytes),
-        })
+        Ok(self.order.u32(bytes))
     }
 }

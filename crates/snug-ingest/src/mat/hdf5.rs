@@ -4,58 +4,83 @@
 //! `MATLAB_class`. Cells and struct arrays are datasets of references into the hidden group `#refs#`. Files without
 //! the attributes, as other programs write them, get the class of their HDF5 type.
 
-mod budget;
+mod effort;
 mod old_layout;
 mod raw;
 
-use super::{Content, Field, MAXIMUM_DEPTH, Numbers, Sparse, Unsupported, Value, Variable};
+use super::selection::{MatSelection, Wanted};
+use super::{
+    Content, Field, MAXIMUM_DEPTH, MatFormat, Numbers, Sparse, Unsupported, Value, Variable,
+};
 use crate::IngestError;
-use budget::Budget;
+use crate::excerpt::excerpt;
+use crate::memory::Budget;
+use effort::Effort;
 use hdf5_pure::{AttrValue, Dataset, File, FormatError, Group, Object};
 use raw::Elements;
 use std::collections::HashMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
+/// What an open object of the HDF5 library takes, its parsed header with it (measured: 300) \[bytes\].
+const OBJECT_BYTES: usize = 512;
+
+/// HDF5 itself has no more.
+const MOST_DIMENSIONS: usize = 32;
+
 type Attributes = HashMap<String, AttrValue>;
 
-/// All variables of a version 7.3 file, by name.
-pub(super) fn variables(bytes: Vec<u8>) -> Result<Vec<Variable>, IngestError> {
+/// The wanted variables of a version 7.3 file, by name.
+pub(super) fn select(
+    content: Vec<u8>,
+    wanted: Wanted<'_>,
+    budget: &Budget,
+) -> Result<MatSelection, IngestError> {
     // The HDF5 library promises errors, not panics, but it is large and the files are strangers': a panic inside it
     // must cost this file only. Nothing of its state outlives the call.
     catch_unwind(AssertUnwindSafe(|| {
-        let open = |bytes| File::from_bytes(bytes).map_err(|error| failed("/", error));
-        let file = open(bytes)?;
-        match root(&file) {
-            Err(error) if is_old_layout(&error) => {
-                let mut bytes = file.as_bytes().to_vec();
-                if old_layout::modernise(&mut bytes) {
-                    root(&open(bytes)?)
-                } else {
-                    Err(error)
-                }
-            }
-            read => read,
+        let open = |content| File::from_bytes(content).map_err(|error| failed("/", error));
+        let mark = budget.mark();
+        let file = open(content)?;
+        let read = root(&file, wanted, budget);
+        if !is_old_layout(&read) {
+            return read;
         }
+        budget.back_to(mark);
+        budget.spend("the file", file.as_bytes().len() as u64)?;
+        let mut content = file.as_bytes().to_vec();
+        if !old_layout::modernise(&mut content) {
+            return read;
+        }
+        root(&open(content)?, wanted, budget)
     }))
     .unwrap_or(Err(IngestError::Hdf5Panic))
 }
 
-fn root(file: &File) -> Result<Vec<Variable>, IngestError> {
-    let budget = Budget::for_file(file.as_bytes().len());
-    Reader { budget }.root(&file.root())
+fn root(file: &File, wanted: Wanted<'_>, budget: &Budget) -> Result<MatSelection, IngestError> {
+    let effort = Effort::for_file(file.as_bytes().len(), budget);
+    let mut selection = MatSelection::new(MatFormat::Hdf5);
+    Reader { effort, budget }.root(&file.root(), wanted, &mut selection)?;
+    selection.variables.sort_by(|a, b| a.name.cmp(&b.name));
+    Ok(selection)
 }
 
-fn is_old_layout(error: &IngestError) -> bool {
-    matches!(
-        error,
-        IngestError::Hdf5 { source, .. }
-            if matches!(**source, hdf5_pure::Error::Format(FormatError::InvalidLayoutVersion(1 | 2)))
-    )
+fn is_old_layout(read: &Result<MatSelection, IngestError>) -> bool {
+    let old = |error: &IngestError| {
+        matches!(
+            error,
+            IngestError::Hdf5 { source, .. }
+                if matches!(**source, hdf5_pure::Error::Format(FormatError::InvalidLayoutVersion(1 | 2)))
+        )
+    };
+    match read {
+        Ok(selection) => selection.unreadable.iter().any(|v| old(&v.reason)),
+        Err(error) => old(error),
+    }
 }
 
 fn failed(object: &str, error: hdf5_pure::Error) -> IngestError {
     IngestError::Hdf5 {
-        object: object.to_owned(),
+        object: excerpt(object),
         source: Box::new(error),
     }
 }
@@ -87,34 +112,42 @@ fn unsupported_class(attributes: &Attributes) -> Option<Value> {
     })
 }
 
-struct Reader {
-    budget: Budget,
+struct Reader<'a> {
+    effort: Effort<'a>,
+    budget: &'a Budget,
 }
 
-impl Reader {
-    fn root(mut self, root: &Group) -> Result<Vec<Variable>, IngestError> {
-        let mut variables = Vec::new();
+impl Reader<'_> {
+    fn root(
+        mut self,
+        root: &Group,
+        wanted: Wanted<'_>,
+        selection: &mut MatSelection,
+    ) -> Result<(), IngestError> {
         for (name, dataset) in root.iter_datasets().map_err(|error| failed("/", error))? {
-            let attributes = dataset.attrs().map_err(|error| failed(&name, error))?;
-            variables.push(Variable {
-                value: self.dataset(&name, &dataset, 0)?,
-                global: is_set(&attributes, "MATLAB_global"),
-                name,
-            });
+            if selection.note(&name, wanted, self.budget)? {
+                let value = self.dataset(&name, &dataset, 0);
+                let read = value.and_then(|value| variable(&name, dataset.attrs(), value));
+                selection.keep(name, read, self.budget)?;
+            }
         }
         for (name, group) in root.iter_groups().map_err(|error| failed("/", error))? {
             // `#refs#` and `#subsystem#` hold what variables refer to.
-            if !name.starts_with('#') {
-                let attributes = group.attrs().map_err(|error| failed(&name, error))?;
-                variables.push(Variable {
-                    value: self.group(&name, &group, 0)?,
-                    global: is_set(&attributes, "MATLAB_global"),
-                    name,
-                });
+            if !name.starts_with('#') && selection.note(&name, wanted, self.budget)? {
+                let value = self.group(&name, &group, 0);
+                let read = value.and_then(|value| variable(&name, group.attrs(), value));
+                selection.keep(name, read, self.budget)?;
             }
         }
-        variables.sort_by(|a, b| a.name.cmp(&b.name));
-        Ok(variables)
+        Ok(())
+    }
+
+    /// Reads a dataset's elements.
+    fn elements(&mut self, path: &str, dataset: &Dataset) -> Result<Elements, IngestError> {
+        let on_the_way = self.effort.spend(path, dataset)?;
+        let elements = raw::elements(path, dataset)?;
+        self.budget.give_back(on_the_way);
+        Ok(elements)
     }
 
     fn object(&mut self, path: &str, object: &Object, depth: usize) -> Result<Value, IngestError> {
@@ -131,41 +164,24 @@ impl Reader {
         dataset: &Dataset,
         depth: usize,
     ) -> Result<Value, IngestError> {
-        self.budget.enter(path, depth)?;
+        self.effort.enter(path, depth)?;
         let failed = |error| failed(path, error);
         let attributes = dataset.attrs().map_err(failed)?;
         let class = matlab_class(&attributes);
         if let Some(value) = unsupported_class(&attributes) {
             return Ok(value);
         }
-        self.budget.spend(path, dataset)?;
+        let elements = self.elements(path, dataset)?;
         if is_set(&attributes, "MATLAB_empty") {
-            return empty(path, dataset, &attributes);
+            return Ok(empty(elements, &attributes));
         }
         let dims = matlab_dims(dataset.shape().map_err(failed)?);
-        let elements = raw::elements(path, dataset)?;
         let content = match elements {
-            Elements::References => {
-                let objects = match dataset.dereference() {
-                    // Cells that were never filled refer to nothing.
-                    Err(hdf5_pure::Error::Format(FormatError::InvalidObjectReference {
-                        ..
-                    })) => {
-                        return Ok(foreign("references to nothing".to_owned()));
-                    }
-                    objects => objects.map_err(failed)?,
-                };
-                let mut values = Vec::with_capacity(objects.len());
-                for (index, object) in objects.iter().enumerate() {
-                    values.push(self.object(
-                        &format!("{path}{{{}}}", index + 1),
-                        object,
-                        depth + 1,
-                    )?);
-                }
-                Content::Cell(values)
-            }
-            Elements::Numbers(real) => numeric(real, class),
+            Elements::References => match self.referred(path, dataset, &dims, depth)? {
+                Some(values) => Content::Cell(values),
+                None => return Ok(foreign("references to nothing".to_owned())),
+            },
+            Elements::Numbers(real) => numeric(real, class, self.budget)?,
             Elements::Complex(real, imaginary) => Content::Numeric {
                 real,
                 imaginary: Some(imaginary),
@@ -185,8 +201,36 @@ impl Reader {
         Ok(Value { dims, content })
     }
 
+    /// The elements of a cell; `None` for cells that were never filled, which refer to nothing.
+    fn referred(
+        &mut self,
+        path: &str,
+        dataset: &Dataset,
+        dims: &[usize],
+        depth: usize,
+    ) -> Result<Option<Vec<Value>>, IngestError> {
+        let count = dims
+            .iter()
+            .fold(1, |count: usize, &length| count.saturating_mul(length));
+        let before = self.budget.mark();
+        self.budget.spend_on::<[u8; OBJECT_BYTES]>("cells", count)?;
+        let objects = match dataset.dereference() {
+            Err(hdf5_pure::Error::Format(FormatError::InvalidObjectReference { .. })) => {
+                return Ok(None);
+            }
+            objects => objects.map_err(|error| failed(path, error))?,
+        };
+        let handles = self.budget.mark() - before;
+        let mut values = self.budget.list("cells", objects.len())?;
+        for (index, object) in objects.iter().enumerate() {
+            values.push(self.object(&format!("{path}{{{}}}", index + 1), object, depth + 1)?);
+        }
+        self.budget.give_back(handles);
+        Ok(Some(values))
+    }
+
     fn group(&mut self, path: &str, group: &Group, depth: usize) -> Result<Value, IngestError> {
-        self.budget.enter(path, depth)?;
+        self.effort.enter(path, depth)?;
         let attributes = group.attrs().map_err(|error| failed(path, error))?;
         let class = matlab_class(&attributes);
         if let Some(rows) = attributes.get("MATLAB_sparse") {
@@ -238,7 +282,7 @@ impl Reader {
         let count: usize = dims.iter().product();
         if members.iter().any(|field| field.values.len() != count) {
             return Err(IngestError::Hdf5Fields {
-                object: path.to_owned(),
+                object: excerpt(path),
                 expected: count,
             });
         }
@@ -261,22 +305,33 @@ impl Reader {
         class: Option<&str>,
     ) -> Result<Value, IngestError> {
         let failed_parts = || IngestError::Hdf5SparseParts {
-            object: path.to_owned(),
+            object: excerpt(path),
         };
         let rows = raw::attribute_number(rows).ok_or_else(failed_parts)?;
         let mut part = |name: &str| -> Result<Option<Elements>, IngestError> {
             let Ok(dataset) = group.dataset(name) else {
                 return Ok(None);
             };
-            self.budget.spend(path, &dataset)?;
-            raw::elements(path, &dataset).map(Some)
+            let elements = self.elements(path, &dataset)?;
+            // As doubles, and the places in the matrix.
+            let count: u64 = dataset.shape().map_or(0, |shape| shape.iter().product());
+            self.budget
+                .spend("a sparse matrix", count.saturating_mul(4 * 8))?;
+            Ok(Some(elements))
         };
         let numbers = |elements: Option<Elements>| match elements {
             None => Some((Vec::new(), None)),
-            Some(Elements::Numbers(real)) => Some((real.to_f64(), None)),
+            Some(Elements::Numbers(real)) => Some((real.into_f64(), None)),
             Some(Elements::Complex(real, imaginary)) => {
-                Some((real.to_f64(), Some(imaginary.to_f64())))
+                Some((real.into_f64(), Some(imaginary.into_f64())))
             }
+            Some(Elements::Logical(values)) => Some((
+                values
+                    .into_iter()
+                    .map(|value| f64::from(u8::from(value)))
+                    .collect(),
+                None,
+            )),
             Some(_) => None,
         };
         let (starts, _) = numbers(part("jc")?).ok_or_else(failed_parts)?;
@@ -294,29 +349,51 @@ impl Reader {
     }
 }
 
+/// What stands in the attributes and in the value, under its name.
+fn variable(
+    name: &str,
+    attributes: Result<Attributes, hdf5_pure::Error>,
+    value: Value,
+) -> Result<Variable, IngestError> {
+    let attributes = attributes.map_err(|error| failed(name, error))?;
+    Ok(Variable {
+        name: name.to_owned(),
+        global: is_set(&attributes, "MATLAB_global"),
+        value,
+    })
+}
+
 /// Numbers whose class attribute says they stand for something else.
-fn numeric(real: Numbers, class: Option<&str>) -> Content {
+fn numeric(real: Numbers, class: Option<&str>, budget: &Budget) -> Result<Content, IngestError> {
     match class {
-        Some("logical") => Content::Logical(real.to_logical()),
+        Some("logical") => {
+            budget.spend_on::<bool>("truth values", real.len())?;
+            budget.give_back(real.bytes());
+            Ok(Content::Logical(real.to_logical()))
+        }
         Some("char") => {
-            let units = real.to_f64().into_iter().map(|unit| unit as u16);
-            Content::Text(
+            // The units as doubles, and characters in a list that grows by doubling.
+            budget.spend_on::<(f64, [char; 2])>("characters", real.len())?;
+            let units = real.into_f64().into_iter().map(|unit| unit as u16);
+            Ok(Content::Text(
                 char::decode_utf16(units)
                     .map(|unit| unit.unwrap_or(char::REPLACEMENT_CHARACTER))
                     .collect(),
-            )
+            ))
         }
-        _ => Content::Numeric {
+        _ => Ok(Content::Numeric {
             real,
             imaginary: None,
-        },
+        }),
     }
 }
 
 /// An empty array stores its shape as its data.
-fn empty(path: &str, dataset: &Dataset, attributes: &Attributes) -> Result<Value, IngestError> {
-    let dims = match raw::elements(path, dataset)? {
-        Elements::Numbers(numbers) => numbers.to_f64().iter().map(|&n| n as usize).collect(),
+fn empty(stored: Elements, attributes: &Attributes) -> Value {
+    let dims: Vec<usize> = match stored {
+        Elements::Numbers(numbers) if numbers.len() <= MOST_DIMENSIONS => {
+            numbers.to_f64().iter().map(|&n| n as usize).collect()
+        }
         _ => vec![0, 0],
     };
     let content = match matlab_class(attributes) {
@@ -338,7 +415,7 @@ fn empty(path: &str, dataset: &Dataset, attributes: &Attributes) -> Result<Value
             imaginary: None,
         },
     };
-    Ok(Value { dims, content })
+    Value { dims, content }
 }
 
 /// HDF5 stores rows where MATLAB stores columns, so a shape reads backwards; scalars and vectors of other programs
@@ -384,11 +461,11 @@ fn unsupported(what: Unsupported) -> Value {
 }
 
 /// Guards against files that refer to themselves or claim more than they hold.
-impl Budget {
+impl Effort<'_> {
     fn enter(&mut self, path: &str, depth: usize) -> Result<(), IngestError> {
         if depth > MAXIMUM_DEPTH {
             return Err(IngestError::Hdf5NestedTooDeep {
-                object: path.chars().take(80).collect(),
+                object: excerpt(path),
                 limit: MAXIMUM_DEPTH,
             });
         }

@@ -4,8 +4,11 @@
 
 use super::cursor::{ByteOrder, Cursor};
 use super::numbers::NumberKind;
-use super::{Content, Numbers, Sparse, Value, Variable};
+use super::selection::{MatSelection, Wanted};
+use super::stream::Stream;
+use super::{Content, MatFormat, Numbers, Sparse, Value, Variable};
 use crate::IngestError;
+use crate::memory::Budget;
 
 /// The header's first number is below this, in the file's own byte order.
 const LARGEST_TYPE_CODE: u32 = 5000;
@@ -27,26 +30,59 @@ struct Header {
     name: String,
 }
 
-/// All variables of a level 4 file.
-pub(super) fn variables(bytes: &[u8]) -> Result<Vec<Variable>, IngestError> {
-    let mut cursor = Cursor::new(bytes, 0, ByteOrder::Little);
-    if cursor.clone().u32("level 4 header")? >= LARGEST_TYPE_CODE {
-        cursor.order = ByteOrder::Big;
-    }
-    let mut variables = Vec::new();
-    while cursor.remaining() > 0 {
-        let header = header(&mut cursor)?;
-        let value = value(&mut cursor, &header)?;
-        variables.push(Variable {
-            name: header.name,
+/// Bytes of a matrix's header before its name.
+const HEADER_BYTES: usize = 20;
+
+/// MATLAB's names end after 63 letters \[bytes\].
+const LONGEST_NAME_BYTES: usize = 4096;
+
+/// The wanted variables of a level 4 file.
+pub(super) fn select(
+    stream: &mut Stream<'_>,
+    wanted: Wanted<'_>,
+    budget: &Budget,
+) -> Result<MatSelection, IngestError> {
+    let mut selection = MatSelection::new(MatFormat::Level4);
+    let mut order = None;
+    while stream.remaining() > 0 {
+        let offset = stream.offset();
+        let mut start = [0; HEADER_BYTES];
+        stream.fill(&mut start, "level 4 header")?;
+        let order = *order.get_or_insert_with(|| byte_order(start));
+        let mut cursor = Cursor::new(&start, offset, order, budget);
+        let header = header(&mut cursor, stream)?;
+        let bytes = header.bytes(stream.offset())?;
+        if !selection.note(&header.name, wanted, budget)? {
+            stream.skip(bytes, "level 4 matrix")?;
+            continue;
+        }
+        let before = budget.mark();
+        let base = stream.offset();
+        let data = stream.take(bytes, "level 4 matrix", budget)?;
+        let read = value(&mut Cursor::new(&data, base, order, budget), &header);
+        match &read {
+            Ok(_) => budget.give_back(bytes as u64),
+            Err(_) => budget.back_to(before),
+        }
+        let Header { name, .. } = header;
+        let read = read.map(|value| Variable {
+            name: name.clone(),
             global: false,
             value,
         });
+        selection.keep(name, read, budget)?;
     }
-    Ok(variables)
+    Ok(selection)
 }
 
-fn header(cursor: &mut Cursor<'_>) -> Result<Header, IngestError> {
+fn byte_order(start: [u8; HEADER_BYTES]) -> ByteOrder {
+    match ByteOrder::Little.u32([start[0], start[1], start[2], start[3]]) {
+        0..LARGEST_TYPE_CODE => ByteOrder::Little,
+        _ => ByteOrder::Big,
+    }
+}
+
+fn header(cursor: &mut Cursor<'_>, stream: &mut Stream<'_>) -> Result<Header, IngestError> {
     let offset = cursor.offset();
     let code = cursor.u32("level 4 type code")?;
     let rows = dimension(cursor)?;
@@ -73,15 +109,16 @@ fn header(cursor: &mut Cursor<'_>) -> Result<Header, IngestError> {
         2 => Kind::Sparse,
         _ => return Err(bad_code()),
     };
-    if name_bytes == 0 {
+    if !(1..=LONGEST_NAME_BYTES).contains(&name_bytes) {
         return Err(IngestError::ElementSize {
             what: "level 4 variable name",
             offset: cursor.offset(),
-            expected: "at least one",
-            found: 0,
+            expected: "1 to 4096",
+            found: name_bytes,
         });
     }
-    let name = cursor.take(name_bytes, "level 4 variable name")?;
+    let name = stream.take(name_bytes, "level 4 variable name", cursor.budget)?;
+    cursor.budget.give_back(name_bytes as u64);
     let end = name
         .iter()
         .position(|&byte| byte == 0)
@@ -102,10 +139,35 @@ fn dimension(cursor: &mut Cursor<'_>) -> Result<usize, IngestError> {
     usize::try_from(number).map_err(|_| IngestError::NegativeDimension { offset, number })
 }
 
+impl Header {
+    /// A complex sparse matrix has a column more, not a second block.
+    fn has_imaginary_block(&self) -> bool {
+        self.complex && self.kind != Kind::Sparse
+    }
+
+    /// Length of one block of numbers.
+    fn block_bytes(&self, offset: usize) -> Result<usize, IngestError> {
+        self.rows
+            .checked_mul(self.columns)
+            .and_then(|count| count.checked_mul(self.number_kind.bytes()))
+            .ok_or(IngestError::TooManyElements { offset })
+    }
+
+    /// Length of the data that follow the name.
+    fn bytes(&self, offset: usize) -> Result<usize, IngestError> {
+        let blocks = if self.has_imaginary_block() { 2 } else { 1 };
+        self.block_bytes(offset)?
+            .checked_mul(blocks)
+            .ok_or(IngestError::TooManyElements { offset })
+    }
+}
+
 fn value(cursor: &mut Cursor<'_>, header: &Header) -> Result<Value, IngestError> {
+    let budget = cursor.budget;
+    budget.spend_on::<[usize; 2]>("an array", 1)?;
     let real = numbers(cursor, header)?;
-    // A complex sparse matrix has a column more, not a second block.
-    let imaginary = (header.complex && header.kind != Kind::Sparse)
+    let imaginary = header
+        .has_imaginary_block()
         .then(|| numbers(cursor, header))
         .transpose()?;
     let dims = vec![header.rows, header.columns];
@@ -115,31 +177,32 @@ fn value(cursor: &mut Cursor<'_>, header: &Header) -> Result<Value, IngestError>
             content: Content::Numeric { real, imaginary },
         }),
         Kind::Text => {
+            budget.spend_on::<(char, f64)>("characters", real.len())?;
             let characters = real
-                .to_f64()
-                .iter()
-                .map(|&code| char::from_u32(code as u32).unwrap_or(char::REPLACEMENT_CHARACTER))
+                .into_f64()
+                .into_iter()
+                .map(|code| char::from_u32(code as u32).unwrap_or(char::REPLACEMENT_CHARACTER))
                 .collect();
             Ok(Value {
                 dims,
                 content: Content::Text(characters),
             })
         }
-        Kind::Sparse => sparse(&real.to_f64(), header).ok_or(IngestError::SparseParts {
-            offset: cursor.offset(),
-        }),
+        Kind::Sparse => {
+            // The whole table as doubles, then the places, their order and the values.
+            budget.spend_on::<f64>("a sparse matrix", real.len())?;
+            budget.spend_on::<[usize; 8]>("a sparse matrix", header.rows)?;
+            sparse(&real.into_f64(), header).ok_or(IngestError::SparseParts {
+                offset: cursor.offset(),
+            })
+        }
     }
 }
 
 fn numbers(cursor: &mut Cursor<'_>, header: &Header) -> Result<Numbers, IngestError> {
-    let bytes = header
-        .rows
-        .checked_mul(header.columns)
-        .and_then(|count| count.checked_mul(header.number_kind.bytes()))
-        .ok_or(IngestError::TooManyElements {
-            offset: cursor.offset(),
-        })?;
+    let bytes = header.block_bytes(cursor.offset())?;
     let bytes = cursor.take(bytes, "level 4 matrix")?;
+    cursor.budget.spend("numbers", bytes.len() as u64)?;
     Ok(Numbers::decode(header.number_kind, bytes, cursor.order))
 }
 

@@ -87,6 +87,26 @@ macro_rules! decode {
 }
 
 impl Numbers {
+    pub(crate) fn kind(&self) -> NumberKind {
+        match self {
+            Self::F64(_) => NumberKind::F64,
+            Self::F32(_) => NumberKind::F32,
+            Self::I8(_) => NumberKind::I8,
+            Self::U8(_) => NumberKind::U8,
+            Self::I16(_) => NumberKind::I16,
+            Self::U16(_) => NumberKind::U16,
+            Self::I32(_) => NumberKind::I32,
+            Self::U32(_) => NumberKind::U32,
+            Self::I64(_) => NumberKind::I64,
+            Self::U64(_) => NumberKind::U64,
+        }
+    }
+
+    /// How many bytes the values take.
+    pub(crate) fn bytes(&self) -> u64 {
+        each_kind!(self, values => size_of_val(values.as_slice()) as u64)
+    }
+
     /// Decodes as many whole numbers as `bytes` holds.
     pub(crate) fn decode(kind: NumberKind, bytes: &[u8], order: ByteOrder) -> Self {
         match kind {
@@ -122,6 +142,14 @@ impl Numbers {
         each_kind!(self, values => values.iter().map(|&value| value as f64).collect())
     }
 
+    /// All as doubles, as [`Numbers::to_f64`]; doubles stay where they are.
+    pub fn into_f64(self) -> Vec<f64> {
+        match self {
+            Self::F64(values) => values,
+            others => others.to_f64(),
+        }
+    }
+
     /// The same values as another kind. Files store a class in a narrower kind only where that loses nothing.
     pub(crate) fn into_kind(self, kind: NumberKind) -> Self {
         macro_rules! cast {
@@ -150,8 +178,12 @@ impl Numbers {
     }
 
     /// Each number as "is not zero".
+    #[expect(
+        clippy::unnecessary_cast,
+        reason = "one line for all kinds, double among them"
+    )]
     pub(crate) fn to_logical(&self) -> Vec<bool> {
-        self.to_f64().iter().map(|&value| value != 0.0).collect()
+        each_kind!(self, values => values.iter().map(|&value| value as f64 != 0.0).collect())
     }
 
     /// MATLAB's name of the class.

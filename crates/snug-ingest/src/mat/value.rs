@@ -1,4 +1,5 @@
 use super::Numbers;
+use crate::excerpt::excerpt;
 
 /// A named value.
 #[derive(Debug, Clone, PartialEq)]
@@ -137,6 +138,29 @@ impl Value {
         }
     }
 
+    /// As [`Value::to_f64`], without a copy where the numbers are doubles.
+    pub fn into_f64(self) -> Option<Vec<f64>> {
+        match self.content {
+            Content::Numeric {
+                real,
+                imaginary: None,
+            } => Some(real.into_f64()),
+            _ => self.to_f64(),
+        }
+    }
+
+    /// How many numbers [`Value::into_f64`] would give, and how many bytes they take as they are.
+    pub(crate) fn numbers_held(&self) -> (usize, u64) {
+        match &self.content {
+            Content::Numeric {
+                real,
+                imaginary: None,
+            } => (real.len(), real.bytes()),
+            Content::Logical(values) => (values.len(), values.len() as u64),
+            _ => (0, 0),
+        }
+    }
+
     /// The text of a character array with at most one row.
     pub fn text(&self) -> Option<String> {
         match &self.content {
@@ -184,7 +208,8 @@ impl Value {
     pub fn describe(&self) -> String {
         let shape: Vec<String> = self.dims.iter().map(usize::to_string).collect();
         let complex = if self.is_complex() { "complex " } else { "" };
-        format!("{} {complex}{}", shape.join("×"), self.class_name())
+        let class = excerpt(self.class_name());
+        format!("{} {complex}{class}", shape.join("×"))
     }
 
     /// Whether the numbers have an imaginary part.

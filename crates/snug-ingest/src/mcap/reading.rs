@@ -1,6 +1,8 @@
 use super::McapLayout;
 use crate::csv::assemble;
+use crate::excerpt::excerpt;
 use crate::finding_log::{About, FindingLog};
+use crate::memory::Budget;
 use crate::sampling::{self, Timed, Track};
 use crate::{IngestError, Ingested, range};
 use snug_campaign::{Conditions, Recording, TimeBase};
@@ -19,6 +21,7 @@ pub(crate) fn read(
     content: &[u8],
     path: &Path,
     lever_arm_m: f64,
+    budget: &Budget,
 ) -> Result<Ingested, IngestError> {
     let file = path
         .file_name()
@@ -27,7 +30,7 @@ pub(crate) fn read(
         .into_owned();
     let mut log = FindingLog::new(&file);
     let recordings = if layout.channels.is_empty() {
-        own(content, &mut log)?
+        own(content, budget, &mut log)?
     } else {
         let stem = path
             .file_stem()
@@ -40,6 +43,7 @@ pub(crate) fn read(
             file,
             stem,
             lever_arm_m,
+            budget,
             &mut log,
         )?]
     };
@@ -50,8 +54,16 @@ pub(crate) fn read(
 }
 
 /// Measurements that Snug wrote.
-fn own(content: &[u8], log: &mut FindingLog) -> Result<Vec<Recording>, IngestError> {
+fn own(
+    content: &[u8],
+    budget: &Budget,
+    log: &mut FindingLog,
+) -> Result<Vec<Recording>, IngestError> {
     let campaign = recordings(content)?;
+    for file in &campaign.files {
+        // Torque, force and three quantities of motion at most.
+        budget.spend_on::<[f64; 5]>("a channel", file.recording.torque_nm.len())?;
+    }
     report_completeness(&campaign.completeness, log);
     if campaign.malformed_messages > 0 {
         log.left_out(
@@ -81,7 +93,7 @@ fn own(content: &[u8], log: &mut FindingLog) -> Result<Vec<Recording>, IngestErr
                 format!(
                     "of {} the recording holds only the tightenings' windows (every {stored_every}. sample), without the \
                      quiet part before them",
-                    file.recording.file
+                    excerpt(&file.recording.file)
                 ),
             );
         }
@@ -97,10 +109,14 @@ fn declared(
     file: String,
     stem: String,
     lever_arm_m: f64,
+    budget: &Budget,
     log: &mut FindingLog,
 ) -> Result<Recording, IngestError> {
     let mut read = numeric_channels(content)?;
     report_completeness(&read.completeness, log);
+    for channel in &read.channels {
+        budget.spend_on::<[f64; 2]>("a channel", channel.values.len())?;
+    }
     let mut tracks = Vec::with_capacity(layout.channels.len());
     for wanted in &layout.channels {
         let found = read
@@ -137,6 +153,7 @@ fn declared(
                 times_s,
                 channels: &mut channels,
                 place: &|index| format!("sample {}", index + 1),
+                budget,
             };
             let time_base = sampling::uniform(timed, layout.tolerance_ratio, log)?;
             (time_base, channels)
@@ -168,7 +185,8 @@ fn report_completeness(completeness: &Completeness, log: &mut FindingLog) {
         Completeness::Truncated => "the file ends early; what came before was read".to_owned(),
         Completeness::Damaged { messages, fault } => {
             format!(
-                "the file is damaged after {messages} messages ({fault}); what came before was read"
+                "the file is damaged after {messages} messages ({}); what came before was read",
+                excerpt(fault)
             )
         }
         Completeness::TooLarge { messages } => {

@@ -10,6 +10,7 @@ fn run(times_s: &[f64], values: &[f64]) -> Result<(TimeBase, Vec<f64>, Vec<Findi
         times_s: times_s.to_vec(),
         channels: &mut channels,
         place: &|index| format!("line {}", index + 2),
+        budget: &Budget::new(Some(100)),
     };
     let grid = uniform(timed, 0.1, &mut log)?;
     let [values] = channels;

@@ -32,7 +32,10 @@ fn folders_are_listed_by_name_and_other_data_is_named() {
     assert_eq!(
         others,
         [
+            ("._b.mat", "not_read"),
+            ("README.md", "not_read"),
             ("c.mcap", "recording_beside_mat"),
+            ("d.mat", "not_a_file"),
             ("notes.csv", "other_format")
         ]
     );
@@ -52,14 +55,15 @@ fn nothing_to_read_is_said() {
     if device.exists() {
         let error = list(&Source::default(), device).unwrap_err().to_string();
         assert!(
-            error.contains("neither a folder nor a regular file"),
+            error.contains("is a device; it must be a folder or a file"),
             "{error}"
         );
     }
     fs::write(folder.path().join("notes.csv"), "x").unwrap();
     let empty = list(&Source::default(), folder.path()).unwrap_err();
     assert!(
-        empty.to_string().contains(".mat or .mcap") && empty.to_string().contains("1 file(s)"),
+        empty.to_string().contains(".mat or .mcap")
+            && empty.to_string().contains("there are notes.csv;"),
         "{empty}"
     );
     let named = Source {

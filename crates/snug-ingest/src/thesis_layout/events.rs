@@ -1,3 +1,4 @@
+use crate::excerpt::excerpt;
 use crate::finding_log::{About, FindingLog};
 use crate::mat::{Content, Value};
 use snug_campaign::Segment;
@@ -8,33 +9,43 @@ const LONGEST_SAMPLES: f64 = 1e9;
 /// The third column of a table of events: a time in s, or the text that is none.
 pub(super) type EventTime = Result<f64, String>;
 
+/// How many rows, at most, the table has that are in the file.
+pub(super) fn rows(table: &Value) -> usize {
+    match &table.content {
+        Content::Cell(cells) => cells.len(),
+        Content::Numeric { real, .. } => real.len(),
+        _ => 0,
+    }
+}
+
 /// The event times of an N×3 (or 3×N) cell of text or numbers, or of such a matrix; `None` when the table is something else.
 pub(super) fn times(table: &Value) -> Option<Vec<EventTime>> {
     let &[rows, columns] = table.dims.as_slice() else {
         return None;
     };
-    // A table lying on its side has its times in the third row.
-    let on_its_side = rows == 3 && columns > 3;
-    let third: Vec<usize> = if on_its_side {
-        (0..columns).map(|column| 3 * column + 2).collect()
-    } else {
-        (2 * rows..3 * rows).collect()
-    };
     if columns < 3 {
         // Without any event the table may be `{}`.
-        return (rows * columns == 0 && !matches!(table.content, Content::Unsupported(_)))
-            .then(Vec::new);
+        let empty = rows == 0 || columns == 0;
+        return (empty && !matches!(table.content, Content::Unsupported(_))).then(Vec::new);
     }
+    // A table lying on its side has its times in the third row.
+    let on_its_side = rows == 3 && columns > 3;
+    // The shape is believed only as far as there are elements, of which each `get` makes sure.
+    let (count, first, step) = match on_its_side {
+        true => (columns, 2, 3),
+        false => (rows, rows.checked_mul(2)?, 1),
+    };
+    let third = |index: usize| step * index + first;
     match &table.content {
-        Content::Cell(cells) => {
-            let cells: Option<Vec<&Value>> = third.iter().map(|&index| cells.get(index)).collect();
-            Some(cells?.into_iter().map(time).collect())
-        }
+        Content::Cell(cells) => (0..count)
+            .map(|index| cells.get(third(index)).map(time))
+            .collect(),
         Content::Numeric { .. } => {
             let numbers = table.to_f64()?;
-            let times: Option<Vec<f64>> = third.iter().map(|&i| numbers.get(i).copied()).collect();
             let known = |time: f64| finite(time).ok_or_else(|| time.to_string());
-            Some(times?.into_iter().map(known).collect())
+            (0..count)
+                .map(|index| numbers.get(third(index)).copied().map(known))
+                .collect()
         }
         _ => None,
     }
@@ -42,7 +53,7 @@ pub(super) fn times(table: &Value) -> Option<Vec<EventTime>> {
 
 fn time(cell: &Value) -> EventTime {
     if let Some(text) = cell.text() {
-        return number(&text).ok_or(text);
+        return number(&text).ok_or_else(|| excerpt(&text));
     }
     match cell.to_f64().as_deref() {
         Some(&[time]) => finite(time).ok_or_else(|| time.to_string()),

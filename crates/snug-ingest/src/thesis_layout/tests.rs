@@ -72,8 +72,7 @@ fn layout() -> ThesisLayout {
 }
 
 fn read(variables: Vec<(&str, Value)>) -> Result<(Recording, Vec<Finding>), IngestError> {
-    let mut ingested =
-        layout().recording(&mat(variables), Path::new("folder/TP9_QS_Soft_5.mat"))?;
+    let mut ingested = layout().recording(mat(variables), Path::new("folder/TP9_QS_Soft_5.mat"))?;
     Ok((ingested.recordings.remove(0), ingested.findings))
 }
 

@@ -62,6 +62,11 @@ pub(super) fn elements(path: &str, dataset: &Dataset) -> Result<Elements, Ingest
         | Datatype::VariableLength {
             is_string: true, ..
         } => {
+            // Many strings may be one and the same long one, so that they cannot be had within any budget.
+            let count: u64 = dataset.shape().map_err(failed)?.iter().product();
+            if count != 1 {
+                return Ok(Elements::Foreign("array of strings".to_owned()));
+            }
             let strings = dataset.read_string().map_err(failed)?;
             match <[String; 1]>::try_from(strings) {
                 Ok([text]) => Ok(Elements::Text(text)),

@@ -1,9 +1,15 @@
+//! An array: flags, shape, name, and what its class calls for.
+
 use super::element::{Element, ElementType};
-use super::text;
+use super::{structure, text};
 use crate::IngestError;
-use crate::mat::cursor::{ByteOrder, Cursor};
+use crate::mat::cursor::Cursor;
 use crate::mat::numbers::{NumberKind, Numbers};
-use crate::mat::{Content, Field, MAXIMUM_DEPTH, Sparse, Unsupported, Value, Variable};
+use crate::mat::{Content, MAXIMUM_DEPTH, Sparse, Unsupported, Value, Variable};
+use crate::memory::{ALLOCATION_BYTES, Budget};
+
+/// No program writes more dimensions; MATLAB itself has no limit.
+const MOST_DIMENSIONS: usize = 128;
 
 /// The format's class numbers (`mx` classes).
 mod class {
@@ -24,7 +30,7 @@ mod flag {
 }
 
 /// What stands at the start of every array.
-struct Header {
+pub(super) struct Header {
     flags: u32,
     dims: Vec<usize>,
     count: usize,
@@ -41,45 +47,45 @@ impl Header {
     }
 }
 
-/// A top-level array; `None` for the nameless workspace that MATLAB adds behind function handles and objects.
-pub(super) fn variable(
-    element: &Element<'_>,
-    order: ByteOrder,
-) -> Result<Option<Variable>, IngestError> {
-    let (header, value) = array(element, order, 0)?;
-    let workspace = header.name.is_empty() && value.class_name() == "uint8";
-    Ok((!workspace).then(|| Variable {
+/// The name of the array whose data start with what `cursor` holds, which need not be all.
+pub(super) fn name(cursor: &mut Cursor<'_>) -> Result<String, IngestError> {
+    if flags(cursor)? & 0xFF != class::OPAQUE {
+        Element::read(cursor, "dimensions")?;
+    }
+    Element::read(cursor, "array name")?.name("array name")
+}
+
+/// A top-level array, of whose data `cursor` stands at the start.
+pub(super) fn variable(cursor: &mut Cursor<'_>) -> Result<Variable, IngestError> {
+    let (header, value) = array(cursor, 0)?;
+    Ok(Variable {
         global: header.has(flag::GLOBAL),
         name: header.name,
         value,
-    }))
+    })
 }
 
-fn array(
-    element: &Element<'_>,
-    order: ByteOrder,
-    depth: usize,
-) -> Result<(Header, Value), IngestError> {
+/// The array whose data are what `cursor` holds.
+pub(super) fn array(cursor: &mut Cursor<'_>, depth: usize) -> Result<(Header, Value), IngestError> {
     if depth > MAXIMUM_DEPTH {
         return Err(IngestError::NestedTooDeep {
-            offset: element.offset,
+            offset: cursor.offset(),
             limit: MAXIMUM_DEPTH,
         });
     }
-    let mut cursor = Cursor::new(element.data, element.offset, order);
-    let flags = flags(&mut cursor)?;
+    let flags = flags(cursor)?;
     if flags & 0xFF == class::OPAQUE {
-        return opaque(&mut cursor, flags);
+        return opaque(cursor, flags);
     }
-    let (dims, count) = dimensions(&mut cursor)?;
-    let name = Element::read(&mut cursor, "array name")?.name("array name")?;
+    let (dims, count) = dimensions(cursor)?;
+    let name = Element::read(cursor, "array name")?.name("array name")?;
     let header = Header {
         flags,
         dims,
         count,
         name,
     };
-    let content = content(&mut cursor, &header, depth)?;
+    let content = content(cursor, &header, depth)?;
     let value = Value {
         dims: header.dims.clone(),
         content,
@@ -97,14 +103,16 @@ fn flags(cursor: &mut Cursor<'_>) -> Result<u32, IngestError> {
             found: element.kind.number(),
         });
     };
-    Cursor::new(element.data, element.offset, cursor.order).u32("array flags")
+    cursor
+        .within(element.data, element.offset)
+        .u32("array flags")
 }
 
 fn dimensions(cursor: &mut Cursor<'_>) -> Result<(Vec<usize>, usize), IngestError> {
     let element = Element::read(cursor, "dimensions")?;
-    let numbers = element.numbers("dimensions", cursor.order)?;
+    let (kind, rank) = element.number_kind("dimensions")?;
     // Some writers mark dimensions as unsigned, which does no harm as long as they fit the signed type.
-    if !matches!(numbers, Numbers::I32(_) | Numbers::U32(_)) {
+    if !matches!(kind, NumberKind::I32 | NumberKind::U32) {
         return Err(IngestError::ElementType {
             what: "dimensions",
             offset: element.offset,
@@ -112,16 +120,27 @@ fn dimensions(cursor: &mut Cursor<'_>) -> Result<(Vec<usize>, usize), IngestErro
             found: element.kind.number(),
         });
     }
-    let mut dims = Vec::with_capacity(numbers.len());
-    if let Numbers::I32(numbers) = numbers.into_kind(NumberKind::I32) {
-        for number in numbers {
-            dims.push(
-                usize::try_from(number).map_err(|_| IngestError::NegativeDimension {
-                    offset: element.offset,
-                    number,
-                })?,
-            );
-        }
+    if rank > MOST_DIMENSIONS {
+        return Err(IngestError::ElementSize {
+            what: "dimensions",
+            offset: element.offset,
+            expected: "at most 128",
+            found: element.data.len(),
+        });
+    }
+    let bytes = rank * size_of::<usize>();
+    cursor
+        .budget
+        .spend("an array", bytes as u64 + ALLOCATION_BYTES)?;
+    let mut dims = Vec::with_capacity(rank);
+    for bytes in element.data.as_chunks::<4>().0 {
+        let number = cursor.order.u32(*bytes).cast_signed();
+        dims.push(
+            usize::try_from(number).map_err(|_| IngestError::NegativeDimension {
+                offset: element.offset,
+                number,
+            })?,
+        );
     }
     let count = dims
         .iter()
@@ -153,15 +172,15 @@ fn opaque(cursor: &mut Cursor<'_>, flags: u32) -> Result<(Header, Value), Ingest
 
 fn content(cursor: &mut Cursor<'_>, header: &Header, depth: usize) -> Result<Content, IngestError> {
     match header.class() {
-        class::CELL => Ok(Content::Cell(arrays(cursor, header.count, depth)?)),
-        class::STRUCT => structure(cursor, header, None, depth),
+        class::CELL => structure::cell(cursor, header.count, depth),
+        class::STRUCT => structure::structure(cursor, header.count, None, depth),
         class::OBJECT => {
             let class_name = Element::read(cursor, "class name")?.name("class name")?;
-            structure(cursor, header, Some(class_name), depth)
+            structure::structure(cursor, header.count, Some(class_name), depth)
         }
         class::CHAR => {
             let element = Element::read(cursor, "characters")?;
-            text::characters(&element, header.count, cursor.order).map(Content::Text)
+            text::characters(&element, header.count, cursor).map(Content::Text)
         }
         class::SPARSE => sparse(cursor, header),
         class::FUNCTION => Ok(Content::Unsupported(Unsupported::FunctionHandle)),
@@ -195,119 +214,76 @@ fn numeric(
 ) -> Result<Content, IngestError> {
     let mut part = |what| -> Result<Numbers, IngestError> {
         let element = Element::read(cursor, what)?;
-        let numbers = element.numbers(what, cursor.order)?;
-        if numbers.len() != header.count {
+        let (_, found) = element.number_kind(what)?;
+        if found != header.count {
             return Err(IngestError::ValueCount {
                 what,
                 offset: element.offset,
                 expected: header.count,
-                found: numbers.len(),
+                found,
             });
         }
-        Ok(numbers.into_kind(kind))
+        element.numbers(what, cursor)
     };
     let real = part("real part")?;
-    if header.has(flag::LOGICAL) {
-        return Ok(Content::Logical(real.to_logical()));
-    }
-    let imaginary = header
-        .has(flag::COMPLEX)
+    let imaginary = (header.has(flag::COMPLEX) && !header.has(flag::LOGICAL))
         .then(|| part("imaginary part"))
         .transpose()?;
-    Ok(Content::Numeric { real, imaginary })
+    let budget = cursor.budget;
+    if header.has(flag::LOGICAL) {
+        budget.spend_on::<bool>("truth values", real.len())?;
+        budget.give_back(real.bytes());
+        return Ok(Content::Logical(real.to_logical()));
+    }
+    Ok(Content::Numeric {
+        real: as_class(real, kind, budget)?,
+        imaginary: imaginary
+            .map(|imaginary| as_class(imaginary, kind, budget))
+            .transpose()?,
+    })
+}
+
+/// Numbers are stored in the narrowest kind that holds them, whatever their class.
+fn as_class(stored: Numbers, kind: NumberKind, budget: &Budget) -> Result<Numbers, IngestError> {
+    if stored.kind() == kind {
+        return Ok(stored);
+    }
+    let (bytes, count) = (stored.bytes(), stored.len());
+    budget.spend(
+        "numbers",
+        (count as u64).saturating_mul(kind.bytes() as u64),
+    )?;
+    budget.give_back(bytes);
+    Ok(stored.into_kind(kind))
 }
 
 fn sparse(cursor: &mut Cursor<'_>, header: &Header) -> Result<Content, IngestError> {
     let offset = cursor.offset();
-    let mut part = |what| -> Result<Vec<f64>, IngestError> {
-        let element = Element::read(cursor, what)?;
-        Ok(element.numbers(what, cursor.order)?.to_f64())
-    };
+    let mut part = |what| Element::read(cursor, what)?.doubles(what, cursor);
     let rows = part("row indices")?;
     let starts = part("column starts")?;
+    let logical = header.has(flag::LOGICAL);
+    let count = starts.last().map_or(0, |&count| count as usize);
+    let mut part = |what| -> Result<Vec<f64>, IngestError> {
+        let element = Element::read(cursor, what)?;
+        // MATLAB marks truth values as doubles and stores one byte of each.
+        if logical && element.data.len() == count {
+            cursor.budget.spend_on::<f64>(what, count)?;
+            return Ok(element.data.iter().map(|&byte| f64::from(byte)).collect());
+        }
+        element.doubles(what, cursor)
+    };
     let real = part("real part")?;
     let imaginary = header
         .has(flag::COMPLEX)
         .then(|| part("imaginary part"))
         .transpose()?;
-    let logical = header.has(flag::LOGICAL);
-    Sparse::from_columns(&header.dims, &rows, &starts, real, imaginary, logical)
+    // Places take a row and a column each; their stored form goes.
+    cursor.budget.spend_on::<[usize; 2]>("places", rows.len())?;
+    let stored = rows.len() + starts.len();
+    let sparse = Sparse::from_columns(&header.dims, &rows, &starts, real, imaginary, logical);
+    cursor.budget.give_back(8 * stored as u64);
+    sparse
         .map(Content::Sparse)
         .ok_or(IngestError::SparseParts { offset })
-}
-
-fn structure(
-    cursor: &mut Cursor<'_>,
-    header: &Header,
-    class_name: Option<String>,
-    depth: usize,
-) -> Result<Content, IngestError> {
-    let element = Element::read(cursor, "field name length")?;
-    let lengths = element.numbers("field name length", cursor.order)?.to_f64();
-    let length = match lengths.as_slice() {
-        // Zero is right where there is no field.
-        &[length] if length >= 0.0 => (length as usize).max(1),
-        _ => {
-            return Err(IngestError::ElementSize {
-                what: "field name length",
-                offset: element.offset,
-                expected: "one number, not negative",
-                found: element.data.len(),
-            });
-        }
-    };
-    let names = Element::read(cursor, "field names")?;
-    let mut fields: Vec<Field> = names
-        .data
-        .chunks_exact(length)
-        .map(|name| {
-            let end = name.iter().position(|&byte| byte == 0).unwrap_or(length);
-            Field {
-                name: String::from_utf8_lossy(&name[..end]).into_owned(),
-                values: Vec::new(),
-            }
-        })
-        .collect();
-    let total = header
-        .count
-        .checked_mul(fields.len())
-        .ok_or(IngestError::TooManyElements {
-            offset: cursor.offset(),
-        })?;
-    let field_count = fields.len();
-    for (index, value) in arrays(cursor, total, depth)?.into_iter().enumerate() {
-        fields[index % field_count].values.push(value);
-    }
-    Ok(Content::Struct { class_name, fields })
-}
-
-/// The next `count` arrays of a cell or struct.
-fn arrays(cursor: &mut Cursor<'_>, count: usize, depth: usize) -> Result<Vec<Value>, IngestError> {
-    // Each takes at least its tag of 8 bytes, so a count that the file cannot hold is refused before memory is asked for.
-    if count > cursor.remaining() / 8 {
-        return Err(IngestError::Truncated {
-            what: "elements of a cell or struct",
-            offset: cursor.offset(),
-            needed: count.saturating_mul(8),
-            available: cursor.remaining(),
-        });
-    }
-    let mut values = Vec::with_capacity(count);
-    for _ in 0..count {
-        let element = Element::read(cursor, "element of a cell or struct")?;
-        if element.kind != ElementType::Array {
-            return Err(IngestError::ElementType {
-                what: "element of a cell or struct",
-                offset: element.offset,
-                expected: "14 (array)",
-                found: element.kind.number(),
-            });
-        }
-        values.push(if element.data.is_empty() {
-            Value::empty()
-        } else {
-            array(&element, cursor.order, depth + 1)?.1
-        });
-    }
-    Ok(values)
 }

@@ -1,10 +1,10 @@
 use crate::IngestError;
 use crate::mat::cursor::{ByteOrder, Cursor};
 use crate::mat::numbers::{NumberKind, Numbers};
-use flate2::{Decompress, FlushDecompress, Status};
+use crate::mat::stream::Stream;
 
-/// MATLAB itself stores no level 5 variable larger than this.
-const LARGEST_VARIABLE_BYTES: usize = 1 << 31;
+/// Type and size before an element's data.
+pub(super) const TAG_BYTES: usize = 8;
 
 /// What an element holds (the format's `mi` types).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -40,6 +40,12 @@ impl ElementType {
         }
     }
 
+    /// What the tag of a top-level element says: its type, and the length of its data.
+    pub(super) fn of_tag(tag: [u8; TAG_BYTES], order: ByteOrder) -> (Self, usize) {
+        let word = |at: usize| order.u32([tag[at], tag[at + 1], tag[at + 2], tag[at + 3]]);
+        (Self::from_number(word(0)), word(4) as usize)
+    }
+
     /// The number in the file.
     pub(super) fn number(self) -> u32 {
         match self {
@@ -63,6 +69,27 @@ impl ElementType {
     }
 }
 
+/// Reads the tag of an array or a compressed element, whose data must all be there; these carry no padding of their own.
+pub(super) fn top_level(
+    stream: &mut Stream<'_>,
+    order: ByteOrder,
+) -> Result<(ElementType, usize), IngestError> {
+    let offset = stream.offset();
+    let mut tag = [0; TAG_BYTES];
+    stream.fill(&mut tag, "element tag")?;
+    let (kind, size) = ElementType::of_tag(tag, order);
+    if !matches!(kind, ElementType::Array | ElementType::Compressed) {
+        return Err(IngestError::ElementType {
+            what: "variable",
+            offset,
+            expected: "14 (array) or 15 (compressed array)",
+            found: kind.number(),
+        });
+    }
+    stream.expect(size, "variable")?;
+    Ok((kind, size))
+}
+
 /// A tagged stretch of bytes.
 pub(super) struct Element<'a> {
     pub(super) kind: ElementType,
@@ -72,24 +99,6 @@ pub(super) struct Element<'a> {
 }
 
 impl<'a> Element<'a> {
-    /// Reads an array or a compressed element; these carry no padding of their own.
-    pub(super) fn read_top_level(cursor: &mut Cursor<'a>) -> Result<Self, IngestError> {
-        let offset = cursor.offset();
-        let kind = ElementType::from_number(cursor.u32("element tag")?);
-        if !matches!(kind, ElementType::Array | ElementType::Compressed) {
-            return Err(IngestError::ElementType {
-                what: "variable",
-                offset,
-                expected: "14 (array) or 15 (compressed array)",
-                found: kind.number(),
-            });
-        }
-        let size = cursor.u32("element size")? as usize;
-        let offset = cursor.offset();
-        let data = cursor.take(size, "variable")?;
-        Ok(Self { kind, data, offset })
-    }
-
     /// Reads any element inside an array, and the padding to the next multiple of 8.
     pub(super) fn read(cursor: &mut Cursor<'a>, what: &'static str) -> Result<Self, IngestError> {
         let tag_offset = cursor.offset();
@@ -123,12 +132,11 @@ impl<'a> Element<'a> {
         })
     }
 
-    /// The numbers inside.
-    pub(super) fn numbers(
+    /// The kind of the numbers inside, and how many there are.
+    pub(super) fn number_kind(
         &self,
         what: &'static str,
-        order: ByteOrder,
-    ) -> Result<Numbers, IngestError> {
+    ) -> Result<(NumberKind, usize), IngestError> {
         let ElementType::Number(kind) = self.kind else {
             return Err(IngestError::ElementType {
                 what,
@@ -145,7 +153,30 @@ impl<'a> Element<'a> {
                 found: self.data.len(),
             });
         }
-        Ok(Numbers::decode(kind, self.data, order))
+        Ok((kind, self.data.len() / kind.bytes()))
+    }
+
+    /// The numbers inside, taken from the budget.
+    pub(super) fn numbers(
+        &self,
+        what: &'static str,
+        within: &Cursor<'_>,
+    ) -> Result<Numbers, IngestError> {
+        let (kind, _) = self.number_kind(what)?;
+        within.budget.spend(what, self.data.len() as u64)?;
+        Ok(Numbers::decode(kind, self.data, within.order))
+    }
+
+    /// The numbers inside as doubles, taken from the budget.
+    pub(super) fn doubles(
+        &self,
+        what: &'static str,
+        within: &Cursor<'_>,
+    ) -> Result<Vec<f64>, IngestError> {
+        let numbers = self.numbers(what, within)?;
+        within.budget.spend_on::<f64>(what, numbers.len())?;
+        within.budget.give_back(self.data.len() as u64);
+        Ok(numbers.into_f64())
     }
 
     /// A name: 8-bit text, ended by its length or a zero byte. Some writers mark it as UTF-8.
@@ -174,49 +205,5 @@ impl<'a> Element<'a> {
             });
         }
         Ok(name.iter().map(|&byte| char::from(byte)).collect())
-    }
-}
-
-/// Inflates a compressed element. Memory grows with what really comes out, and never beyond the size that the first
-/// inflated tag announces.
-pub(super) fn inflate(deflated: &[u8], order: ByteOrder) -> Result<Vec<u8>, IngestError> {
-    let mut decompress = Decompress::new(true);
-    let mut inflated = Vec::new();
-    let mut announced = 8;
-    loop {
-        if inflated.len() == inflated.capacity() {
-            inflated.reserve(inflated.len().clamp(4096, 1 << 24));
-        }
-        let consumed = usize::try_from(decompress.total_in()).expect("no more than the input");
-        let before = (consumed, inflated.len());
-        let status = decompress
-            .decompress_vec(&deflated[consumed..], &mut inflated, FlushDecompress::None)
-            .map_err(|_| IngestError::Inflate {
-                inflated: before.1,
-                reason: "the compressed data or their checksum are damaged",
-            })?;
-        if inflated.len() >= 8 {
-            let mut tag = Cursor::new(&inflated, 0, order);
-            tag.u32("element tag")?;
-            announced = 8 + tag.u32("element size")? as usize;
-        }
-        if inflated.len() > announced || announced > LARGEST_VARIABLE_BYTES {
-            return Err(IngestError::Inflate {
-                inflated: inflated.len(),
-                reason: "more comes out than the array inside announces, or than any array may hold",
-            });
-        }
-        let consumed = usize::try_from(decompress.total_in()).expect("no more than the input");
-        let full = inflated.len() == inflated.capacity();
-        match status {
-            Status::StreamEnd => return Ok(inflated),
-            _ if !full && before == (consumed, inflated.len()) => {
-                return Err(IngestError::Inflate {
-                    inflated: inflated.len(),
-                    reason: "the compressed data end too early",
-                });
-            }
-            _ => {}
-        }
     }
 }

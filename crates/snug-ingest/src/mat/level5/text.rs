@@ -1,6 +1,6 @@
 use super::element::{Element, ElementType};
 use crate::IngestError;
-use crate::mat::cursor::ByteOrder;
+use crate::mat::cursor::Cursor;
 use crate::mat::numbers::{NumberKind, Numbers};
 
 /// The characters of a text element of an array with `count` elements.
@@ -13,9 +13,13 @@ use crate::mat::numbers::{NumberKind, Numbers};
 pub(super) fn characters(
     element: &Element<'_>,
     count: usize,
-    order: ByteOrder,
+    within: &Cursor<'_>,
 ) -> Result<Vec<char>, IngestError> {
-    let characters: Vec<char> = match element.kind {
+    let order = within.order;
+    // A damaged byte becomes a character of three bytes on the way, and lists grow by doubling.
+    let room = (element.data.len() as u64).saturating_mul(12);
+    within.budget.spend("characters", room)?;
+    let mut characters: Vec<char> = match element.kind {
         ElementType::Utf8 => String::from_utf8_lossy(element.data).chars().collect(),
         ElementType::Number(NumberKind::I8 | NumberKind::U8) => {
             element.data.iter().map(|&byte| char::from(byte)).collect()
@@ -46,6 +50,11 @@ pub(super) fn characters(
             });
         }
     };
+    characters.shrink_to_fit();
+    within.budget.give_back(room);
+    within
+        .budget
+        .spend_on::<char>("characters", characters.len())?;
     let units: usize = characters
         .iter()
         .map(|character| character.len_utf16())

@@ -1,4 +1,8 @@
+//! What a file may make its reader do.
+
 use crate::IngestError;
+use crate::excerpt::excerpt;
+use crate::memory::Budget;
 use hdf5_pure::{Dataset, Layout};
 
 /// Deflate cannot make less than one byte of this many.
@@ -7,20 +11,25 @@ const LARGEST_COMPRESSION: u64 = 1032;
 /// References to one and the same empty array compress to almost nothing; this many need no bytes in the file.
 const FREE_OBJECTS: u64 = 1 << 18;
 
+/// What a value takes beside its elements, with its name and shape \[bytes\].
+const VALUE_BYTES: u64 = 256;
+
 /// Even an empty file may ask for this much.
 const SMALLEST_BYTES: u64 = 1 << 20;
 
 /// How much a file may still make its reader do: so many objects, so many bytes of data.
-pub(super) struct Budget {
+pub(super) struct Effort<'a> {
+    budget: &'a Budget,
     file_bytes: u64,
     objects: u64,
     bytes: u64,
 }
 
-impl Budget {
-    pub(super) fn for_file(bytes: usize) -> Self {
+impl<'a> Effort<'a> {
+    pub(super) fn for_file(bytes: usize, budget: &'a Budget) -> Self {
         let file_bytes = bytes as u64;
         Self {
+            budget,
             file_bytes,
             // Every visit follows a link or a reference of 8 bytes that stands in the file, unless it is compressed.
             objects: file_bytes / 8 + FREE_OBJECTS,
@@ -31,6 +40,7 @@ impl Budget {
     }
 
     pub(super) fn count_object(&mut self, path: &str) -> Result<(), IngestError> {
+        self.budget.spend("HDF5 objects", VALUE_BYTES)?;
         match self.objects.checked_sub(1) {
             Some(left) => {
                 self.objects = left;
@@ -40,8 +50,9 @@ impl Budget {
         }
     }
 
-    /// Takes the dataset's whole data from the budget before they are read.
-    pub(super) fn spend(&mut self, path: &str, dataset: &Dataset) -> Result<(), IngestError> {
+    /// Takes the dataset's whole data from the budget before they are read, decoded and as they are stored; the bytes
+    /// of the stored form, which go when it is decoded.
+    pub(super) fn spend(&mut self, path: &str, dataset: &Dataset) -> Result<u64, IngestError> {
         let failed = |error| super::failed(path, error);
         let element = dataset.element_size().map_err(failed)?;
         let claimed = bytes_of(&dataset.shape().map_err(failed)?, element);
@@ -63,7 +74,10 @@ impl Budget {
             return Err(too_large(path, claimed.max(largest_piece), held));
         }
         self.bytes -= claimed;
-        Ok(())
+        let on_the_way = claimed.saturating_add(largest_piece);
+        self.budget.spend("HDF5 datasets", claimed)?;
+        self.budget.spend("HDF5 datasets", on_the_way)?;
+        Ok(on_the_way)
     }
 }
 
@@ -75,7 +89,7 @@ fn bytes_of(shape: &[u64], element: u64) -> u64 {
 
 fn too_large(path: &str, claimed: u64, held: u64) -> IngestError {
     IngestError::Hdf5TooLarge {
-        object: path.chars().take(80).collect(),
+        object: excerpt(path),
         claimed_bytes: claimed,
         held_bytes: held,
     }
