@@ -8,6 +8,7 @@ mod layout;
 mod measurement;
 pub mod read;
 mod recorder;
+mod recover;
 mod schema;
 mod settings;
 mod shape;
@@ -21,6 +22,7 @@ mod wire;
 pub use error::RecordError;
 pub use layout::layout;
 pub use recorder::Recorder;
+pub use recover::{LeftOut, Recovery, recover, recover_within};
 pub use settings::{Compression, RecordSettings, Samples};
 pub use window::Window;
 

@@ -179,6 +179,19 @@ pub(crate) fn blocks(recording: &Recording) -> impl Iterator<Item = Vec<u8>> + '
         })
 }
 
+/// First sample of a block and one past its last; `None` when it is malformed.
+pub(crate) fn block_samples(message: &[u8]) -> Option<(u64, u64)> {
+    let (mut first, mut longest) = (0u64, 0);
+    for field in Fields::of(message) {
+        match field? {
+            (2, value) => first = value.varint()?,
+            (3..=7, value) => longest = longest.max(value.bytes()?.len() / 8),
+            _ => {}
+        }
+    }
+    Some((first, first.checked_add(longest as u64)?))
+}
+
 /// A measurement file as it is put together again.
 pub(crate) struct Assembly {
     header: FileHeader,

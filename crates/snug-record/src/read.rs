@@ -5,21 +5,18 @@
 //!
 //! No length in a file is believed: memory follows the bytes that are there, and ends at a limit that callers can set.
 
-mod budget;
+pub(crate) mod budget;
 mod collector;
-#[allow(dead_code)]
-mod content;
+pub(crate) mod content;
 mod decoded;
-#[allow(dead_code)]
-mod fault;
+pub(crate) mod fault;
 mod json;
 mod numeric;
 mod protobuf;
 mod recordings;
-#[allow(dead_code)]
-mod records;
+pub(crate) mod records;
 mod ros;
-mod stream;
+pub(crate) mod stream;
 mod unpack;
 
 pub use numeric::{

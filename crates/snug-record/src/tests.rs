@@ -4,6 +4,7 @@
 mod diagnosis;
 mod interruption;
 mod messages;
+mod recovery;
 mod round_trip;
 
 use crate::{RecordSettings, Recorder};

@@ -1,4 +1,4 @@
-//! Names of the topics, and of the metadata record with the study.
+//! Names of the topics, and of the metadata records.
 
 /// Where each tightening's samples come from.
 pub const WINDOW: &str = "/tightening/window";
@@ -26,3 +26,5 @@ pub const MEASUREMENT_FILE: &str = "/measurement/file";
 pub const MEASUREMENT_SAMPLES: &str = "/measurement/samples";
 /// The metadata record that holds the study as run.
 pub const STUDY: &str = "snug.study";
+/// The metadata record of a recovered recording: what was saved and what is missing.
+pub const RECOVERED: &str = "snug.recovered";

@@ -79,11 +79,6 @@ impl<'a> Entries<'a> {
             .last()
             .map(|(_, text)| text)
     }
-
-    /// The bytes as they stand in the file; equal bytes are equal entries.
-    pub(crate) fn bytes(self) -> &'a [u8] {
-        self.0
-    }
 }
 
 fn take_text<'a>(bytes: &mut &'a [u8]) -> Option<&'a str> {

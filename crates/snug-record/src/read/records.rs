@@ -398,7 +398,7 @@ fn frame(bytes: &mut &[u8]) -> Option<(u8, u64)> {
 }
 
 /// One record with its frame; leaves the bytes alone when it is not whole.
-fn framed<'a>(bytes: &mut &'a [u8]) -> Option<(u8, &'a [u8])> {
+pub(crate) fn framed<'a>(bytes: &mut &'a [u8]) -> Option<(u8, &'a [u8])> {
     let mut rest = *bytes;
     let (opcode, length) = frame(&mut rest)?;
     let body = take(&mut rest, usize::try_from(length).ok()?)?;

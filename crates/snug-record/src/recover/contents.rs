@@ -1,0 +1,136 @@
+//! Which tightenings and measurement files are whole, as the messages pass by.
+
+use super::Recovery;
+use crate::measurement::{self, FileHeader};
+use crate::{Window, signals, topic};
+use snug_campaign::TighteningId;
+use std::collections::HashMap;
+
+/// Longest message about a window or file that is looked into \[bytes\].
+const LONGEST_MESSAGE_BYTES: usize = 16 << 20;
+/// Incomplete tightenings and files that are listed.
+const MOST_LISTED: usize = 100;
+
+#[derive(Clone, Copy)]
+enum Topic {
+    Window,
+    Signals,
+    File,
+    Samples,
+}
+
+/// A tightening or file whose samples are coming.
+struct Open<T> {
+    name: T,
+    tightening: u64,
+    wanted: u64,
+    found: u64,
+}
+
+#[derive(Default)]
+pub(super) struct Contents {
+    topics: HashMap<u16, Topic>,
+    window: Option<Open<TighteningId>>,
+    file: Option<Open<String>>,
+    tightenings: Gathered<TighteningId>,
+    files: Gathered<String>,
+}
+
+struct Gathered<T> {
+    whole: u64,
+    last: Option<T>,
+    incomplete: Vec<T>,
+}
+
+impl<T> Default for Gathered<T> {
+    fn default() -> Self {
+        Self {
+            whole: 0,
+            last: None,
+            incomplete: Vec::new(),
+        }
+    }
+}
+
+impl<T> Gathered<T> {
+    fn close(&mut self, open: Option<Open<T>>) {
+        let Some(open) = open else { return };
+        if open.found >= open.wanted {
+            self.whole += 1;
+            self.last = Some(open.name);
+        } else if self.incomplete.len() < MOST_LISTED {
+            self.incomplete.push(open.name);
+        }
+    }
+}
+
+impl Contents {
+    pub(super) fn channel(&mut self, id: u16, name: &str, schema: &str) {
+        let found = match (name, schema) {
+            (topic::WINDOW, "snug.Window") => Topic::Window,
+            (topic::SIGNALS, "snug.Signals") => Topic::Signals,
+            (topic::MEASUREMENT_FILE, "snug.MeasurementFile") => Topic::File,
+            (topic::MEASUREMENT_SAMPLES, "snug.MeasurementSamples") => Topic::Samples,
+            _ => {
+                self.topics.remove(&id);
+                return;
+            }
+        };
+        self.topics.insert(id, found);
+    }
+
+    /// Looks at a message; what cannot be understood does not count.
+    pub(super) fn message(&mut self, id: u16, data: &[u8]) -> Option<()> {
+        match self.topics.get(&id)? {
+            Topic::Window | Topic::File if data.len() > LONGEST_MESSAGE_BYTES => {}
+            Topic::Window => {
+                let window: Window = serde_json::from_slice(data).ok()?;
+                let open = Open {
+                    wanted: window.stored_samples() as u64,
+                    name: TighteningId {
+                        file: window.file,
+                        number: window.number,
+                    },
+                    tightening: window.tightening,
+                    found: 0,
+                };
+                self.tightenings.close(self.window.replace(open));
+            }
+            Topic::Signals => {
+                let window = self.window.as_mut()?;
+                let sample = signals::decode(data)?;
+                window.found += u64::from(sample.tightening == window.tightening);
+            }
+            Topic::File => {
+                let header: FileHeader = serde_json::from_slice(data).ok()?;
+                let open = Open {
+                    wanted: header.samples as u64,
+                    name: header.file,
+                    tightening: 0,
+                    found: 0,
+                };
+                self.files.close(self.file.replace(open));
+            }
+            Topic::Samples => {
+                let file = self.file.as_mut()?;
+                let (first, end) = measurement::block_samples(data)?;
+                // A block that does not follow the one before leaves a gap that no later one closes.
+                if first == file.found {
+                    file.found = end;
+                }
+            }
+        }
+        Some(())
+    }
+
+    pub(super) fn tell(mut self, recovery: &mut Recovery) {
+        self.tightenings.close(self.window);
+        self.files.close(self.file);
+        recovery.tightenings = self.tightenings.whole;
+        recovery.last_tightening = self.tightenings.last;
+        recovery.incomplete_tightenings = self.tightenings.incomplete;
+        recovery.files = self.files.whole;
+        recovery.last_file = self.files.last;
+        recovery.incomplete_files = self.files.incomplete;
+    }
+}

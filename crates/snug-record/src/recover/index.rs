@@ -1,0 +1,81 @@
+//! Whether a file's own index is there and right.
+
+use super::Recovery;
+use crate::read::records::Place;
+use crate::wire::{take, take_fixed16, take_fixed32, take_fixed64};
+use mcap::records::op;
+
+/// Footer with its frame, and magic number.
+const END_BYTES: usize = 9 + 20 + 8;
+
+/// Counts what the summary at the end of a file states.
+#[derive(Default)]
+pub(super) struct Index {
+    /// The record was met with which the data end.
+    pub(super) data_end: bool,
+    data_checksum: u32,
+    /// Messages, attachments, metadata, chunks.
+    statistics: Option<[u64; 4]>,
+    chunks: u64,
+    attachments: u64,
+    metadata: u64,
+}
+
+impl Index {
+    pub(super) fn count(&mut self, opcode: u8, mut body: &[u8], place: Place) {
+        if place != Place::File {
+            return;
+        }
+        match opcode {
+            op::DATA_END => {
+                self.data_end = true;
+                self.data_checksum = take_fixed32(&mut body).unwrap_or(0);
+            }
+            op::STATISTICS => self.statistics = statistics(&mut body),
+            op::CHUNK_INDEX => self.chunks += 1,
+            op::ATTACHMENT_INDEX => self.attachments += 1,
+            op::METADATA_INDEX => self.metadata += 1,
+            _ => {}
+        }
+    }
+
+    /// Whether the index lists what was found, and the file's checksums are right.
+    pub(super) fn is_right(&self, file: &[u8], found: &Recovery) -> bool {
+        let Some([messages, attachments, metadata, chunks]) = self.statistics else {
+            return false;
+        };
+        let counted = messages == found.messages
+            && (attachments, metadata) == (found.attachments, found.metadata)
+            && (chunks, attachments, metadata) == (self.chunks, self.attachments, self.metadata);
+        counted && self.checksums(file).unwrap_or(false)
+    }
+
+    fn checksums(&self, file: &[u8]) -> Option<bool> {
+        let end = file.len().checked_sub(END_BYTES)?;
+        let mut footer = &file[end..];
+        let opcode = take(&mut footer, 1)?[0];
+        let length = take_fixed64(&mut footer)?;
+        let summary_start = usize::try_from(take_fixed64(&mut footer)?).ok()?;
+        let _offsets_start = take_fixed64(&mut footer)?;
+        let checksum = take_fixed32(&mut footer)?;
+        let framed = (opcode, length) == (op::FOOTER, 20) && footer == mcap::MAGIC;
+        // The checksum covers the footer up to itself.
+        let summary = file.get(summary_start..end + 9 + 16)?;
+        let data = file.get(..summary_start.checked_sub(9 + 4)?)?;
+        Some(
+            framed
+                && summary_start > 0
+                && (checksum == 0 || checksum == crc32fast::hash(summary))
+                && (self.data_checksum == 0 || self.data_checksum == crc32fast::hash(data)),
+        )
+    }
+}
+
+fn statistics(body: &mut &[u8]) -> Option<[u64; 4]> {
+    let messages = take_fixed64(body)?;
+    let (_schemas, _channels) = (take_fixed16(body)?, take_fixed32(body)?);
+    let attachments = take_fixed32(body)?.into();
+    let metadata = take_fixed32(body)?.into();
+    let chunks = take_fixed32(body)?.into();
+    Some([messages, attachments, metadata, chunks])
+}
