@@ -27,8 +27,8 @@ use std::io::Write;
 ///
 /// Of a chunk that was cut the beginning is kept as far as whole messages come out of it; its checksum was lost with its
 /// end, so [`Recovery::torn_messages`] counts them apart. A whole chunk whose checksum is wrong is left out, because no
-/// value in it can be trusted, and listed in [`Recovery::left_out`]; the reading goes on behind it. So is an attachment
-/// with a wrong checksum.
+/// value in it can be trusted, and listed in [`Recovery::left_out`]; the reading goes on behind it, with the channels
+/// that the file's summary repeats. So is an attachment with a wrong checksum.
 ///
 /// Unless nothing was missing, the metadata record `snug.recovered` says what happened. Writing to [`std::io::sink`] only
 /// looks. Memory: [`DEFAULT_LIMIT_BYTES`].
@@ -95,8 +95,8 @@ pub fn recover_within<W: Write>(
     Ok(recovery)
 }
 
-struct Rescue<W: Write> {
-    rewriter: Rewriter<W>,
+struct Rescue<'a, W: Write> {
+    rewriter: Rewriter<'a, W>,
     contents: Contents,
     index: Index,
     recovery: Recovery,
@@ -104,7 +104,7 @@ struct Rescue<W: Write> {
     failed: Option<RecordError>,
 }
 
-impl<W: Write> Rescue<W> {
+impl<W: Write> Rescue<'_, W> {
     fn found(&mut self, found: Found<'_>) -> Result<(), Stop> {
         match found {
             Found::Record {

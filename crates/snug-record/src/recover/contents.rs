@@ -6,8 +6,9 @@ use crate::{Window, signals, topic};
 use snug_campaign::TighteningId;
 use std::collections::HashMap;
 
-/// Longest message about a window or file that is looked into \[bytes\].
-const LONGEST_MESSAGE_BYTES: usize = 16 << 20;
+/// Longest messages about a window and a file that are looked into \[bytes\].
+const LONGEST_WINDOW_BYTES: usize = 1 << 20;
+const LONGEST_FILE_BYTES: usize = 4 << 20;
 /// Incomplete tightenings and files that are listed.
 const MOST_LISTED: usize = 100;
 
@@ -82,7 +83,8 @@ impl Contents {
     /// Looks at a message; what cannot be understood does not count.
     pub(super) fn message(&mut self, id: u16, data: &[u8]) -> Option<()> {
         match self.topics.get(&id)? {
-            Topic::Window | Topic::File if data.len() > LONGEST_MESSAGE_BYTES => {}
+            Topic::Window if data.len() > LONGEST_WINDOW_BYTES => {}
+            Topic::File if data.len() > LONGEST_FILE_BYTES => {}
             Topic::Window => {
                 let window: Window = serde_json::from_slice(data).ok()?;
                 let open = Open {

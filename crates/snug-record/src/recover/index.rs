@@ -51,24 +51,29 @@ impl Index {
     }
 
     fn checksums(&self, file: &[u8]) -> Option<bool> {
-        let end = file.len().checked_sub(END_BYTES)?;
-        let mut footer = &file[end..];
-        let opcode = take(&mut footer, 1)?[0];
-        let length = take_fixed64(&mut footer)?;
-        let summary_start = usize::try_from(take_fixed64(&mut footer)?).ok()?;
-        let _offsets_start = take_fixed64(&mut footer)?;
-        let checksum = take_fixed32(&mut footer)?;
-        let framed = (opcode, length) == (op::FOOTER, 20) && footer == mcap::MAGIC;
-        // The checksum covers the footer up to itself.
-        let summary = file.get(summary_start..end + 9 + 16)?;
-        let data = file.get(..summary_start.checked_sub(9 + 4)?)?;
-        Some(
-            framed
-                && summary_start > 0
-                && (checksum == 0 || checksum == crc32fast::hash(summary))
-                && (self.data_checksum == 0 || self.data_checksum == crc32fast::hash(data)),
-        )
+        let summary = summary(file)?;
+        let data_bytes = (file.len() - END_BYTES - summary.len()).checked_sub(9 + 4)?;
+        let found = crc32fast::hash(&file[..data_bytes]);
+        Some(self.data_checksum == 0 || self.data_checksum == found)
     }
+}
+
+/// The records between the data and the footer, when the footer and their checksum are right.
+pub(super) fn summary(file: &[u8]) -> Option<&[u8]> {
+    let end = file.len().checked_sub(END_BYTES)?;
+    let mut footer = &file[end..];
+    let opcode = take(&mut footer, 1)?[0];
+    let length = take_fixed64(&mut footer)?;
+    let start = usize::try_from(take_fixed64(&mut footer)?).ok()?;
+    let _offsets_start = take_fixed64(&mut footer)?;
+    let checksum = take_fixed32(&mut footer)?;
+    // The checksum covers the footer up to itself.
+    let checked = file.get(start..end + 9 + 16)?;
+    let right = (opcode, length) == (op::FOOTER, 20)
+        && footer == mcap::MAGIC
+        && start > 0
+        && (checksum == 0 || checksum == crc32fast::hash(checked));
+    right.then(|| file.get(start..end)).flatten()
 }
 
 fn statistics(body: &mut &[u8]) -> Option<[u64; 4]> {

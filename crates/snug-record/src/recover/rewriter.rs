@@ -1,6 +1,7 @@
 //! The records of one file into another that has an index.
 
-use super::{Recovery, contents::Contents};
+use super::contents::Contents;
+use super::{Recovery, index};
 use crate::RecordError;
 use crate::read::budget::{Budget, Exhausted};
 use crate::read::content::{Attachment, Channel, Header, Message, Metadata, Schema};
@@ -94,10 +95,42 @@ impl Numbers {
     }
 }
 
-pub(super) struct Rewriter<W: Write> {
+/// What the summary at the end of the file repeats, for messages whose own declarations were damaged.
+#[derive(Default)]
+struct Repeated<'a> {
+    schemas: HashMap<u16, &'a [u8]>,
+    channels: HashMap<u16, (u16, &'a [u8])>,
+}
+
+impl<'a> Repeated<'a> {
+    fn of(file: &'a [u8]) -> Self {
+        let mut repeated = Self::default();
+        let mut summary = index::summary(file).unwrap_or_default();
+        while let Some((opcode, body)) = framed(&mut summary) {
+            match opcode {
+                op::SCHEMA => {
+                    if let Ok(schema) = Schema::read(body) {
+                        repeated.schemas.insert(schema.id, body);
+                    }
+                }
+                op::CHANNEL => {
+                    if let Ok(channel) = Channel::read(body) {
+                        let declared = (channel.schema_id, body);
+                        repeated.channels.insert(channel.id, declared);
+                    }
+                }
+                _ => {}
+            }
+        }
+        repeated
+    }
+}
+
+pub(super) struct Rewriter<'a, W: Write> {
     writer: Writer<NoSeek<UntilFailure<W>>>,
     budget: Budget,
     library: String,
+    repeated: Repeated<'a>,
     schemas: HashMap<u16, Declared>,
     channels: HashMap<u16, Declared>,
     schema_numbers: Numbers,
@@ -106,9 +139,9 @@ pub(super) struct Rewriter<W: Write> {
     bytes: u64,
 }
 
-impl<W: Write> Rewriter<W> {
+impl<'a, W: Write> Rewriter<'a, W> {
     /// Begins the new file with the profile of the old.
-    pub(super) fn new(file: &[u8], to: W, budget: Budget) -> Result<Self, RecordError> {
+    pub(super) fn new(file: &'a [u8], to: W, budget: Budget) -> Result<Self, RecordError> {
         let header = match framed(&mut &file[mcap::MAGIC.len()..]) {
             Some((op::HEADER, body)) => Header::read(body).unwrap_or_default(),
             _ => Header::default(),
@@ -130,6 +163,7 @@ impl<W: Write> Rewriter<W> {
             writer,
             budget,
             library: header.library.to_owned(),
+            repeated: Repeated::of(file),
             schemas: HashMap::new(),
             channels: HashMap::new(),
             schema_numbers: Numbers::new(),
@@ -210,8 +244,24 @@ impl<W: Write> Rewriter<W> {
         Ok(())
     }
 
+    /// Takes a channel's declaration from the summary, when it is there.
+    fn declare_again(&mut self, id: u16, contents: &mut Contents) -> Written {
+        let Some(&(schema_id, channel)) = self.repeated.channels.get(&id) else {
+            return Ok(());
+        };
+        if !self.schemas.contains_key(&schema_id)
+            && let Some(schema) = self.repeated.schemas.get(&schema_id)
+        {
+            self.schema(schema)?;
+        }
+        self.channel(channel, contents)
+    }
+
     pub(super) fn message(&mut self, body: &[u8], contents: &mut Contents) -> Written {
         let message = Message::read(body)?;
+        if !self.channels.contains_key(&message.channel_id) {
+            self.declare_again(message.channel_id, contents)?;
+        }
         let Some(channel) = self.channels.get_mut(&message.channel_id) else {
             return Err(Unwritten::LeftOut(format!(
                 "messages of channel {}, which is not declared",

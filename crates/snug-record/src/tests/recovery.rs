@@ -239,6 +239,12 @@ fn a_damaged_chunk_is_left_out_and_named() {
     assert!(found.len() + 40 > original.len() && found.len() < original.len());
     assert!(found.iter().all(|message| original.contains(message)));
     assert_eq!(found.last(), original.last());
+    // The first chunk declares only what the others use, and the summary repeats it.
+    bytes[place + 2000] ^= 1;
+    bytes[index[0].chunk_start_offset as usize + 2000] ^= 1;
+    let (recovery, out) = recovered(&bytes);
+    assert_eq!(recovery.left_out.len(), 1);
+    assert_eq!(messages(&out), original);
     // A wrong bit between the chunks is seen by the checksum of all data.
     let mut bytes = record(small_chunks());
     bytes[8 + 9 + 6] ^= 1;

@@ -6,9 +6,10 @@ use mcap::records::op;
 
 const LIMIT_BYTES: u64 = 32 << 20;
 
-/// Reads with both readers; nothing may panic, and what is kept stays below the limit.
+/// Reads with both readers and recovers; nothing may panic, and what is kept stays below the limit.
 fn read(bytes: &[u8]) -> NumericChannels {
     recordings_within(bytes, LIMIT_BYTES).unwrap();
+    crate::recover_within(bytes, std::io::sink(), LIMIT_BYTES).unwrap();
     let channels = numeric_channels_within(bytes, LIMIT_BYTES).unwrap();
     let kept: usize = channels.channels.iter().map(|c| c.values.len() * 16).sum();
     assert!(kept as u64 <= LIMIT_BYTES, "{kept} bytes kept");
