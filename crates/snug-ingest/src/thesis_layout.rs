@@ -274,7 +274,7 @@ impl ThesisLayout {
         };
         // A damaged table is not one without events: the tightenings in it would be lost silently.
         let table = table.map_err(|reason| damaged("events", name, reason))?;
-        budget.spend_on::<[u64; 16]>("events", events::rows(&table))?;
+        budget.spend_on::<[u64; 8]>("events", events::rows(&table))?;
         let times = events::times(&table).ok_or_else(|| IngestError::EventTable {
             variable: name.to_owned(),
             found: table.describe(),
@@ -306,10 +306,10 @@ impl Channels {
                 ),
             );
         }
-        self.acceleration.truncate(shortest);
-        self.torque.truncate(shortest);
-        if let Some(force) = &mut self.force {
-            force.truncate(shortest);
+        let others = [&mut self.acceleration, &mut self.torque];
+        for channel in others.into_iter().chain(&mut self.force) {
+            channel.truncate(shortest);
+            channel.shrink_to_fit();
         }
         shortest
     }

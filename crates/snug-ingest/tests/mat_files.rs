@@ -16,7 +16,7 @@ fn table(name: &str) -> Json {
 
 #[test]
 fn files_written_by_scipy_and_h5py() {
-    check_all(&own_data().join("mat"), &table("written_expected.json"), 4);
+    check_all(&own_data().join("mat"), &table("written_expected.json"), 6);
 }
 
 #[test]
@@ -155,6 +155,8 @@ fn check(value: &Value, node: &Json, place: &str) {
                     "{place}"
                 );
             }
+            let logical = node.get("logical").and_then(Json::as_bool);
+            assert_eq!(sparse.logical, logical.unwrap_or(false), "{place}: class");
             let rows: Vec<f64> = sparse.rows.iter().take(50).map(|&row| row as f64).collect();
             assert_eq!(rows, numbers(&node["rows"]), "{place}: rows");
             assert_close(&sparse.real, &numbers(&node["first"]), place);

@@ -1,6 +1,8 @@
 #![allow(clippy::unwrap_used)]
 
 use super::*;
+use snug_campaign::Severity;
+use snug_files::fault::{Fault, FaultyDisk, Lasting};
 use std::fs;
 
 #[test]
@@ -44,6 +46,128 @@ fn folders_are_listed_by_name_and_other_data_is_named() {
     fs::remove_file(folder.path().join("b.mat")).unwrap();
     let listing = list(&Source::default(), folder.path()).unwrap();
     assert_eq!(listing.files, [folder.path().join("c.mcap")]);
+}
+
+/// Severity, code and what the message tells, by name.
+fn said(listing: &Listing) -> Vec<(&str, Severity, &str, &str)> {
+    listing
+        .findings
+        .iter()
+        .map(|f| {
+            (
+                f.file.as_str(),
+                f.severity,
+                f.code.as_str(),
+                f.message.as_str(),
+            )
+        })
+        .collect()
+}
+
+#[cfg(unix)]
+#[test]
+fn every_entry_is_read_or_said() {
+    use std::os::unix::fs::symlink;
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    fs::write(at("b.mat"), "x").unwrap();
+    fs::create_dir(at("folder")).unwrap();
+    fs::create_dir(at("folder.mat")).unwrap();
+    symlink("gone.mat", at("dangling.mat")).unwrap();
+    symlink("gone", at("dangling")).unwrap();
+    symlink("loop.mat", at("loop.mat")).unwrap();
+    symlink(at("b.mat"), at("c.mat")).unwrap();
+    fs::hard_link(at("b.mat"), at("d.mat")).unwrap();
+    let socket = std::os::unix::net::UnixListener::bind(at("socket.mat")).unwrap();
+    let pipe = std::process::Command::new("mkfifo")
+        .arg(at("pipe.mat"))
+        .status();
+    assert!(pipe.unwrap().success());
+    let listing = list(&Source::default(), folder.path()).unwrap();
+    drop(socket);
+    assert_eq!(listing.files, [at("b.mat")]);
+    let found = said(&listing);
+    let short: Vec<_> = found
+        .iter()
+        .map(|&(file, severity, code, _)| (file, severity, code))
+        .collect();
+    use Severity::{LeftOut, Note};
+    assert_eq!(
+        short,
+        [
+            ("c.mat", Note, "same_file"),
+            ("d.mat", Note, "same_file"),
+            ("dangling", Note, "dangling_link"),
+            ("dangling.mat", LeftOut, "dangling_link"),
+            ("folder", Note, "not_read"),
+            ("folder.mat", LeftOut, "not_a_file"),
+            ("loop.mat", LeftOut, "link_loop"),
+            ("pipe.mat", LeftOut, "not_a_file"),
+            ("socket.mat", LeftOut, "not_a_file"),
+        ]
+    );
+    assert!(found[0].3.contains("same file as b.mat"), "{}", found[0].3);
+    assert!(found[7].3.contains("a pipe"), "{}", found[7].3);
+
+    for (name, code) in [
+        ("dangling.mat", "dangling_link"),
+        ("loop.mat", "link_loop"),
+        ("pipe.mat", "not_a_file"),
+    ] {
+        assert_eq!(
+            list(&Source::default(), &at(name)).unwrap_err().code(),
+            code
+        );
+        let named = Source {
+            files: vec!["b.mat".to_owned(), name.to_owned()],
+            ..Source::default()
+        };
+        assert_eq!(list(&named, folder.path()).unwrap_err().code(), code);
+    }
+    let twice = Source {
+        files: vec!["c.mat".to_owned(), "b.mat".to_owned()],
+        ..Source::default()
+    };
+    let listing = list(&twice, folder.path()).unwrap();
+    assert_eq!(listing.files, [at("c.mat")]);
+    assert_eq!(said(&listing)[0].0, "b.mat");
+}
+
+#[test]
+fn a_disk_that_fails_costs_what_it_fails_at() {
+    let folder = tempfile::tempdir().unwrap();
+    for name in ["a.csv", "b.csv", "c.csv"] {
+        fs::write(folder.path().join(name), "V1,x\n1,2\n").unwrap();
+    }
+    let source = Source {
+        files: Vec::new(),
+        ..ron::from_str(STUDY).unwrap()
+    };
+    let counting = FaultyDisk::counting();
+    list_on(&counting, &source, folder.path()).unwrap();
+    let calls = counting.calls();
+    for (call, fault) in (0..calls).flat_map(|call| Fault::ALL.map(|fault| (call, fault))) {
+        let disk = FaultyDisk::new(call, fault, Lasting::Once);
+        match list_on(&disk, &source, folder.path()) {
+            Ok(listing) => {
+                let accounted = listing.files.len() + listing.findings.len();
+                assert_eq!(accounted, 3, "{call} {fault:?}");
+            }
+            Err(error) => assert!(call < 2, "{call} {fault:?}: {error}"),
+        }
+    }
+    let file = folder.path().join("a.csv");
+    let counting = FaultyDisk::counting();
+    let whole = read_on(&counting, &source, &file, 0.33).unwrap();
+    for (call, fault) in
+        (0..counting.calls()).flat_map(|call| Fault::ALL.map(|fault| (call, fault)))
+    {
+        let disk = FaultyDisk::new(call, fault, Lasting::Once);
+        match read_on(&disk, &source, &file, 0.33) {
+            Ok(read) => assert_eq!(read, whole, "{call} {fault:?}"),
+            Err(error) => assert_eq!(error.code(), "unreadable_file", "{call} {fault:?}"),
+        }
+    }
 }
 
 #[test]
