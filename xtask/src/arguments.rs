@@ -109,6 +109,12 @@ pub enum Verb {
         /// Only tests whose name contains this.
         filter: Option<String>,
     },
+    /// Licences, advisories, unused and duplicate dependencies of the workspace; needs no network.
+    Tidy {
+        /// Also what fails nothing: accepted advisories, duplicates and who needs them.
+        #[arg(long)]
+        list: bool,
+    },
     /// How fast Snug is beside bare loops and other programs, in one table.
     Bench {
         /// Sections: base, effects, ranking, improve, throughput, peers; default all.

@@ -12,6 +12,7 @@ mod diagnosis_summary;
 mod logging;
 mod progress;
 mod summary;
+mod tidy;
 mod verbs;
 mod workspace;
 
@@ -67,6 +68,7 @@ fn main() -> ExitCode {
             blind,
             filter,
         } => verbs::test(many, blind, filter.as_deref()),
+        Verb::Tidy { list } => verbs::tidy(list),
         Verb::Bench { sections, long } => verbs::bench(&sections, long),
     }
 }

@@ -6,6 +6,7 @@ mod effects;
 mod fixtures;
 mod run;
 mod test;
+mod tidy;
 
 pub use bench::bench;
 pub use diagnose::{diagnose, remove};
@@ -13,3 +14,4 @@ pub use effects::effects;
 pub use fixtures::fixtures;
 pub use run::run;
 pub use test::test;
+pub use tidy::tidy;
