@@ -6,6 +6,7 @@ mod conditions;
 mod diagnosis;
 mod diagnosis_summary;
 mod estimate;
+mod excerpt;
 mod finding;
 mod likely_name;
 mod location;
@@ -30,6 +31,7 @@ pub use diagnosis::{
 };
 pub use diagnosis_summary::DiagnosisSummary;
 pub use estimate::{Estimate, FitStatus, Identifiability, Interval, ParameterEstimate};
+pub use excerpt::excerpt;
 pub use finding::{Finding, Severity};
 pub use likely_name::did_you_mean;
 pub use location::{Aspect, Drift, ForceCurve, ForceMap, Location, Share};

@@ -2,6 +2,8 @@ use strsim::normalized_damerau_levenshtein;
 
 /// Share of the letters that must be right for a name to count as meant.
 const LIKE: f64 = 2.0 / 3.0;
+/// Bytes beyond which nothing was meant: no name is as long, and likeness takes time and memory by the square.
+const LONGEST: usize = 200;
 /// Letters that must be typed before a part of a name counts as meant.
 const PART: usize = 4;
 
@@ -11,6 +13,9 @@ const PART: usize = 4;
 /// where there is none, every known name with a part like the unknown one. Capitals count as small letters, hyphens and
 /// spaces as underscores.
 pub fn did_you_mean<N: AsRef<str>>(unknown: &str, known: &[N]) -> String {
+    if unknown.len() > LONGEST {
+        return String::new();
+    }
     let typed = plain(unknown);
     let names = || known.iter().map(AsRef::as_ref);
     let likeness = |name: &str| normalized_damerau_levenshtein(&typed, &plain(name));

@@ -1,4 +1,4 @@
-use snug_campaign::did_you_mean;
+use snug_campaign::{did_you_mean, excerpt};
 use thiserror::Error;
 
 /// Why a model cannot be assembled.
@@ -21,7 +21,7 @@ pub enum ModelError {
         effect: &'static str,
     },
     /// Neither the catalogue nor the study has an effect of that name.
-    #[error("there is no effect `{name}`{}; there are: {}", did_you_mean(name, known), known.join(", "))]
+    #[error("there is no effect `{}`{}; there are: {}", excerpt(name), did_you_mean(name, known), known.join(", "))]
     UnknownEffect {
         /// The name.
         name: String,
@@ -29,7 +29,7 @@ pub enum ModelError {
         known: Vec<&'static str>,
     },
     /// The model has no parameter of that name.
-    #[error("the model has no parameter `{name}`{}; it has: {}", did_you_mean(name, known), known.join(", "))]
+    #[error("the model has no parameter `{}`{}; it has: {}", excerpt(name), did_you_mean(name, known), known.join(", "))]
     UnknownParameter {
         /// The name.
         name: String,
@@ -61,7 +61,7 @@ pub enum ModelError {
         standard_error: f64,
     },
     /// A custom effect's name cannot be used.
-    #[error("custom effect: the name `{name}` {problem}")]
+    #[error("custom effect: the name `{}` {problem}", excerpt(name))]
     CustomName {
         /// The name.
         name: String,
@@ -69,7 +69,11 @@ pub enum ModelError {
         problem: &'static str,
     },
     /// A custom effect's parameter cannot be used.
-    #[error("custom effect `{effect}`: the parameter `{parameter}` {problem}")]
+    #[error(
+        "custom effect `{}`: the parameter `{}` {problem}",
+        excerpt(effect),
+        excerpt(parameter)
+    )]
     CustomParameter {
         /// The effect.
         effect: String,
@@ -80,7 +84,9 @@ pub enum ModelError {
     },
     /// A custom effect's parameter starts outside its range, or the range is the wrong way round.
     #[error(
-        "custom effect `{effect}`: the parameter `{parameter}` has start {start}, minimum {minimum}, maximum {maximum}; allowed is a minimum below the maximum and a finite start between them"
+        "custom effect `{}`: the parameter `{}` has start {start}, minimum {minimum}, maximum {maximum}; allowed is a minimum below the maximum and a finite start between them",
+        excerpt(effect),
+        excerpt(parameter)
     )]
     CustomRange {
         /// The effect.
@@ -96,7 +102,10 @@ pub enum ModelError {
     },
     /// A custom effect's expression cannot be read.
     #[error(
-        "custom effect `{effect}`: in the expression `{expression}`, at character {position}, found {found}; allowed is {allowed}"
+        "custom effect `{}`: in the expression `{}`, at character {position}, found {}; allowed is {allowed}",
+        excerpt(effect),
+        excerpt(expression),
+        excerpt(found)
     )]
     Expression {
         /// The effect.
@@ -112,7 +121,9 @@ pub enum ModelError {
     },
     /// A custom effect's expression has no value where a tightening passes.
     #[error(
-        "custom effect `{effect}`: the expression `{expression}` is {value} at x = {x_m} m, v = {v_m_per_s} m/s, T = {torque_nm} Nm, t = {since_onset_s} s with its parameters at their starting values; it must be a finite number"
+        "custom effect `{}`: the expression `{}` is {value} at x = {x_m} m, v = {v_m_per_s} m/s, T = {torque_nm} Nm, t = {since_onset_s} s with its parameters at their starting values; it must be a finite number",
+        excerpt(effect),
+        excerpt(expression)
     )]
     ExpressionValue {
         /// The effect.

@@ -1,7 +1,7 @@
 //! What is wrong with the text of a study file, in plain words: field, what was found, what is allowed.
 
 use crate::position::{self, Position};
-use snug_campaign::did_you_mean;
+use snug_campaign::{did_you_mean, excerpt};
 
 /// What `error`, which the reader of RON raised at `place` of `text`, says to someone who wrote a study.
 pub(crate) fn told(error: &ron::Error, text: &str, place: Position) -> String {
@@ -9,7 +9,9 @@ pub(crate) fn told(error: &ron::Error, text: &str, place: Position) -> String {
     let field = position::field_at(text, place);
     if let Some(allowed) = kind_of_value(error) {
         return match field {
-            Some((field, found)) => format!("{field} is {found}; allowed is {allowed}"),
+            Some((field, found)) => {
+                format!("{field} is {}; allowed is {allowed}", excerpt(found))
+            }
             None => format!("found {}; allowed is {allowed}", shown(text, place)),
         };
     }
@@ -20,7 +22,8 @@ pub(crate) fn told(error: &ron::Error, text: &str, place: Position) -> String {
             found: name,
             ..
         } => format!(
-            "{within} has no field `{name}`; allowed is {}{}",
+            "{within} has no field `{}`; allowed is {}{}",
+            excerpt(name),
             one_of(expected),
             did_you_mean(name, expected)
         ),
@@ -29,7 +32,8 @@ pub(crate) fn told(error: &ron::Error, text: &str, place: Position) -> String {
             found: name,
             ..
         } => format!(
-            "{within} is `{name}`; allowed is {}{}",
+            "{within} is `{}`; allowed is {}{}",
+            excerpt(name),
             one_of(expected),
             did_you_mean(name, expected)
         ),
@@ -58,7 +62,7 @@ pub(crate) fn told(error: &ron::Error, text: &str, place: Position) -> String {
             shown(text, place)
         ),
         _ => match field {
-            Some((field, found)) => format!("{field} is {found}: {error}"),
+            Some((field, found)) => format!("{field} is {}: {error}", excerpt(found)),
             None => error.to_string(),
         },
     }
@@ -105,7 +109,7 @@ fn kind_of_value(error: &ron::Error) -> Option<&'static str> {
 fn shown(text: &str, place: Position) -> String {
     position::found_at(text, place).map_or_else(
         || "the end of the file".to_owned(),
-        |found| format!("`{found}`"),
+        |found| format!("`{}`", excerpt(found)),
     )
 }
 

@@ -1,0 +1,31 @@
+//! What an error shows of a text that somebody else wrote.
+
+use std::borrow::Cow;
+
+/// Characters of a stranger's text that a message shows: an expression or a name as people write them, on one line.
+const SHOWN: usize = 120;
+
+/// The text, or its beginning and how long it is where it is longer than anyone wants to read in a message.
+pub fn excerpt(text: &str) -> Cow<'_, str> {
+    match text.char_indices().nth(SHOWN) {
+        None => Cow::Borrowed(text),
+        Some((end, _)) => Cow::Owned(format!(
+            "{}… ({} characters)",
+            &text[..end],
+            text.chars().count()
+        )),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn long_texts_are_cut_between_characters() {
+        let longest = "ä".repeat(SHOWN);
+        assert_eq!(excerpt(&longest), longest);
+        let cut = excerpt(&"ä".repeat(2_000_000)).into_owned();
+        assert_eq!(cut, format!("{longest}… (2000000 characters)"));
+    }
+}
