@@ -1,11 +1,11 @@
 //! What a climb leaves: its rungs, what was added and why, what is still missing and why it stopped.
 
-use crate::DiagnoseSettings;
 use crate::evidence::agreement;
 use crate::fitted::Fitted;
 use crate::ranking::{Candidate, Ranking};
 use crate::units::Units;
 use crate::unlisted::is_unlisted;
+use crate::{DiagnoseError, DiagnoseSettings};
 use snug_model::Effect;
 
 /// An effect that was added, with what spoke for it then.
@@ -66,6 +66,18 @@ impl Climb {
     pub fn stand_on(&mut self, fitted: Fitted) {
         self.rungs.push(fitted);
         self.ranking = Ranking::default();
+    }
+
+    /// What was reached by `ended`, the end of the way; also where whoever watches ended it.
+    pub fn as_far_as_it_went(
+        mut self,
+        ended: Result<(), DiagnoseError>,
+    ) -> Result<Self, DiagnoseError> {
+        match ended {
+            Err(DiagnoseError::Interrupted) => self.stopped = Some(Stop::Interrupted),
+            ended => ended?,
+        }
+        Ok(self)
     }
 
     /// Whether whoever watches ended it on the way.

@@ -8,11 +8,10 @@ use crate::{DiagnoseError, DiagnoseSettings, Goal, Question, Watch};
 
 /// Answers a question.
 ///
-/// When `watch` ends [`Goal::Improve`] on the way up, the answer is what was reached by then and says so.
+/// When `watch` ends the search, the answer is what was reached by then and says so.
 ///
 /// # Errors
-/// [`DiagnoseError::NothingToCompare`] without tightenings, [`DiagnoseError::Interrupted`] when `watch` ends any other
-/// search, otherwise what the model or the fit refuses.
+/// [`DiagnoseError::NothingToCompare`] without tightenings, otherwise what the model or the fit refuses.
 pub fn examine(
     question: &Question<'_>,
     settings: &DiagnoseSettings,

@@ -9,11 +9,8 @@ impl Search<'_> {
     /// Climbs from the study's own effects as far as the data justify, or until whoever watches ends it.
     pub fn improve(&self) -> Result<Climb, DiagnoseError> {
         let mut climb = self.compare()?;
-        match self.ascend(&mut climb) {
-            Err(DiagnoseError::Interrupted) => climb.stopped = Some(Stop::Interrupted),
-            ended => ended?,
-        }
-        Ok(climb)
+        let ended = self.ascend(&mut climb);
+        climb.as_far_as_it_went(ended)
     }
 
     /// Rung by rung; `climb` holds those that were reached also where this fails.

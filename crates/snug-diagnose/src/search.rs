@@ -33,9 +33,14 @@ impl Search<'_> {
         Ok(Climb::only(fitted))
     }
 
-    /// The study's own model and what could be missing beside it; nothing is added.
+    /// The study's own model and what could be missing beside it; nothing is added. Whoever watches may end it.
     pub fn diagnose(&self) -> Result<Climb, DiagnoseError> {
         let mut climb = self.compare()?;
+        let ended = self.name_the_first(&mut climb);
+        climb.as_far_as_it_went(ended)
+    }
+
+    fn name_the_first(&self, climb: &mut Climb) -> Result<(), DiagnoseError> {
         climb.ranking = self.rank(climb.last(), self.settings.control_campaigns)?;
         match justified(&climb.ranking, climb.last(), self.settings) {
             Ok(best) => {
@@ -48,12 +53,18 @@ impl Search<'_> {
             }
             Err(stop) => climb.stopped = Some(stop),
         }
-        Ok(climb)
+        Ok(())
     }
 
-    /// The study's own model with `effects` added one after the other, and what is missing then.
+    /// The study's own model with `effects` added one after the other, and what is missing then, or as many of them as
+    /// were added before whoever watches ended it.
     pub fn add(&self, effects: &[Effect]) -> Result<Climb, DiagnoseError> {
         let mut climb = self.compare()?;
+        let ended = self.put_in(effects, &mut climb);
+        climb.as_far_as_it_went(ended)
+    }
+
+    fn put_in(&self, effects: &[Effect], climb: &mut Climb) -> Result<(), DiagnoseError> {
         for &effect in effects {
             let ranking = self.rank_these(climb.last(), effect)?;
             let index = ranking.candidates.iter().position(|c| c.effect == effect);
@@ -66,7 +77,7 @@ impl Search<'_> {
             Ok(best) => climb.chosen = Some(self.single(&climb.ranking, best)),
             Err(stop) => climb.stopped = Some(stop),
         }
-        Ok(climb)
+        Ok(())
     }
 
     pub fn rank(

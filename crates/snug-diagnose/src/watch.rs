@@ -16,7 +16,7 @@ impl<'a> Watch<'a> {
         }
     }
 
-    /// The diagnosis ends with [`DiagnoseError::Interrupted`] soon after `interrupted` becomes true.
+    /// The diagnosis ends with what it has reached soon after `interrupted` becomes true.
     pub fn until(self, interrupted: &'a AtomicBool) -> Self {
         Self {
             interrupted: Some(interrupted),
