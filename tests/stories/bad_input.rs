@@ -115,10 +115,7 @@ fn a_tightening_without_a_measured_noise_does_not_take_the_others_theirs() {
     let data = folder.path().join("data");
     let campaign = simulate(&plan, 5).unwrap();
     campaign.write(&data, MatStyle::default()).unwrap();
-    let settings = RunSettings {
-        out: folder.path().join("out"),
-        threads: None,
-    };
+    let settings = RunSettings::new(folder.path().join("out"));
     let study = Study::on(data);
     let never = AtomicBool::new(false);
     let outcome = diagnose(&study, &Verb::Compare, &settings, &|_| (), &never).unwrap();
@@ -230,10 +227,7 @@ fn a_diagnosis_of_nothing_says_what_was_left_out() {
     let data = tempfile::tempdir().unwrap();
     std::fs::write(data.path().join("garbage.mat"), [7; 300]).unwrap();
     let out = tempfile::tempdir().unwrap();
-    let settings = snug_study::RunSettings {
-        out: out.path().to_path_buf(),
-        threads: None,
-    };
+    let settings = snug_study::RunSettings::new(out.path());
     let outcome = snug_study::diagnose(
         &study_on(data.path(), Preset::Snug),
         &snug_study::Verb::Improve,

@@ -26,8 +26,8 @@ pub fn run_study(study: &Study) -> Result<(Outcome, TempDir), StudyError> {
 pub fn run_on(study: &Study, threads: Option<usize>) -> Result<(Outcome, TempDir), StudyError> {
     let out = tempfile::tempdir().unwrap();
     let settings = RunSettings {
-        out: out.path().to_path_buf(),
         threads,
+        ..RunSettings::new(out.path())
     };
     let outcome = run(study, &settings, &|_| (), &AtomicBool::new(false))?;
     Ok((outcome, out))
@@ -36,10 +36,7 @@ pub fn run_on(study: &Study, threads: Option<usize>) -> Result<(Outcome, TempDir
 /// Asks for a diagnosis; the results are in the folder that comes back, for as long as it lives.
 pub fn diagnose_study(study: &Study, verb: &Verb) -> (Outcome, TempDir) {
     let out = tempfile::tempdir().unwrap();
-    let settings = RunSettings {
-        out: out.path().to_path_buf(),
-        threads: None,
-    };
+    let settings = RunSettings::new(out.path());
     let outcome = diagnose(study, verb, &settings, &|_| (), &AtomicBool::new(false)).unwrap();
     for file in ["report.html", "verdict.json", "recording.mcap", "study.ron"] {
         assert!(out.path().join(file).is_file(), "{verb:?}: {file}");

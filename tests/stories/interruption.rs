@@ -11,8 +11,8 @@ fn a_run_stopped_after_its_first_file_leaves_whole_results() {
     let study = study_on(&embedded(), Preset::Snug);
     let out = tempfile::tempdir().unwrap();
     let settings = RunSettings {
-        out: out.path().to_path_buf(),
         threads: Some(1),
+        ..RunSettings::new(out.path())
     };
     let stop = AtomicBool::new(false);
     let stop_after_a_file = |event: ProgressEvent<'_>| {
@@ -34,10 +34,7 @@ fn a_run_stopped_after_its_first_file_leaves_whole_results() {
 /// `improve` on the mystery, stopped as soon as it begins `stage`; its results in `out`.
 fn improved_until(stage: &str, out: &Path) -> Outcome {
     let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("../fixtures/mystery");
-    let settings = RunSettings {
-        out: out.to_path_buf(),
-        threads: None,
-    };
+    let settings = RunSettings::new(out);
     let stop = AtomicBool::new(false);
     let stop_there = |event: ProgressEvent<'_>| {
         if matches!(event, ProgressEvent::Stage { what } if what == stage) {

@@ -47,10 +47,7 @@ fn files_of_one_tightening_each_fill_the_places_too() {
 fn the_reasons_say_how_many_were_taken() {
     let folder = tempfile::tempdir().unwrap();
     let mut study = campaign(folder.path(), 12, 2);
-    let settings = RunSettings {
-        out: folder.path().join("out"),
-        threads: None,
-    };
+    let settings = RunSettings::new(folder.path().join("out"));
     let mut compare = |most| {
         study.diagnosis.most_tightenings = most;
         let never = AtomicBool::new(false);

@@ -84,10 +84,7 @@ fn a_pendulum_asks_for_gravity() {
         let mut study = Study::read(&study_file("pendulum.ron")).unwrap();
         study.set_data(&data.join(format!("pendulum-torque/{recording}_measured.csv")));
         let out = tempfile::tempdir().unwrap();
-        let settings = RunSettings {
-            out: out.path().to_path_buf(),
-            threads: None,
-        };
+        let settings = RunSettings::new(out.path());
         let quiet = |_: snug_study::ProgressEvent<'_>| ();
         let outcome = diagnose(
             &study,

@@ -19,7 +19,10 @@ Examples:
   cargo xtask improve --data DIR               all of that, until only noise is left
   cargo xtask effects cubic_stiffness          one effect of the catalogue in full
 
-Exit codes: 0 done, 1 failed, 2 bad arguments, 3 done but some data was left out (see findings.json)."
+  cargo xtask recover FILE.mcap                a recording that was cut short, made whole
+
+Exit codes: 0 done, 1 failed or nothing was identified, 2 bad arguments, 130 stopped by Ctrl-C or a signal;
+with --strict 3 when some data was left out (findings.json says which)."
 )]
 pub struct Arguments {
     /// What to do.
@@ -96,6 +99,15 @@ pub enum Verb {
         /// Name of one effect, for example coulomb_friction.
         name: Option<String>,
     },
+    /// Makes a recording that was cut short whole: an index at its end, so that every reader opens it.
+    ///
+    /// A run that is killed leaves its recording as recording.partial-TIME.mcap. Everything in it that can be read stays
+    /// as it is; what is missing is told. The file as it was is kept beside.
+    Recover {
+        /// The recording (MCAP).
+        #[arg(value_name = "FILE.mcap")]
+        file: PathBuf,
+    },
     /// Makes the embedded campaigns in fixtures/ anew, bit for bit.
     Fixtures,
     /// Every test of the workspace.
@@ -114,6 +126,20 @@ pub enum Verb {
         /// Also what fails nothing: accepted advisories, duplicates and who needs them.
         #[arg(long)]
         list: bool,
+    },
+    /// Mutated inputs for everything that reads a stranger's bytes, each reader in a process of its own.
+    Fuzz {
+        /// Only readers whose name contains this: mat4, mat5, mat5_packed, hdf5, csv, mcap, mcap_packed, study, expression,
+        /// pipeline.
+        target: Option<String>,
+        /// An input that failed before, to be tried again.
+        input: Option<PathBuf>,
+        /// How long each reader is tried.
+        #[arg(long, value_name = "S", default_value_t = 60)]
+        seconds: u32,
+        /// Which mutations.
+        #[arg(long, value_name = "N", default_value_t = 0)]
+        seed: u64,
     },
     /// How fast Snug is beside bare loops and other programs, in one table.
     Bench {
@@ -143,6 +169,12 @@ pub struct RunOptions {
     /// Folder for the results; made if it is not there.
     #[arg(long, value_name = "DIR", default_value = "out")]
     pub out: PathBuf,
+    /// Waits for another run that writes into the same folder.
+    #[arg(long)]
+    pub wait: bool,
+    /// Exit code 3 when a file or tightening was left out.
+    #[arg(long)]
+    pub strict: bool,
     /// No progress, no summary: only errors.
     #[arg(long)]
     pub quiet: bool,

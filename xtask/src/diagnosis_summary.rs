@@ -25,10 +25,9 @@ pub struct Following<'a> {
     pub written: &'a str,
 }
 
-/// Prints a diagnosis on standard output.
-pub fn print(diagnosis: &Diagnosis, following: &Following<'_>) {
-    let is_terminal = std::io::stdout().is_terminal();
-    print!("{}", text(diagnosis, following, is_terminal));
+/// A diagnosis as it is printed on standard output.
+pub fn of(diagnosis: &Diagnosis, following: &Following<'_>) -> String {
+    text(diagnosis, following, std::io::stdout().is_terminal())
 }
 
 /// The text; `terminal` allows block characters and bold type.

@@ -12,7 +12,9 @@ pub fn start(options: &LogOptions) -> Result<(), String> {
     let subscriber = tracing_subscriber::fmt()
         .with_env_filter(filter)
         .with_ansi(std::io::stderr().is_terminal())
-        .with_writer(std::io::stderr);
+        .with_writer(std::io::stderr)
+        // A full disk behind standard error is no reason to end a run.
+        .log_internal_errors(false);
     match options.log {
         LogFormat::Text => subscriber.init(),
         LogFormat::Json => subscriber.json().init(),

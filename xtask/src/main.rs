@@ -1,17 +1,14 @@
 //! Snug's command line: `cargo xtask run`, `cargo xtask test`, and what else `cargo xtask --help` lists.
 //!
 //! It parses arguments, shows progress and prints summaries; every equation lives in the crates.
-#![allow(
-    clippy::print_stdout,
-    clippy::print_stderr,
-    reason = "a command line prints"
-)]
 
 mod arguments;
 mod diagnosis_summary;
 mod logging;
 mod progress;
+mod signals;
 mod summary;
+mod terminal;
 mod tidy;
 mod verbs;
 mod workspace;
@@ -26,7 +23,7 @@ mod exit {
 
     /// Done.
     pub const DONE: ExitCode = ExitCode::SUCCESS;
-    /// Failed.
+    /// Failed, or nothing at all was identified.
     pub fn failed() -> ExitCode {
         ExitCode::from(1)
     }
@@ -34,11 +31,11 @@ mod exit {
     pub fn bad_arguments() -> ExitCode {
         ExitCode::from(2)
     }
-    /// Done, but some data was left out.
+    /// Done, but some data was left out, and the run was asked to be strict about it.
     pub fn left_out() -> ExitCode {
         ExitCode::from(3)
     }
-    /// Stopped by Ctrl-C, as shells count it.
+    /// Stopped by Ctrl-C or a signal, as shells count it.
     pub const INTERRUPTED: u8 = 130;
     /// The same, as this program's exit code.
     pub fn interrupted() -> ExitCode {
@@ -49,7 +46,7 @@ mod exit {
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
     if let Err(error) = logging::start(&arguments.log) {
-        eprintln!("{error}");
+        terminal::complain(&error);
         return exit::bad_arguments();
     }
     match arguments.verb {
@@ -62,6 +59,7 @@ fn main() -> ExitCode {
         Verb::Remove { effect, study } => verbs::remove(&study, &effect),
         Verb::Improve(options) => verbs::diagnose(&options, &snug_study::Verb::Improve),
         Verb::Effects { name } => verbs::effects(name.as_deref()),
+        Verb::Recover { file } => verbs::recover(&file),
         Verb::Fixtures => verbs::fixtures(),
         Verb::Test {
             many,
@@ -69,6 +67,12 @@ fn main() -> ExitCode {
             filter,
         } => verbs::test(many, blind, filter.as_deref()),
         Verb::Tidy { list } => verbs::tidy(list),
+        Verb::Fuzz {
+            target,
+            input,
+            seconds,
+            seed,
+        } => verbs::fuzz(target.as_deref(), input.as_deref(), seconds, seed),
         Verb::Bench { sections, long } => verbs::bench(&sections, long),
     }
 }

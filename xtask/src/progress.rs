@@ -1,3 +1,4 @@
+use crate::terminal::complain;
 use indicatif::{ProgressBar, ProgressStyle};
 use snug_study::ProgressEvent;
 use std::io::IsTerminal;
@@ -99,7 +100,8 @@ impl Plain {
                 }
             }
             ProgressEvent::Stage { what } => {
-                eprintln!("{:.0} s: {what}", self.started.elapsed().as_secs_f64());
+                let elapsed = self.started.elapsed().as_secs_f64();
+                complain(&format!("{elapsed:.0} s: {what}"));
             }
             ProgressEvent::Writing { .. } => {}
         }
@@ -109,9 +111,9 @@ impl Plain {
         let elapsed = self.evaluating.elapsed().as_secs_f64();
         let rate = self.tightenings as f64 / elapsed;
         let left = elapsed / self.files_done as f64 * (self.files - self.files_done) as f64;
-        eprintln!(
+        complain(&format!(
             "{} of {} files, {} tightenings, {rate:.0} a second, about {left:.0} s left",
             self.files_done, self.files, self.tightenings
-        );
+        ));
     }
 }

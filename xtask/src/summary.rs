@@ -4,6 +4,7 @@ use snug_campaign::{
 use snug_study::Outcome;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
+use std::path::PathBuf;
 
 /// Findings of a kind that are told in full.
 const SHOWN: usize = 2;
@@ -44,6 +45,24 @@ pub fn of_results(outcome: &Outcome) -> String {
     for path in &outcome.written {
         line(&mut text, format_args!("  {}", path.display()));
     }
+    let listed = |text: &mut String, heading: &str, paths: &[PathBuf]| {
+        if !paths.is_empty() {
+            line(text, format_args!("\n{heading}:"));
+        }
+        for path in paths {
+            line(text, format_args!("  {}", path.display()));
+        }
+    };
+    listed(
+        &mut text,
+        "Kept, because it had a result's name and was not as Snug had written it",
+        &outcome.set_aside,
+    );
+    listed(
+        &mut text,
+        "Left by runs that came to no end; `cargo xtask recover FILE` makes one whole, or delete it",
+        &outcome.unfinished,
+    );
     text
 }
 

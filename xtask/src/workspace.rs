@@ -1,4 +1,5 @@
 use crate::exit;
+use crate::terminal::complain;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 
@@ -27,7 +28,7 @@ pub fn run(mut command: Command) -> ExitCode {
         Ok(status) if status.success() => exit::DONE,
         Ok(_) => exit::failed(),
         Err(error) => {
-            eprintln!("cargo cannot be started: {error}");
+            complain(&format!("cargo cannot be started: {error}"));
             exit::failed()
         }
     }

@@ -83,13 +83,13 @@ fn told(holder: &Option<String>) -> String {
 pub fn remedy(error: &io::Error) -> &'static str {
     match error.kind() {
         ErrorKind::StorageFull | ErrorKind::QuotaExceeded => {
-            "; make room, or write to another disk (--out)"
+            "; make room there, or choose another disk"
         }
         ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem => {
-            "; allow it, or choose a folder that you may write to (--out)"
+            "; allow it, or choose another folder"
         }
         ErrorKind::NotADirectory | ErrorKind::AlreadyExists => {
-            "; a file has that name: choose another one (--out)"
+            "; a file has that name: choose another one"
         }
         _ => "",
     }

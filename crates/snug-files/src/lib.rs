@@ -17,7 +17,7 @@ pub use apart::{Inputs, keep_apart};
 pub use disk::{Disk, Host, Input, Output};
 pub use error::{FilesError, remedy};
 pub use identity::Identity;
-pub use lock::Waiting;
+pub use lock::{Lock, Waiting};
 pub use results::{Exchanged, Growing, Results};
 pub use whole_file::{WholeFile, write_whole};
 

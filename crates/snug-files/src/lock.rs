@@ -19,7 +19,7 @@ const LONGEST_NOTE_BYTES: u64 = 200;
 /// The lock is advisory and the kernel's: it does not outlive the process. The file goes with the lock; one that a
 /// killed process left is taken over.
 #[derive(Debug)]
-pub(crate) struct Lock {
+pub struct Lock {
     disk: Arc<dyn Disk>,
     path: PathBuf,
     /// `None` where the file system knows no locks.

@@ -6,7 +6,7 @@ use crate::lock::Lock;
 use crate::manifest::{MANIFEST, Manifest};
 use crate::{Disk, FilesError, Output, Waiting};
 use std::collections::BTreeSet;
-use std::io::{self, Write};
+use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::SystemTime;
@@ -40,7 +40,7 @@ struct Ready {
 
 /// A result that is being written.
 pub struct Growing {
-    file: Box<dyn Output>,
+    file: BufWriter<Box<dyn Output>>,
     sum: Sum,
     from: String,
     name: String,
@@ -122,9 +122,9 @@ impl Results {
         self.is_worth_keeping = true;
     }
 
-    /// Where the lasting result lies until the exchange, if it is to be kept.
+    /// Where the lasting result lies until the exchange.
     pub fn partial(&self) -> Option<&Path> {
-        self.lasting.as_deref().filter(|_| self.is_worth_keeping)
+        self.lasting.as_deref()
     }
 
     /// Writes a whole result.
@@ -147,7 +147,7 @@ impl Results {
         growing
             .file
             .flush()
-            .and_then(|()| growing.file.sync())
+            .and_then(|()| growing.file.get_mut().sync())
             .map_err(FilesError::refused(
                 "write",
                 &self.folder.join(&growing.name),
@@ -266,7 +266,7 @@ impl Results {
             .create(&self.folder.join(&from))
             .map_err(FilesError::refused("write", &self.folder.join(name)))?;
         Ok(Growing {
-            file,
+            file: BufWriter::new(file),
             sum: Sum::default(),
             from,
             name: name.to_owned(),

@@ -20,6 +20,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         Some("unlisted") => diagnosed::unlisted(),
         Some(count) => specimen::campaign(count.parse()?),
     };
-    snug_report::write(&folder, &result)?;
+    std::fs::create_dir_all(&folder)?;
+    for (name, content) in snug_report::files(&result) {
+        std::fs::write(folder.join(name), content)?;
+    }
     Ok(())
 }

@@ -71,7 +71,8 @@ const MEASURES: [Measure; 16] = [
 /// Columns: the fifteen leading ones; `_low` and `_high` (95 % interval) of mass, damping and stiffness; each effect
 /// parameter with its `_low` and `_high`; then peak torque, the rig, status, active constraints, further measures, the
 /// noise, and per correction its size, standard error and significance. A field is empty where there is no finite value.
-/// Reasons of rejection are joined by `;`.
+/// Reasons of rejection are joined by `;`. Names from the measurements that begin with `=`, `+`, `-`, `@` or a control
+/// character have an apostrophe in front, so that a spreadsheet shows them and calculates nothing.
 pub fn tightenings_csv(result: &CampaignResult) -> String {
     let effect_parameters = effect_parameters(result);
     let corrections = corrections(result);
@@ -193,11 +194,11 @@ fn leading_fields(tightening: &TighteningResult, units: &SignalUnits) -> Vec<Str
         .map(|rejection| rejection.name())
         .collect();
     vec![
-        tightening.id.file.clone(),
+        text(&tightening.id.file),
         tightening.id.number.to_string(),
-        conditions.participant.clone().unwrap_or_default(),
-        conditions.strategy.clone().unwrap_or_default(),
-        conditions.joint.clone().unwrap_or_default(),
+        text(conditions.participant.as_deref().unwrap_or_default()),
+        text(conditions.strategy.as_deref().unwrap_or_default()),
+        text(conditions.joint.as_deref().unwrap_or_default()),
         number(conditions.pace_per_min),
         number(
             units
@@ -231,6 +232,15 @@ fn number(value: Option<f64>) -> String {
         Some(value) if value != 0.0 && !(1e-5..1e15).contains(&value.abs()) => format!("{value:e}"),
         Some(value) => value.to_string(),
         None => String::new(),
+    }
+}
+
+/// Text of the measurement files, which no spreadsheet may take for a formula: it gets an apostrophe in front where it
+/// begins as one does.
+fn text(words: &str) -> String {
+    match words.starts_with(['=', '+', '-', '@', '\t', '\r']) {
+        true => format!("'{words}"),
+        false => words.to_owned(),
     }
 }
 

@@ -4,7 +4,7 @@
 mod specimen;
 
 use serde_json::Value;
-use snug_report::{findings_json, statistics_json, tightenings_csv, write};
+use snug_report::{files, findings_json, statistics_json, tightenings_csv};
 
 /// The columns that other programs rely on, as agreed; further ones may follow.
 const AGREED: &str = "file,tightening,participant,strategy,joint,pace_per_min,target_torque_nm,mass_kg,damping_kg_per_s,\
@@ -168,14 +168,9 @@ fn findings_are_listed_and_counted() {
 }
 
 #[test]
-fn four_files_are_written_and_a_bad_folder_is_named() {
-    let folder = tempfile::tempdir().unwrap();
-    let below = folder.path().join("new/folder");
-    let written = write(&below, &specimen::campaign(2)).unwrap();
-    let names: Vec<_> = written
-        .iter()
-        .map(|path| path.file_name().unwrap().to_str().unwrap())
-        .collect();
+fn four_files_are_there() {
+    let files = files(&specimen::campaign(2));
+    let names: Vec<_> = files.iter().map(|(name, _)| *name).collect();
     assert_eq!(
         names,
         [
@@ -185,13 +180,29 @@ fn four_files_are_written_and_a_bad_folder_is_named() {
             "findings.json"
         ]
     );
-    assert!(
-        written
-            .iter()
-            .all(|path| path.metadata().unwrap().len() > 0)
-    );
-    let error = write(&written[0], &specimen::empty())
-        .unwrap_err()
-        .to_string();
-    assert!(error.contains("report.html"), "{error}");
+    assert!(files.iter().all(|(_, content)| !content.is_empty()));
+}
+
+/// What is to be shown, not calculated, in a spreadsheet (OWASP, "CSV Injection").
+#[test]
+fn names_of_files_reach_no_spreadsheet_as_formulas() {
+    let mut result = specimen::campaign(4);
+    let names = [
+        "=HYPERLINK(\"http://x\",\"y\").mat",
+        "+1+1.mat",
+        "-cmd|' /C calc'!A0.mat",
+        "@SUM(A1).mat",
+    ];
+    for (tightening, name) in result.tightenings.iter_mut().zip(names) {
+        tightening.id.file = name.to_owned();
+        tightening.conditions.participant = Some(name.to_owned());
+    }
+    let table = tightenings_csv(&result);
+    let mut rows = csv::Reader::from_reader(table.as_bytes());
+    for (row, name) in rows.records().zip(names) {
+        let row = row.unwrap();
+        assert_eq!(row[0], format!("'{name}"));
+        assert_eq!(row[2], format!("'{name}"));
+        assert!(row.iter().all(|cell| !cell.starts_with(['=', '+', '@'])));
+    }
 }

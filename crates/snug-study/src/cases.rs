@@ -6,6 +6,7 @@ use crate::{Study, StudyError};
 use rayon::prelude::*;
 use snug_campaign::Rejection;
 use snug_diagnose::Case;
+use snug_files::{Disk, Host};
 use snug_preprocess::preprocess;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -13,7 +14,7 @@ use std::path::{Path, PathBuf};
 /// Reads and prepares at most `most` tightenings, evenly spread over the files and within each; tightenings with faulty
 /// data, those kept for validation and those that cannot be judged by the same measure as the others take no part.
 pub fn cases(study: &Study, files: &[PathBuf], most: usize) -> Result<Vec<Case>, StudyError> {
-    Ok(chosen(study, files, most)?.cases)
+    Ok(chosen(study, &Host, files, most)?.cases)
 }
 
 /// Tightenings of one file that take part at least, if it has them: what drifts within a file shows between two.
@@ -22,6 +23,7 @@ const EACH: usize = 2;
 /// The same, with what is to be said of those that take no part.
 pub(crate) fn chosen(
     study: &Study,
+    disk: &dyn Disk,
     files: &[PathBuf],
     most: usize,
 ) -> Result<Comparable, StudyError> {
@@ -30,7 +32,7 @@ pub(crate) fn chosen(
     let read = |from: usize| -> Result<Vec<Part>, StudyError> {
         let some: Vec<usize> = (from..files.len()).step_by(stride).collect();
         let parts = some.into_par_iter().map(|number| {
-            let all = cases_of_file(study, &files[number])?;
+            let all = cases_of_file(study, disk, &files[number])?;
             Ok(Part::of(number, all, each, number / stride))
         });
         parts.collect::<Vec<Result<_, _>>>().into_iter().collect()
@@ -86,10 +88,10 @@ fn selection(taken: usize, read: usize, all: usize) -> String {
     )
 }
 
-fn cases_of_file(study: &Study, path: &Path) -> Result<Vec<Case>, StudyError> {
+fn cases_of_file(study: &Study, disk: &dyn Disk, path: &Path) -> Result<Vec<Case>, StudyError> {
     let lever_arm_m = study.preprocess.rig.lever_arm_m;
     // What cannot be read, and everything else that is left out, the run of the study names in its findings.
-    let Ok(ingested) = snug_ingest::read(&study.source, path, lever_arm_m) else {
+    let Ok(ingested) = snug_ingest::read_on(disk, &study.source, path, lever_arm_m) else {
         return Ok(Vec::new());
     };
     let only_simulated = study.validation_segments();

@@ -4,6 +4,7 @@ use crate::cases::chosen;
 use crate::comparable::Comparable;
 use crate::evaluation::Evaluated;
 use crate::file_evaluation::evaluate_alone;
+use crate::output::Workplace;
 use crate::run::{Outcome, RunSettings, pool, run_with};
 use crate::settling::{Settled, settle};
 use crate::{ProgressEvent, Study, StudyError};
@@ -11,6 +12,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use snug_campaign::{Diagnosis, Rejection, Rung, Showcase, TighteningId, Traces};
 use snug_diagnose::{Answer, Case, DiagnoseError, Goal, Question, RungModel, Watch, examine};
+use snug_files::Disk;
 use snug_model::{Effect, ParameterSettings};
 use snug_statistics::descriptive::median;
 use std::path::PathBuf;
@@ -118,11 +120,12 @@ impl Verb {
 /// The study as it is, whose findings name the reason; an error where it has tightenings all the same.
 fn nothing_to_compare(
     study: &Study,
+    workplace: Workplace,
     settings: &RunSettings,
     progress: &(dyn Fn(ProgressEvent<'_>) + Sync),
     interrupted: &AtomicBool,
 ) -> Result<Outcome, StudyError> {
-    let outcome = crate::run(study, settings, progress, interrupted)?;
+    let outcome = run_with(study, None, workplace, settings, progress, interrupted)?;
     match outcome.result.tightenings.len() {
         0 => Ok(outcome),
         tightenings => Err(DiagnoseError::NothingToCompare {
@@ -138,11 +141,11 @@ fn nothing_to_compare(
 /// The outcome's `study.ron` holds that model, sizes that all tightenings share held at their estimates with their
 /// standard errors, so that it can be run again and diagnosed further.
 ///
-/// When `interrupted` becomes true, [`Verb::Improve`] goes no further up and everything is written for the model it has
-/// reached; the other verbs end without a result until they have one.
+/// When `interrupted` becomes true, the search goes no further, and everything is written, and marked, for the model it has
+/// reached.
 ///
 /// # Errors
-/// As [`crate::run()`]; [`StudyError::Interrupted`] where there is no result yet; and when there are tightenings, but none can be compared with the model.
+/// As [`crate::run()`]; [`StudyError::Interrupted`] while the tightenings are still being read; and when there are tightenings, but none can be compared with the model.
 pub fn diagnose(
     study: &Study,
     verb: &Verb,
@@ -151,7 +154,8 @@ pub fn diagnose(
     interrupted: &AtomicBool,
 ) -> Result<Outcome, StudyError> {
     study.check()?;
-    let listing = snug_ingest::list(&study.source, &study.source.path)?;
+    let workplace = Workplace::new(study, settings, interrupted)?;
+    let (disk, files) = (&*settings.disk, workplace.listing.files.clone());
     progress(ProgressEvent::Stage {
         what: "reading tightenings",
     });
@@ -160,17 +164,17 @@ pub fn diagnose(
     let Comparable {
         cases,
         remarks: left_out,
-    } = pool.install(|| chosen(study, &listing.files, most))?;
+    } = pool.install(|| chosen(study, disk, &files, most))?;
     if interrupted.load(Ordering::Relaxed) {
         return Err(StudyError::Interrupted);
     }
     if cases.is_empty() {
-        return nothing_to_compare(study, settings, progress, interrupted);
+        return nothing_to_compare(study, workplace, settings, progress, interrupted);
     }
     let settled = pool.install(|| settle(study, &cases));
     let (study, cases, remarks) = match &settled {
         Some(Settled { study, remarks }) => {
-            let again = pool.install(|| chosen(study, &listing.files, most))?;
+            let again = pool.install(|| chosen(study, disk, &files, most))?;
             (study, again.cases, remarks.as_slice())
         }
         None => (study, cases, [].as_slice()),
@@ -190,21 +194,19 @@ pub fn diagnose(
     };
     let tell = |what: &str| progress(ProgressEvent::Stage { what });
     let watch = Watch::new(&tell).until(interrupted);
-    let mut answer = match pool.install(|| examine(&question, &search, &watch)) {
-        Err(DiagnoseError::Interrupted) => return Err(StudyError::Interrupted),
-        answer => answer?,
-    };
+    let mut answer = pool.install(|| examine(&question, &search, &watch))?;
     answer.diagnosis.reasons.extend_from_slice(remarks);
     answer.diagnosis.reasons.extend(left_out);
     drop(cases);
-    let (last, diagnosis) = pool.install(|| climb(study, answer, &listing.files, progress))?;
+    let (last, diagnosis) = pool.install(|| climb(study, answer, disk, &files, progress))?;
     // Who ended the search wants to see what it found of all tightenings.
     let never = AtomicBool::new(false);
     let interrupted = match interrupted.load(Ordering::Relaxed) {
         true => &never,
         false => interrupted,
     };
-    run_with(&last, Some(diagnosis), settings, progress, interrupted)
+    let told = Some(diagnosis);
+    run_with(&last, told, workplace, settings, progress, interrupted)
 }
 
 /// The named effects, the study's own among them, as they act on its rig.
@@ -224,6 +226,7 @@ fn effects(study: &Study, names: &[String], cases: &[Case]) -> Result<Vec<Effect
 fn climb(
     study: &Study,
     answer: Answer,
+    disk: &dyn Disk,
     files: &[PathBuf],
     progress: &(dyn Fn(ProgressEvent<'_>) + Sync),
 ) -> Result<(Study, Diagnosis), StudyError> {
@@ -243,7 +246,7 @@ fn climb(
             some => format!("evaluating {}", some.join(" + ")),
         };
         progress(ProgressEvent::Stage { what: &text });
-        showcase.push(measure(&last, files, rung, shown.as_ref())?);
+        showcase.push(measure(&last, disk, files, rung, shown.as_ref())?);
     }
     let ends = (
         showcase.first_mut().and_then(Option::take),
@@ -298,6 +301,7 @@ fn with_model(study: &Study, model: &RungModel, changes: bool) -> Study {
 /// Fills in what only an evaluation of the whole study can tell of a rung; returns the signals of one tightening.
 fn measure(
     study: &Study,
+    disk: &dyn Disk,
     files: &[PathBuf],
     rung: &mut Rung,
     shown: Option<&TighteningId>,
@@ -305,7 +309,7 @@ fn measure(
     let evaluated: Vec<Result<Vec<Evaluated>, StudyError>> = files
         .par_iter()
         .map(|path| {
-            let mut all = evaluate_alone(study, path)?;
+            let mut all = evaluate_alone(study, disk, path)?;
             for one in &mut all {
                 one.traces = one.traces.take().filter(|_| Some(&one.result.id) == shown);
             }

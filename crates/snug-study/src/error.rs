@@ -1,12 +1,12 @@
 use crate::position;
 use snug_campaign::did_you_mean;
 use snug_diagnose::DiagnoseError;
+use snug_files::FilesError;
 use snug_identify::IdentifyError;
 use snug_ingest::IngestError;
 use snug_model::ModelError;
 use snug_preprocess::PreprocessError;
 use snug_record::RecordError;
-use snug_report::ReportError;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
@@ -20,6 +20,19 @@ pub enum StudyError {
         path: PathBuf,
         /// Why.
         source: std::io::Error,
+    },
+    /// What was named as a study file is a folder, a pipe or a device, or longer than any study.
+    #[error("{} is {}; a study is a text file (RON in UTF-8) of at most {most} bytes", path.display(), match bytes {
+        Some(bytes) => format!("{bytes} bytes long"),
+        None => "no regular file".to_owned(),
+    })]
+    NotAStudy {
+        /// Which file.
+        path: PathBuf,
+        /// How long a regular file is.
+        bytes: Option<u64>,
+        /// How long it may be \[bytes\].
+        most: u64,
     },
     /// The study file does not follow the format.
     #[error("{}:{line}:{column}: {message}", path.display())]
@@ -117,13 +130,24 @@ pub enum StudyError {
         /// Every range of the source.
         known: Vec<String>,
     },
-    /// A result cannot be written.
-    #[error("{}: {source}", path.display())]
-    Write {
-        /// Which file or folder.
+    /// A result cannot be written, or must not be.
+    #[error(transparent)]
+    Files(#[from] FilesError),
+    /// The recording cannot be written.
+    #[error("cannot write {}: {source}{}", path.display(), remedy(source))]
+    Recording {
+        /// Where it was to stand.
         path: PathBuf,
         /// Why.
-        source: std::io::Error,
+        source: RecordError,
+    },
+    /// A run that came to no end after it had recorded something; the results of the run before stand.
+    #[error("{source}; nothing was replaced, and what was recorded until then is in {partial} (`cargo xtask recover {partial}` makes it whole)", partial = partial.display())]
+    Unfinished {
+        /// Why it came to no end.
+        source: Box<StudyError>,
+        /// The recording.
+        partial: PathBuf,
     },
     /// Threads cannot be started.
     #[error("{threads} threads cannot be started: {message}")]
@@ -145,12 +169,9 @@ pub enum StudyError {
     /// A setting of the identification is not allowed, or it could not begin.
     #[error("identify: {0}")]
     Identify(#[from] IdentifyError),
-    /// The recording cannot be written.
+    /// A setting of the recording is not allowed.
     #[error("record: {0}")]
     Record(#[from] RecordError),
-    /// The report cannot be written.
-    #[error("report: {0}")]
-    Report(#[from] ReportError),
 }
 
 /// Names as an error lists them.
@@ -161,12 +182,23 @@ fn listed(names: &[String]) -> String {
     }
 }
 
+/// What to do about the error of the operating system below an error, if there is one.
+fn remedy(error: &(dyn std::error::Error + 'static)) -> &'static str {
+    let mut chain = std::iter::successors(Some(error), |error| error.source());
+    let of_the_system = chain.find_map(|error| error.downcast_ref::<std::io::Error>());
+    of_the_system.map_or("", snug_files::remedy)
+}
+
 impl StudyError {
     /// Whether the cause is what the user asked for, rather than the data or the machine.
     pub fn is_bad_argument(&self) -> bool {
+        if let Self::Files(error) = self {
+            return error.is_bad_argument();
+        }
         matches!(
             self,
             Self::Read { .. }
+                | Self::NotAStudy { .. }
                 | Self::Syntax { .. }
                 | Self::InFile { .. }
                 | Self::Setting { .. }
@@ -180,6 +212,14 @@ impl StudyError {
                 | Self::Model(_)
                 | Self::AlreadyInModel { .. }
                 | Self::NotInModel { .. }
+        )
+    }
+
+    /// Whether whoever watches ended it.
+    pub fn is_interruption(&self) -> bool {
+        matches!(
+            self,
+            Self::Interrupted | Self::Files(FilesError::Interrupted)
         )
     }
 

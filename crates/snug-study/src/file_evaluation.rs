@@ -4,6 +4,7 @@ use crate::evaluation::{Evaluated, fitted, validated, without_estimate};
 use crate::{Study, StudyError};
 use rayon::prelude::*;
 use snug_campaign::{Estimate, Finding, FitStatus, Recording, Rejection, Severity, TighteningId};
+use snug_files::Disk;
 use snug_identify::SIDE_BY_SIDE;
 use snug_preprocess::{Prepared, Preset, Window, preprocess};
 use std::path::Path;
@@ -21,10 +22,14 @@ pub struct FileEvaluation {
 }
 
 /// Reads, prepares and evaluates one file. What cannot be used becomes a finding.
-pub fn evaluate_file(study: &Study, path: &Path) -> Result<FileEvaluation, StudyError> {
+pub fn evaluate_file(
+    study: &Study,
+    disk: &dyn Disk,
+    path: &Path,
+) -> Result<FileEvaluation, StudyError> {
     let _span = tracing::info_span!("file", path = %path.display()).entered();
     let lever_arm_m = study.preprocess.rig.lever_arm_m;
-    let ingested = match snug_ingest::read(&study.source, path, lever_arm_m) {
+    let ingested = match snug_ingest::read_on(disk, &study.source, path, lever_arm_m) {
         Ok(ingested) => ingested,
         Err(error) => {
             tracing::warn!(%error, "the file is left out");
@@ -64,9 +69,13 @@ pub fn evaluate_file(study: &Study, path: &Path) -> Result<FileEvaluation, Study
 }
 
 /// Reads, prepares and evaluates one file under the study's own preset only; what cannot be read is left out.
-pub fn evaluate_alone(study: &Study, path: &Path) -> Result<Vec<Evaluated>, StudyError> {
+pub fn evaluate_alone(
+    study: &Study,
+    disk: &dyn Disk,
+    path: &Path,
+) -> Result<Vec<Evaluated>, StudyError> {
     let lever_arm_m = study.preprocess.rig.lever_arm_m;
-    let Ok(ingested) = snug_ingest::read(&study.source, path, lever_arm_m) else {
+    let Ok(ingested) = snug_ingest::read_on(disk, &study.source, path, lever_arm_m) else {
         return Ok(Vec::new());
     };
     let mut evaluated = Vec::new();

@@ -1,7 +1,8 @@
 //! Changes a study file's list of effects and leaves everything else, comments too, as it is.
 
-use crate::study::options;
+use crate::study::{options, text_of};
 use crate::{Study, StudyError};
+use snug_files::Host;
 use snug_model::CustomEffectSettings;
 use std::path::Path;
 
@@ -11,17 +12,13 @@ use std::path::Path;
 /// follow, it is written anew with every default, and its comments are lost.
 ///
 /// # Errors
-/// [`StudyError::Read`] and [`StudyError::Syntax`] for a file that is no study, [`StudyError::Write`].
+/// [`StudyError::Read`] and [`StudyError::Syntax`] for a file that is no study, [`StudyError::Files`].
 pub fn rewrite_effects(
     path: &Path,
     effects: &[String],
     custom: &[CustomEffectSettings],
 ) -> Result<(), StudyError> {
-    let read = |source| StudyError::Read {
-        path: path.to_path_buf(),
-        source,
-    };
-    let text = std::fs::read_to_string(path).map_err(read)?;
+    let text = text_of(path)?;
     let mut wanted = Study::parse(&text, path)?;
     if wanted.model.effects == effects {
         return Ok(());
@@ -43,10 +40,7 @@ pub fn rewrite_effects(
         Some(new) if Study::parse(&new, path).is_ok_and(|study| study == wanted) => new,
         _ => wanted.to_ron()?,
     };
-    snug_report::write_whole(path, &new).map_err(|source| StudyError::Write {
-        path: path.to_path_buf(),
-        source,
-    })
+    Ok(snug_files::write_whole(&Host, path, new.as_bytes())?)
 }
 
 /// The text with the model's list of effects replaced or put in.

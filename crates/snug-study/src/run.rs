@@ -3,27 +3,48 @@
 use crate::evaluation::Evaluated;
 use crate::examples::Examples;
 use crate::file_evaluation::{FileEvaluation, evaluate_file, other, outcomes};
+use crate::output::{Output, Workplace};
 use crate::{ProgressEvent, Study, StudyError, statistics};
 use rayon::prelude::*;
 use snug_campaign::{
     CampaignResult, Diagnosis, Finding, ParameterMeaning, PresetSummary, Rejection, RejectionCount,
     Severity, TighteningId, TighteningResult,
 };
+use snug_files::{Disk, Host};
+use snug_ingest::Listing;
 use snug_model::{BASE_PARAMETERS, Law, Model};
 use snug_record::Recorder;
 use std::collections::BTreeMap;
-use std::fs::File;
-use std::io::BufWriter;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// How a study is run, beside what it says itself.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone)]
 pub struct RunSettings {
     /// Folder for the results; made if it is not there.
     pub out: PathBuf,
     /// Threads; `None` for one a core. Results do not depend on it.
     pub threads: Option<usize>,
+    /// The file that the study was read from, which is never written over.
+    pub study_file: Option<PathBuf>,
+    /// Whether to wait for another run that has the folder.
+    pub wait: bool,
+    /// The file system.
+    pub disk: Arc<dyn Disk>,
+}
+
+impl RunSettings {
+    /// Results into `out`, everything else as by default.
+    pub fn new(out: impl Into<PathBuf>) -> Self {
+        Self {
+            out: out.into(),
+            threads: None,
+            study_file: None,
+            wait: false,
+            disk: Arc::new(Host),
+        }
+    }
 }
 
 /// What a run came to.
@@ -33,12 +54,40 @@ pub struct Outcome {
     pub result: CampaignResult,
     /// The files that were written.
     pub written: Vec<PathBuf>,
+    /// Where files went that had a result's name and were none of Snug's, or were changed since.
+    pub set_aside: Vec<PathBuf>,
+    /// Recordings in the folder that earlier runs left unfinished.
+    pub unfinished: Vec<PathBuf>,
     /// Files and tightenings that were left out; the findings say why.
     pub left_out: usize,
     /// Measurement files that were listed.
     pub files: usize,
     /// Whether it was stopped before the last file.
     pub interrupted: bool,
+}
+
+impl Outcome {
+    /// Why nothing at all was identified; `None` where something was.
+    pub fn nothing_identified(&self) -> Option<String> {
+        use snug_campaign::FitStatus::{Converged, ConvergedAtConstraint};
+        let mut estimates = (self.result.tightenings.iter()).filter_map(|t| t.estimate.as_ref());
+        if estimates.any(|one| matches!(one.status, Converged | ConvergedAtConstraint)) {
+            return None;
+        }
+        let mut left_out =
+            (self.result.findings.iter()).filter(|finding| finding.severity == Severity::LeftOut);
+        let first = match left_out.next() {
+            Some(finding) => format!("{}: {}", finding.file, finding.message),
+            None => "no fit found an optimum".to_owned(),
+        };
+        let more = match left_out.count() {
+            0 => String::new(),
+            some => format!(" (and {some} more)"),
+        };
+        Some(format!(
+            "nothing was identified: {first}{more}; findings.json says everything"
+        ))
+    }
 }
 
 /// What grows while files are evaluated.
@@ -55,7 +104,9 @@ struct Collected {
 ///
 /// Files are evaluated in groups of as many as there are threads, and recorded in order, so that memory does not grow
 /// with their number and the results do not depend on the threads. When `interrupted` becomes true, the group at hand is
-/// finished and everything is written for what was evaluated.
+/// finished and everything is written for what was evaluated; the files that were not reached are findings.
+///
+/// The results of the run before stand until the new ones are complete, and are then exchanged for them as a whole.
 ///
 /// # Errors
 /// [`StudyError`] for a setting that is not allowed, data that cannot be listed and results that cannot be written. A
@@ -66,84 +117,134 @@ pub fn run(
     progress: &(dyn Fn(ProgressEvent<'_>) + Sync),
     interrupted: &AtomicBool,
 ) -> Result<Outcome, StudyError> {
-    run_with(study, None, settings, progress, interrupted)
+    study.check()?;
+    let workplace = Workplace::new(study, settings, interrupted)?;
+    run_with(study, None, workplace, settings, progress, interrupted)
 }
 
-/// The same, with what a diagnosis found out told beside it.
+/// The same at a workplace, with what a diagnosis found out told beside it.
 pub(crate) fn run_with(
     study: &Study,
     diagnosis: Option<Diagnosis>,
+    workplace: Workplace,
     settings: &RunSettings,
     progress: &(dyn Fn(ProgressEvent<'_>) + Sync),
     interrupted: &AtomicBool,
 ) -> Result<Outcome, StudyError> {
-    study.check()?;
-    let listing = snug_ingest::list(&study.source, &study.source.path)?;
-    let files = listing.files;
-    create_folder(&settings.out)?;
+    let Workplace { listing, results } = workplace;
     let study_ron = runnable_anywhere(study)?.to_ron()?;
-    let study_path = settings.out.join("study.ron");
-    write(&study_path, &study_ron)?;
-    let pool = pool(settings.threads)?;
-    let recording_path = settings.out.join("recording.mcap");
-    let mut recorder = Recorder::create(&recording_path, study.record)?;
-    recorder.study(&study_ron)?;
-    progress(ProgressEvent::Started { files: files.len() });
+    let output = Output::new(results, study, &study_ron, settings)?;
+    let partial = output.partial();
+    let run = Run {
+        study,
+        study_ron,
+        diagnosis,
+        settings,
+        progress,
+        interrupted,
+    };
+    run.to_the_end(listing, output)
+        .map_err(|error| match partial {
+            Some(partial) if partial.is_file() => StudyError::Unfinished {
+                source: Box::new(error),
+                partial,
+            },
+            _ => error,
+        })
+}
 
-    let mut collected = Collected::default();
-    collected.note(listing.findings, &mut recorder)?;
-    let mut stopped = false;
-    for group in files.chunks(pool.current_num_threads()) {
-        if interrupted.load(Ordering::Relaxed) {
-            stopped = true;
-            break;
-        }
-        let evaluated: Vec<Result<FileEvaluation, StudyError>> = pool.install(|| {
-            group
-                .par_iter()
-                .map(|path| evaluate_file(study, path))
-                .collect()
-        });
-        for file in evaluated {
-            collected.take(file?, &mut recorder)?;
-            progress(ProgressEvent::FileDone {
-                tightenings: collected.tightenings.len(),
+/// A run whose results have a place.
+struct Run<'a> {
+    study: &'a Study,
+    study_ron: String,
+    diagnosis: Option<Diagnosis>,
+    settings: &'a RunSettings,
+    progress: &'a (dyn Fn(ProgressEvent<'_>) + Sync),
+    interrupted: &'a AtomicBool,
+}
+
+impl Run<'_> {
+    fn to_the_end(self, listing: Listing, mut output: Output) -> Result<Outcome, StudyError> {
+        let progress = self.progress;
+        let mut collected = Collected::default();
+        collected.note(listing.findings, &mut output)?;
+        let left = self.evaluate(&listing.files, &mut collected, &mut output)?;
+        collected.note(not_reached(left), &mut output)?;
+
+        progress(ProgressEvent::Writing { what: "statistics" });
+        let mut result = collected.result(self.study, self.study_ron)?;
+        result.diagnosis = self.diagnosis;
+        output.record(|recorder| {
+            recorder.statistics(&result.conditions, &result.tests)?;
+            match &result.diagnosis {
+                Some(diagnosis) => recorder.diagnosis(diagnosis),
+                None => Ok(()),
+            }
+        })?;
+        progress(ProgressEvent::Writing { what: "report" });
+        let exchanged = output.finish(&result)?;
+        Ok(Outcome {
+            left_out: count(&result.findings, Severity::LeftOut),
+            files: listing.files.len(),
+            interrupted: !left.is_empty(),
+            written: exchanged.written,
+            set_aside: exchanged.set_aside,
+            unfinished: exchanged.unfinished,
+            result,
+        })
+    }
+
+    /// Evaluates file after file; returns those that were not reached.
+    fn evaluate<'f>(
+        &self,
+        files: &'f [PathBuf],
+        collected: &mut Collected,
+        output: &mut Output,
+    ) -> Result<&'f [PathBuf], StudyError> {
+        (self.progress)(ProgressEvent::Started { files: files.len() });
+        let pool = pool(self.settings.threads)?;
+        let at_once = pool.current_num_threads();
+        for (number, group) in files.chunks(at_once).enumerate() {
+            if self.interrupted.load(Ordering::Relaxed) {
+                return Ok(&files[number * at_once..]);
+            }
+            let evaluated: Vec<Result<FileEvaluation, StudyError>> = pool.install(|| {
+                group
+                    .par_iter()
+                    .map(|path| evaluate_file(self.study, &*self.settings.disk, path))
+                    .collect()
             });
+            for file in evaluated {
+                collected.take(file?, output)?;
+                (self.progress)(ProgressEvent::FileDone {
+                    tightenings: collected.tightenings.len(),
+                });
+            }
         }
+        Ok(&[])
     }
+}
 
-    progress(ProgressEvent::Writing { what: "statistics" });
-    let mut result = collected.result(study, study_ron)?;
-    result.diagnosis = diagnosis;
-    recorder.statistics(&result.conditions, &result.tests)?;
-    if let Some(diagnosis) = &result.diagnosis {
-        recorder.diagnosis(diagnosis)?;
-    }
-    recorder.finish()?;
-    let layout_path = settings.out.join("snug-layout.json");
-    let names: Vec<&str> = parameter_names(&result);
-    write(&layout_path, &snug_record::layout(&names))?;
-    progress(ProgressEvent::Writing { what: "report" });
-    let mut written = snug_report::write(&settings.out, &result)?;
-    written.extend([recording_path, layout_path, study_path]);
-    Ok(Outcome {
-        left_out: count(&result.findings, Severity::LeftOut),
-        files: files.len(),
-        interrupted: stopped,
-        written,
-        result,
-    })
+/// Says of files that they were not evaluated because the run was stopped.
+fn not_reached(files: &[PathBuf]) -> Vec<Finding> {
+    let finding = |path: &PathBuf| Finding {
+        severity: Severity::LeftOut,
+        code: "not_reached".to_owned(),
+        file: (path.file_name().unwrap_or_default())
+            .to_string_lossy()
+            .into_owned(),
+        tightening: None,
+        channel: None,
+        message: "the run was stopped before this file; it was not evaluated".to_owned(),
+    };
+    files.iter().map(finding).collect()
 }
 
 impl Collected {
     /// Records one file's results and keeps what the tables and the report need of them.
-    fn take(
-        &mut self,
-        file: FileEvaluation,
-        recorder: &mut Recorder<BufWriter<File>>,
-    ) -> Result<(), StudyError> {
+    fn take(&mut self, file: FileEvaluation, output: &mut Output) -> Result<(), StudyError> {
         for recording in &file.recordings {
-            recorder.measurement(recording)?;
+            output.record(|recorder| recorder.measurement(recording))?;
         }
         self.here.extend(outcomes(&file.evaluated));
         self.there.extend(file.other_preset.unwrap_or_default());
@@ -154,23 +255,20 @@ impl Collected {
         } in file.evaluated
         {
             if let Some(traces) = traces {
-                recorder.tightening(&result, &traces, onset)?;
+                output.record(|recorder| recorder.tightening(&result, &traces, onset))?;
                 self.examples.offer(self.tightenings.len(), traces);
             }
             self.tightenings.push(result);
         }
-        self.note(file.findings, recorder)?;
-        recorder.flush()?;
+        self.note(file.findings, output)?;
+        output.record(Recorder::flush)?;
+        output.keep_partial();
         Ok(())
     }
 
-    fn note(
-        &mut self,
-        findings: Vec<Finding>,
-        recorder: &mut Recorder<BufWriter<File>>,
-    ) -> Result<(), StudyError> {
+    fn note(&mut self, findings: Vec<Finding>, output: &mut Output) -> Result<(), StudyError> {
         for finding in findings {
-            recorder.finding(&finding)?;
+            output.record(|recorder| recorder.finding(&finding))?;
             self.findings.push(finding);
         }
         Ok(())
@@ -247,18 +345,6 @@ fn preset_summary(study: &Study, outcomes: Vec<(TighteningId, Vec<Rejection>)>) 
     }
 }
 
-/// Names of the model's parameters, as far as anything was identified.
-fn parameter_names(result: &CampaignResult) -> Vec<&str> {
-    let estimate = result.tightenings.iter().find_map(|t| t.estimate.as_ref());
-    estimate.map_or_else(Vec::new, |estimate| {
-        estimate
-            .parameters
-            .iter()
-            .map(|p| p.name.as_str())
-            .collect()
-    })
-}
-
 fn count(findings: &[Finding], severity: Severity) -> usize {
     findings.iter().filter(|f| f.severity == severity).count()
 }
@@ -284,18 +370,4 @@ pub(crate) fn pool(threads: Option<usize>) -> Result<rayon::ThreadPool, StudyErr
             threads,
             message: error.to_string(),
         })
-}
-
-fn create_folder(folder: &Path) -> Result<(), StudyError> {
-    std::fs::create_dir_all(folder).map_err(|source| StudyError::Write {
-        path: folder.to_path_buf(),
-        source,
-    })
-}
-
-fn write(path: &Path, text: &str) -> Result<(), StudyError> {
-    snug_report::write_whole(path, text).map_err(|source| StudyError::Write {
-        path: path.to_path_buf(),
-        source,
-    })
 }

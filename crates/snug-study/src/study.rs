@@ -61,13 +61,10 @@ impl Study {
     /// Reads a study file (RON); its data path is taken relative to the file.
     ///
     /// # Errors
-    /// [`StudyError::Read`] when the file cannot be read, [`StudyError::Syntax`] with line and column when it does not
+    /// [`StudyError::Read`] and [`StudyError::NotAStudy`] when the file cannot be read, [`StudyError::Syntax`] with line and column when it does not
     /// follow the format, [`StudyError::InFile`] with those of the field when a value is not allowed.
     pub fn read(path: &Path) -> Result<Self, StudyError> {
-        let text = std::fs::read_to_string(path).map_err(|source| StudyError::Read {
-            path: path.to_path_buf(),
-            source,
-        })?;
+        let text = text_of(path)?;
         let mut study = Self::parse(&text, path)?;
         let folder = path.parent().unwrap_or(Path::new(""));
         study.source.path = folder.join(&study.source.path);
@@ -236,6 +233,30 @@ impl Study {
             self.title.clone()
         }
     }
+}
+
+/// Longest study file that is read \[bytes\]; every default written out takes 4000.
+const LONGEST_BYTES: u64 = 1 << 20;
+
+/// The text of a study file.
+///
+/// # Errors
+/// [`StudyError::Read`], [`StudyError::NotAStudy`] for what is no regular file or longer than any study.
+pub(crate) fn text_of(path: &Path) -> Result<String, StudyError> {
+    let read = |source| StudyError::Read {
+        path: path.to_path_buf(),
+        source,
+    };
+    // A pipe or device would be waited for, or read without end.
+    let metadata = std::fs::metadata(path).map_err(read)?;
+    if !metadata.is_file() || metadata.len() > LONGEST_BYTES {
+        return Err(StudyError::NotAStudy {
+            path: path.to_path_buf(),
+            bytes: metadata.is_file().then_some(metadata.len()),
+            most: LONGEST_BYTES,
+        });
+    }
+    std::fs::read_to_string(path).map_err(read)
 }
 
 /// What a preset decides beyond the preparation.

@@ -97,10 +97,7 @@ fn measure(campaign: &Campaign) -> Measured {
 /// One `improve`; prints seconds, peak memory \[MB\] and what was added, a line each.
 pub fn child(data: &Path, out: &Path) {
     let study = Study::on(data.to_path_buf());
-    let settings = RunSettings {
-        out: out.to_path_buf(),
-        threads: None,
-    };
+    let settings = RunSettings::new(out);
     let start = std::time::Instant::now();
     let outcome = diagnose(
         &study,

@@ -122,7 +122,8 @@ fn record(campaign: &Campaign) {
 }
 
 fn write(path: &Path, results: &[(TighteningResult, Traces)]) {
-    let mut recorder = Recorder::create(path, RecordSettings::default())
+    let file = std::fs::File::create(path).expect("a temporary folder can be written");
+    let mut recorder = Recorder::new(std::io::BufWriter::new(file), RecordSettings::default())
         .expect("a temporary folder can be written");
     for (result, traces) in results {
         (recorder.tightening(result, traces, None)).expect("a temporary folder can be written");

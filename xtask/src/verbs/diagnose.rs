@@ -1,6 +1,7 @@
-use super::run::{carry_out, study};
+use super::run::{carry_out, refused, study};
 use crate::arguments::RunOptions;
 use crate::exit;
+use crate::terminal::say;
 use snug_study::{StudyError, Verb};
 use std::path::Path;
 use std::process::ExitCode;
@@ -12,10 +13,7 @@ pub fn diagnose(options: &RunOptions, verb: &Verb) -> ExitCode {
         Ok(study)
     }) {
         Ok(study) => study,
-        Err(error) => {
-            eprintln!("{error}");
-            return exit::bad_arguments();
-        }
+        Err(error) => return refused(&error),
     };
     carry_out(
         options,
@@ -58,16 +56,13 @@ pub fn remove(study: &Path, effect: &str) -> ExitCode {
                 [] => "the base model".to_owned(),
                 some => some.join(" + "),
             };
-            println!(
-                "{}: {effect} is taken out; the model is {left}",
+            let told = format!(
+                "{}: {effect} is taken out; the model is {left}\n",
                 study.display()
             );
-            exit::DONE
+            say(&told, exit::DONE)
         }
-        Err(error) => {
-            eprintln!("{error}");
-            exit::bad_arguments()
-        }
+        Err(error) => refused(&error),
     }
 }
 

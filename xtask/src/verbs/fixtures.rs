@@ -1,3 +1,4 @@
+use crate::terminal::{complain, say};
 use crate::{exit, workspace};
 use std::process::ExitCode;
 
@@ -5,13 +6,13 @@ use std::process::ExitCode;
 pub fn fixtures() -> ExitCode {
     match snug_synthetic::fixtures::write(&workspace::root().join("fixtures")) {
         Ok(files) => {
-            for file in files {
-                println!("{}", file.display());
-            }
-            exit::DONE
+            let lines: Vec<String> = (files.iter())
+                .map(|file| format!("{}\n", file.display()))
+                .collect();
+            say(&lines.concat(), exit::DONE)
         }
         Err(error) => {
-            eprintln!("{error}");
+            complain(&error.to_string());
             exit::failed()
         }
     }

@@ -1,20 +1,17 @@
 use crate::arguments::{PresetName, RunOptions};
 use crate::diagnosis_summary::Following;
 use crate::progress::Progress;
-use crate::{diagnosis_summary, exit, summary, workspace};
+use crate::terminal::complain;
+use crate::{diagnosis_summary, exit, signals, summary, terminal, workspace};
 use snug_study::{Outcome, Preset, ProgressEvent, RunSettings, Study, StudyError};
 use std::process::ExitCode;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 
 /// From recordings to report and MCAP.
 pub fn run(options: &RunOptions) -> ExitCode {
     let study = match study(options) {
         Ok(study) => study,
-        Err(error) => {
-            eprintln!("{error}");
-            return exit::bad_arguments();
-        }
+        Err(error) => return refused(&error),
     };
     carry_out(options, "", |settings, progress, interrupted| {
         snug_study::run(&study, settings, progress, interrupted)
@@ -24,72 +21,71 @@ pub fn run(options: &RunOptions) -> ExitCode {
 /// How a verb hears of progress.
 type Tell<'a> = &'a (dyn Fn(ProgressEvent<'_>) + Sync);
 
-/// Does the work with progress, stops it politely on Ctrl-C, prints the summary and chooses the exit code.
+/// Does the work with progress, stops it politely on a signal, prints the summary and chooses the exit code.
 pub fn carry_out(
     options: &RunOptions,
     next: &str,
     work: impl FnOnce(&RunSettings, Tell<'_>, &AtomicBool) -> Result<Outcome, StudyError>,
 ) -> ExitCode {
     let settings = RunSettings {
-        out: options.out.clone(),
         threads: options.threads.map(usize::from),
+        study_file: options.study.clone(),
+        wait: options.wait,
+        ..RunSettings::new(&options.out)
     };
-    let interrupted = Arc::new(AtomicBool::new(false));
-    let flag = Arc::clone(&interrupted);
-    let stop = move || {
-        if flag.swap(true, Ordering::Relaxed) {
-            std::process::exit(exit::INTERRUPTED.into());
-        }
-        eprintln!("stopping after what is at hand; Ctrl-C again stops at once");
-    };
-    if let Err(error) = ctrlc::set_handler(stop) {
-        tracing::warn!(%error, "Ctrl-C will stop at once instead of after the current file");
-    }
+    let interrupted = signals::interruption();
     let progress = Progress::new(options.quiet);
     let outcome = work(&settings, &|event| progress.report(event), &interrupted);
     progress.finish();
     match outcome {
         Ok(outcome) => {
-            if !options.quiet {
-                let written = settings.out.join("study.ron");
-                let following = Following {
-                    options: next,
-                    study: &options.study.as_ref().unwrap_or(&written).to_string_lossy(),
-                    written: &written.to_string_lossy(),
-                };
-                match &outcome.result.diagnosis {
-                    Some(diagnosis) => diagnosis_summary::print(diagnosis, &following),
-                    None => print!("{}", summary::of_run(&outcome)),
-                }
-                print!("{}", summary::of_results(&outcome));
+            let code = exit_code(&outcome, options.strict);
+            match options.quiet {
+                true => code,
+                false => terminal::say(&told(&outcome, options, next), code),
             }
-            exit_code(&outcome)
         }
-        Err(StudyError::Interrupted) => {
-            eprintln!("{}", StudyError::Interrupted);
+        Err(error) if error.is_interruption() => {
+            complain(&error.to_string());
             exit::interrupted()
         }
-        Err(error) => {
-            eprintln!("{error}");
-            if error.is_bad_argument() {
-                exit::bad_arguments()
-            } else {
-                exit::failed()
-            }
-        }
+        Err(error) => refused(&error),
     }
 }
 
-fn exit_code(outcome: &Outcome) -> ExitCode {
-    let tightenings = &outcome.result.tightenings;
-    let evaluated = tightenings.iter().any(|t| t.estimate.is_some());
+/// Complains of an error; the exit code that goes with it.
+pub fn refused(error: &StudyError) -> ExitCode {
+    complain(&error.to_string());
+    match error.is_bad_argument() {
+        true => exit::bad_arguments(),
+        false => exit::failed(),
+    }
+}
+
+/// What the work came to, on one screen.
+fn told(outcome: &Outcome, options: &RunOptions, next: &str) -> String {
+    let written = options.out.join("study.ron");
+    let following = Following {
+        options: next,
+        study: &options.study.as_ref().unwrap_or(&written).to_string_lossy(),
+        written: &written.to_string_lossy(),
+    };
+    let mut text = match &outcome.result.diagnosis {
+        Some(diagnosis) => diagnosis_summary::of(diagnosis, &following),
+        None => summary::of_run(outcome),
+    };
+    text.push_str(&summary::of_results(outcome));
+    text
+}
+
+fn exit_code(outcome: &Outcome, strict: bool) -> ExitCode {
     let diagnosis = outcome.result.diagnosis.as_ref();
     if outcome.interrupted || diagnosis.is_some_and(|one| one.interrupted) {
         exit::interrupted()
-    } else if !evaluated {
-        eprintln!("no tightening could be evaluated; findings.json says why");
+    } else if let Some(why) = outcome.nothing_identified() {
+        complain(&why);
         exit::failed()
-    } else if outcome.left_out > 0 {
+    } else if strict && outcome.left_out > 0 {
         exit::left_out()
     } else {
         exit::DONE

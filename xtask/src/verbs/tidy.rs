@@ -1,5 +1,6 @@
 //! `cargo xtask tidy`: what is wrong with the workspace as a whole, with file and remedy.
 
+use crate::terminal::{complain, say};
 use crate::tidy::{self, Outcome};
 use crate::{exit, workspace};
 use std::process::ExitCode;
@@ -8,37 +9,39 @@ use std::process::ExitCode;
 pub fn tidy(is_detailed: bool) -> ExitCode {
     match tidy::check(&workspace::root()) {
         Ok(outcomes) => {
-            for outcome in &outcomes {
-                print(outcome, is_detailed);
-            }
-            if outcomes.iter().all(|outcome| outcome.problems.is_empty()) {
-                exit::DONE
-            } else {
-                exit::failed()
-            }
+            let told: Vec<String> = (outcomes.iter())
+                .map(|outcome| lines(outcome, is_detailed).join("\n") + "\n")
+                .collect();
+            let is_well = outcomes.iter().all(|outcome| outcome.problems.is_empty());
+            let code = match is_well {
+                true => exit::DONE,
+                false => exit::failed(),
+            };
+            say(&told.concat(), code)
         }
         Err(error) => {
-            eprintln!("{error}");
+            complain(&error.to_string());
             exit::failed()
         }
     }
 }
 
 /// A line if all is well; else every problem with its file and remedy, and what is known besides.
-fn print(outcome: &Outcome, is_detailed: bool) {
+fn lines(outcome: &Outcome, is_detailed: bool) -> Vec<String> {
+    let mut lines = Vec::new();
     if outcome.problems.is_empty() {
-        println!("{}: {}", outcome.check, outcome.summary);
+        lines.push(format!("{}: {}", outcome.check, outcome.summary));
     }
     for problem in &outcome.problems {
-        println!("{}: {}: {}", outcome.check, problem.file, problem.what);
-        println!("    remedy: {}", problem.remedy);
+        lines.push(format!(
+            "{}: {}: {}",
+            outcome.check, problem.file, problem.what
+        ));
+        lines.push(format!("    remedy: {}", problem.remedy));
     }
-    for gap in &outcome.gaps {
-        println!("    {gap}");
-    }
+    lines.extend(outcome.gaps.iter().map(|gap| format!("    {gap}")));
     if is_detailed || !outcome.problems.is_empty() {
-        for note in &outcome.notes {
-            println!("    {note}");
-        }
+        lines.extend(outcome.notes.iter().map(|note| format!("    {note}")));
     }
+    lines
 }

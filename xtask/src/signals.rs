@@ -1,0 +1,63 @@
+//! Ctrl-C and the signals by which a system ends a program.
+
+use crate::exit;
+use crate::terminal::complain;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Becomes true with the first Ctrl-C, SIGTERM or SIGHUP; the second ends the program at once.
+///
+/// SIGHUP stays ignored where it was ignored at the start, as under `nohup`.
+pub fn interruption() -> Arc<AtomicBool> {
+    let interrupted = Arc::new(AtomicBool::new(false));
+    if let Err(error) = listen(Arc::clone(&interrupted)) {
+        tracing::warn!(%error, "a signal will stop the program at once instead of after what is at hand");
+    }
+    interrupted
+}
+
+#[cfg(unix)]
+fn listen(interrupted: Arc<AtomicBool>) -> std::io::Result<()> {
+    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+    let mut listened = vec![SIGINT, SIGTERM];
+    if !is_ignored(SIGHUP) {
+        listened.push(SIGHUP);
+    }
+    let mut signals = signal_hook::iterator::Signals::new(listened)?;
+    std::thread::Builder::new()
+        .name("signals".to_owned())
+        .spawn(move || signals.forever().for_each(|_| stop(&interrupted)))?;
+    Ok(())
+}
+
+/// Whether the process was started with a signal ignored.
+#[cfg(unix)]
+fn is_ignored(signal: i32) -> bool {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    status
+        .lines()
+        .find_map(|line| line.strip_prefix("SigIgn:"))
+        .and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok())
+        .is_some_and(|mask| mask >> (signal - 1) & 1 == 1)
+}
+
+#[cfg(not(unix))]
+fn listen(interrupted: Arc<AtomicBool>) -> std::io::Result<()> {
+    use signal_hook::consts::{SIGINT, SIGTERM};
+    use signal_hook::flag;
+    for signal in [SIGINT, SIGTERM] {
+        let code = exit::INTERRUPTED.into();
+        flag::register_conditional_shutdown(signal, code, Arc::clone(&interrupted))?;
+        flag::register(signal, Arc::clone(&interrupted))?;
+    }
+    Ok(())
+}
+
+/// The first time politely.
+#[cfg(unix)]
+fn stop(interrupted: &AtomicBool) {
+    if interrupted.swap(true, Ordering::Relaxed) {
+        std::process::exit(exit::INTERRUPTED.into());
+    }
+    complain("stopping after what is at hand; once more stops at once");
+}
