@@ -255,6 +255,17 @@ pub enum IngestError {
         /// What its storage can inflate to.
         held_bytes: u64,
     },
+    /// A file whose parts name the same bytes over and over.
+    #[cfg(feature = "hdf5")]
+    #[error(
+        "the HDF5 file of {file_bytes} bytes makes its reader read more than {limit_bytes} bytes"
+    )]
+    Hdf5ReadOver {
+        /// Length of the file.
+        file_bytes: u64,
+        /// What may be read of it, the same bytes counted as often as they are.
+        limit_bytes: u64,
+    },
     /// The fields of a struct array have different lengths.
     #[error("struct {object}: not every field has {expected} value(s)")]
     Hdf5Fields {

@@ -147,6 +147,71 @@ fn files_without_data_are_refused() {
 }
 
 #[test]
+fn what_is_no_text_is_refused_by_its_start() {
+    let utf16: Vec<u8> = "M;phi\n1;2\n"
+        .encode_utf16()
+        .flat_map(u16::to_le_bytes)
+        .collect();
+    let error = read(&layout(), &utf16).unwrap_err();
+    assert!(
+        matches!(error, IngestError::NotText { offset: 1 }),
+        "{error}"
+    );
+}
+
+#[test]
+fn rows_without_end_are_refused() {
+    for tail in [
+        "\"".to_owned() + &"1;2\n".repeat(400_000),
+        ";".repeat(3_000_000),
+    ] {
+        let error = read(&layout(), format!("M;phi\n1;2\n{tail}").as_bytes()).unwrap_err();
+        assert!(
+            matches!(error, IngestError::RowTooLong { line: 3, .. }),
+            "{error}"
+        );
+    }
+}
+
+#[test]
+fn rows_that_an_open_quote_swallows_are_said() {
+    let (recording, findings) = read(&layout(), b"M;phi\n1;2\n2;\"3\n3;4\n4;5\n").unwrap();
+    assert_eq!(recording.torque_nm, [1.0, 2.0]);
+    let lost = findings.iter().find(|f| f.code == "quoted_lines").unwrap();
+    assert_eq!(lost.severity, Severity::LeftOut);
+    assert!(lost.message.starts_with("2 lines"), "{}", lost.message);
+    // A remark of two lines is none of them.
+    let remark = b"M;phi;remark\n1;2;\"two\nlines\"\n2;3;one\n";
+    let (recording, findings) = read(&layout(), remark).unwrap();
+    assert_eq!((recording.torque_nm.len(), findings.len()), (2, 0));
+}
+
+#[test]
+fn messages_show_no_more_than_a_few_words_of_a_file() {
+    let long = "x".repeat(100_000);
+    let gap = format!("M;phi\n1;{long}\n1;2\n");
+    let (_, findings) = read(&layout(), gap.as_bytes()).unwrap();
+    assert!(findings[0].message.len() < 300, "{}", findings[0].message);
+    let names = format!("M;{}\n1;2\n", [long.as_str(); 9].join(";"));
+    let error = read(&layout(), names.as_bytes()).unwrap_err().to_string();
+    assert!(error.contains("xxx…") && error.len() < 2000, "{error}");
+}
+
+#[test]
+fn times_at_the_end_of_all_numbers_give_no_samples() {
+    let layout = CsvLayout {
+        sampling: Sampling::TimeColumn {
+            column: named("t"),
+            unit: TimeUnit::Second,
+            tolerance_ratio: 0.1,
+        },
+        ..layout()
+    };
+    let error = read(&layout, b"t;M;phi\n-1e308;1;2\n1e308;1;2\n").unwrap_err();
+    assert_eq!(error.code(), "unusable_time");
+}
+
+#[test]
 fn times_in_milliseconds_with_a_gap() {
     let layout = CsvLayout {
         sampling: Sampling::TimeColumn {

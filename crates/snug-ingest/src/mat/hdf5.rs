@@ -7,6 +7,7 @@
 mod effort;
 mod old_layout;
 mod raw;
+mod stored;
 
 use super::selection::{MatSelection, Wanted};
 use super::{
@@ -20,9 +21,10 @@ use hdf5_pure::{AttrValue, Dataset, File, FormatError, Group, Object};
 use raw::Elements;
 use std::collections::HashMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use stored::Stored;
 
-/// What an open object of the HDF5 library takes, its parsed header with it (measured: 300) \[bytes\].
-const OBJECT_BYTES: usize = 512;
+/// What an open object of the HDF5 library takes, its parsed header with it (measured: 2200) \[bytes\].
+const OBJECT_BYTES: usize = 2560;
 
 /// HDF5 itself has no more.
 const MOST_DIMENSIONS: usize = 32;
@@ -38,28 +40,28 @@ pub(super) fn select(
     // The HDF5 library promises errors, not panics, but it is large and the files are strangers': a panic inside it
     // must cost this file only. Nothing of its state outlives the call.
     catch_unwind(AssertUnwindSafe(|| {
-        let open = |content| File::from_bytes(content).map_err(|error| failed("/", error));
+        let stored = Stored::new(content);
         let mark = budget.mark();
-        let file = open(content)?;
-        let read = root(&file, wanted, budget);
+        let read = root(&stored, wanted, budget);
         if !is_old_layout(&read) {
             return read;
         }
         budget.back_to(mark);
-        budget.spend("the file", file.as_bytes().len() as u64)?;
-        let mut content = file.as_bytes().to_vec();
-        if !old_layout::modernise(&mut content) {
+        let mut bytes = stored.into_bytes();
+        if !old_layout::modernise(&mut bytes) {
             return read;
         }
-        root(&open(content)?, wanted, budget)
+        root(&Stored::new(bytes), wanted, budget)
     }))
     .unwrap_or(Err(IngestError::Hdf5Panic))
 }
 
-fn root(file: &File, wanted: Wanted<'_>, budget: &Budget) -> Result<MatSelection, IngestError> {
-    let effort = Effort::for_file(file.as_bytes().len(), budget);
+fn root(stored: &Stored, wanted: Wanted<'_>, budget: &Budget) -> Result<MatSelection, IngestError> {
+    let file = File::from_source(stored.clone()).map_err(|error| failed("/", error))?;
+    let effort = Effort::for_file(stored.length(), budget);
     let mut selection = MatSelection::new(MatFormat::Hdf5);
     Reader { effort, budget }.root(&file.root(), wanted, &mut selection)?;
+    stored.check()?;
     selection.variables.sort_by(|a, b| a.name.cmp(&b.name));
     Ok(selection)
 }

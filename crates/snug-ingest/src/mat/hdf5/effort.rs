@@ -26,8 +26,7 @@ pub(super) struct Effort<'a> {
 }
 
 impl<'a> Effort<'a> {
-    pub(super) fn for_file(bytes: usize, budget: &'a Budget) -> Self {
-        let file_bytes = bytes as u64;
+    pub(super) fn for_file(file_bytes: u64, budget: &'a Budget) -> Self {
         Self {
             budget,
             file_bytes,
