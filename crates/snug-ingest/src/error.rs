@@ -1,8 +1,13 @@
-use crate::excerpt::{cut, excerpt};
+//! Why measurement files could not be read.
+
+mod finding;
+mod wording;
+
+use crate::excerpt::excerpt;
 use crate::signal::{Signal, Unit};
-use snug_campaign::{Finding, Severity, did_you_mean};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use thiserror::Error;
+use wording::{listed, meant, megabytes, units};
 
 /// Why measurement files could not be read.
 #[derive(Debug, Error)]
@@ -424,121 +429,4 @@ pub enum IngestError {
         /// Topics and fields that hold numbers.
         present: Vec<String>,
     },
-}
-
-fn megabytes(bytes: &u64) -> u64 {
-    bytes.div_ceil(1_000_000)
-}
-
-fn units(units: &[Unit]) -> String {
-    let names: Vec<String> = units.iter().map(|unit| format!("{unit:?}")).collect();
-    names.join(", ")
-}
-
-/// The first names of a list, and how many more there are.
-fn listed(names: &[String]) -> String {
-    const SHOWN: usize = 12;
-    match names.len() {
-        0 => "nothing".to_owned(),
-        1..=SHOWN => excerpts(names),
-        count => format!("{} and {} more", excerpts(&names[..SHOWN]), count - SHOWN),
-    }
-}
-
-/// Which of a file's names was meant; in a file with thousands, or of names that nobody types, nothing is said of them.
-fn meant(accepted: &[String], present: &[String]) -> String {
-    const LOOKED_AT: usize = 1000;
-    const LONGEST: usize = 100;
-    const SHOWN: usize = 300;
-    let typed: Vec<&String> = present
-        .iter()
-        .take(LOOKED_AT)
-        .filter(|name| name.len() <= LONGEST)
-        .collect();
-    let meant: String = accepted
-        .iter()
-        .map(|name| did_you_mean(name, &typed))
-        .collect();
-    cut(&meant, SHOWN)
-}
-
-fn excerpts(names: &[String]) -> String {
-    let shown: Vec<String> = names.iter().map(|name| excerpt(name)).collect();
-    shown.join(", ")
-}
-
-impl IngestError {
-    /// The finding that says this file was left out.
-    pub fn finding(&self) -> Finding {
-        let file = match self {
-            Self::File { path, .. } => path.file_name(),
-            Self::NoSuchPath { path }
-            | Self::NotAFile { path, .. }
-            | Self::DanglingLink { path }
-            | Self::LinkLoop { path }
-            | Self::NothingToRead { folder: path, .. } => path.file_name(),
-            _ => None,
-        };
-        Finding {
-            severity: Severity::LeftOut,
-            code: self.code().to_owned(),
-            file: file.unwrap_or_default().to_string_lossy().into_owned(),
-            tightening: None,
-            channel: self.channel().map(str::to_owned),
-            message: match self {
-                Self::File { source, .. } => format!("file left out: {source}"),
-                other => other.to_string(),
-            },
-        }
-    }
-
-    /// Stable name of the kind of error, as in findings.
-    pub fn code(&self) -> &'static str {
-        match self {
-            Self::File { source, .. } => source.code(),
-            Self::NoSuchPath { .. } | Self::NothingToRead { .. } | Self::NoSuchFile { .. } => {
-                "missing_data"
-            }
-            Self::NotAFile { .. } => "not_a_file",
-            Self::DanglingLink { .. } => "dangling_link",
-            Self::LinkLoop { .. } => "link_loop",
-            Self::Setting { .. } | Self::UnitOfSignal { .. } => "bad_setting",
-            Self::FormatNotBuilt { .. } => "unknown_format",
-            Self::OverBudget { .. } => "over_budget",
-            Self::MissingChannel { .. } => "missing_channel",
-            Self::UnusableChannel { .. } => "unusable_channel",
-            Self::DamagedVariable { channel, .. } if channel != "events" => "unusable_channel",
-            Self::EventTable { .. } | Self::DamagedVariable { .. } => "unusable_events",
-            Self::NoRows { .. } | Self::NoRecordings { .. } | Self::EmptyFile => "no_data",
-            Self::TimeNotRising { .. } | Self::TimeGap { .. } => "unusable_time",
-            _ => "unreadable_file",
-        }
-    }
-
-    fn channel(&self) -> Option<&str> {
-        match self {
-            Self::File { source, .. } => source.channel(),
-            Self::MissingChannel { channel, .. } => Some(channel),
-            Self::UnusableChannel { variable, .. }
-            | Self::DamagedVariable { variable, .. }
-            | Self::EventTable { variable, .. } => Some(variable),
-            _ => None,
-        }
-    }
-
-    /// Whether it would meet every part of the file, rather than this one.
-    pub(crate) fn is_of_the_file(&self) -> bool {
-        matches!(self, Self::OverBudget { .. } | Self::Read(_))
-    }
-
-    /// Adds the file, unless it is already named.
-    pub(crate) fn in_file(self, path: &Path) -> Self {
-        match self {
-            named @ Self::File { .. } => named,
-            source => Self::File {
-                path: path.to_owned(),
-                source: Box::new(source),
-            },
-        }
-    }
 }
