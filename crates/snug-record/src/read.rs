@@ -6,6 +6,7 @@
 //! No length in a file is believed: memory follows the bytes that are there, and ends at a limit that callers can set.
 
 pub(crate) mod budget;
+mod chunk;
 mod collector;
 pub(crate) mod content;
 mod decoded;

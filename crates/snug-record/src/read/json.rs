@@ -9,6 +9,7 @@ pub(super) fn decode(data: &[u8], put: &mut impl FnMut(&str, f64)) -> Decoded {
     // Once without giving anything, so that a malformed message leaves no half of its values behind, and so that the
     // length of every array is known when it begins.
     let mut survey = Walk::new(&[], |_: &str, _| {});
+    survey.muted = 1;
     survey.message(data)?;
     let mut long = survey.found_long;
     long.sort_unstable();
@@ -27,7 +28,7 @@ struct Walk<'a, P> {
     /// Places in that order of the arrays that are too long, ascending.
     long: &'a [usize],
     found_long: Vec<usize>,
-    /// Within how many arrays that are too long.
+    /// Within how many arrays that are too long, and one more in the survey; no number is given then.
     muted: usize,
 }
 
@@ -108,7 +109,9 @@ impl<'de, P: FnMut(&str, f64)> Visitor<'de> for &mut Walk<'_, P> {
         let length = self.path.len();
         let mut count = 0;
         loop {
-            write!(self.path, "[{count}]").expect("a String takes all text");
+            if self.muted == 0 {
+                write!(self.path, "[{count}]").expect("a String takes all text");
+            }
             let item = items.next_element_seed(&mut *self)?;
             self.path.truncate(length);
             if item.is_none() {
@@ -126,10 +129,11 @@ impl<'de, P: FnMut(&str, f64)> Visitor<'de> for &mut Walk<'_, P> {
     fn visit_map<A: MapAccess<'de>>(self, mut fields: A) -> Result<(), A::Error> {
         let length = self.path.len();
         loop {
-            if length > 0 {
+            if length > 0 && self.muted == 0 {
                 self.path.push('.');
             }
-            let field = fields.next_key_seed(Name(&mut self.path))?;
+            let path = (self.muted == 0).then_some(&mut self.path);
+            let field = fields.next_key_seed(Name(path))?;
             if field.is_some() {
                 fields.next_value_seed(&mut *self)?;
             }
@@ -141,8 +145,8 @@ impl<'de, P: FnMut(&str, f64)> Visitor<'de> for &mut Walk<'_, P> {
     }
 }
 
-/// Appends a field's name to the path.
-struct Name<'a>(&'a mut String);
+/// Appends a field's name to the path, if there is one.
+struct Name<'a>(Option<&'a mut String>);
 
 impl<'de> DeserializeSeed<'de> for Name<'_> {
     type Value = ();
@@ -160,7 +164,9 @@ impl Visitor<'_> for Name<'_> {
     }
 
     fn visit_str<E: Error>(self, name: &str) -> Result<(), E> {
-        self.0.push_str(name);
+        if let Some(path) = self.0 {
+            path.push_str(name);
+        }
         Ok(())
     }
 }
