@@ -11,6 +11,9 @@ use std::time::{Duration, SystemTime};
 pub(crate) const LOCK: &str = ".snug-lock";
 /// Between two looks at a lock that another run holds: short for a person, long for a processor.
 const LOOK_EVERY: Duration = Duration::from_millis(200);
+/// Looks at the note of a holder that has not written one yet, and the time between two: it takes microseconds.
+const NOTE_LOOKS: u32 = 10;
+const NOTE_EVERY: Duration = Duration::from_millis(5);
 /// Longest note of a holder that is read \[bytes\].
 const LONGEST_NOTE_BYTES: u64 = 200;
 
@@ -111,11 +114,18 @@ fn note(file: &mut File) {
     }
 }
 
+/// What the holder says of itself; it may just be about to.
 fn holder(file: &mut File) -> Option<String> {
-    let mut text = String::new();
-    file.rewind().ok()?;
-    file.take(LONGEST_NOTE_BYTES)
-        .read_to_string(&mut text)
-        .ok()?;
-    (!text.is_empty()).then_some(text)
+    for _ in 0..NOTE_LOOKS {
+        let mut text = String::new();
+        file.rewind().ok()?;
+        file.take(LONGEST_NOTE_BYTES)
+            .read_to_string(&mut text)
+            .ok()?;
+        if !text.is_empty() {
+            return Some(text);
+        }
+        std::thread::sleep(NOTE_EVERY);
+    }
+    None
 }

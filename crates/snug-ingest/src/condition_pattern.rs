@@ -4,10 +4,10 @@ mod template;
 
 pub use template::Template;
 
-use crate::excerpt::excerpt;
 use crate::finding_log::{About, FindingLog};
 use serde::{Deserialize, Serialize};
 use snug_campaign::Conditions;
+use snug_campaign::excerpt;
 use template::Field;
 
 /// How a file's label names its conditions.

@@ -3,8 +3,8 @@
 mod finding;
 mod wording;
 
-use crate::excerpt::excerpt;
 use crate::signal::{Signal, Unit};
+use snug_campaign::excerpt;
 use std::path::PathBuf;
 use thiserror::Error;
 use wording::{listed, meant, megabytes, units};

@@ -3,7 +3,6 @@
 mod condition_pattern;
 pub mod csv;
 mod error;
-mod excerpt;
 mod finding_log;
 pub mod mat;
 pub mod mcap;

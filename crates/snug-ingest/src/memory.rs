@@ -91,6 +91,11 @@ impl Budget {
         self.back_to(self.used_bytes.get().saturating_sub(bytes));
     }
 
+    /// What may still be taken.
+    pub(crate) fn left_bytes(&self) -> u64 {
+        self.budget_bytes.saturating_sub(self.used_bytes.get())
+    }
+
     /// What is taken now; [`Budget::back_to`] gives back whatever was taken since.
     pub(crate) fn mark(&self) -> u64 {
         self.used_bytes.get()

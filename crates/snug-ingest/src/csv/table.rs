@@ -3,11 +3,11 @@
 use super::rows::Rows;
 use super::{Column, CsvLayout, report_gaps, report_open_quotes};
 use crate::IngestError;
-use crate::excerpt::excerpt;
 use crate::finding_log::FindingLog;
 use crate::memory::Budget;
 use csv::StringRecord;
 use serde::{Deserialize, Serialize};
+use snug_campaign::excerpt;
 
 /// What separates the columns.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]

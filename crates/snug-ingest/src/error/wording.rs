@@ -1,8 +1,8 @@
 //! Lists and numbers as messages show them.
 
-use crate::excerpt::{cut, excerpt};
 use crate::signal::Unit;
 use snug_campaign::did_you_mean;
+use snug_campaign::excerpt;
 
 pub(super) fn megabytes(bytes: &u64) -> u64 {
     bytes.div_ceil(1_000_000)
@@ -27,7 +27,6 @@ pub(super) fn listed(names: &[String]) -> String {
 pub(super) fn meant(accepted: &[String], present: &[String]) -> String {
     const LOOKED_AT: usize = 1000;
     const LONGEST: usize = 100;
-    const SHOWN: usize = 300;
     let typed: Vec<&String> = present
         .iter()
         .take(LOOKED_AT)
@@ -37,7 +36,7 @@ pub(super) fn meant(accepted: &[String], present: &[String]) -> String {
         .iter()
         .map(|name| did_you_mean(name, &typed))
         .collect();
-    cut(&meant, SHOWN)
+    excerpt(&meant)
 }
 
 fn excerpts(names: &[String]) -> String {

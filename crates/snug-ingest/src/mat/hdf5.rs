@@ -14,11 +14,11 @@ use super::{
     Content, Field, MAXIMUM_DEPTH, MatFormat, Numbers, Sparse, Unsupported, Value, Variable,
 };
 use crate::IngestError;
-use crate::excerpt::excerpt;
 use crate::memory::Budget;
 use effort::Effort;
 use hdf5_pure::{AttrValue, Dataset, File, FormatError, Group, Object};
 use raw::Elements;
+use snug_campaign::excerpt;
 use std::collections::HashMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use stored::Stored;

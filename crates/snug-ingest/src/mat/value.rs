@@ -1,5 +1,5 @@
 use super::Numbers;
-use crate::excerpt::excerpt;
+use snug_campaign::excerpt;
 
 /// A named value.
 #[derive(Debug, Clone, PartialEq)]

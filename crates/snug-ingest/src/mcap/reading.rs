@@ -1,12 +1,13 @@
 use super::McapLayout;
 use crate::csv::assemble;
-use crate::excerpt::excerpt;
 use crate::finding_log::{About, FindingLog};
 use crate::memory::Budget;
 use crate::sampling::{self, Timed, Track};
 use crate::{IngestError, Ingested, range};
+use snug_campaign::excerpt;
 use snug_campaign::{Conditions, Recording, TimeBase};
-use snug_record::read::{Completeness, Extent, numeric_channels, recordings};
+use snug_record::RecordError;
+use snug_record::read::{Completeness, Extent, numeric_channels_within, recordings_within};
 use std::path::Path;
 
 /// The recordings in an MCAP file's content; `path` names it, `lever_arm_m` turns lengths of the grip into angles.
@@ -53,13 +54,32 @@ pub(crate) fn read(
     })
 }
 
+/// Memory that understanding a recording takes at most beside a file's length times the factor below \[bytes\].
+const AT_LEAST_BYTES: u64 = 16_000_000;
+/// Memory per byte of the file: packed to a tenth, a sample of 10 bytes takes 100 while it is read.
+const BYTES_PER_BYTE: u64 = 128;
+
+/// Decodes within what is left of the budget, which is held meanwhile.
+fn bounded<T>(
+    content: &[u8],
+    budget: &Budget,
+    decode: impl FnOnce(&[u8], u64) -> Result<T, RecordError>,
+) -> Result<T, IngestError> {
+    let most = AT_LEAST_BYTES.saturating_add(BYTES_PER_BYTE.saturating_mul(content.len() as u64));
+    let (mark, limit) = (budget.mark(), budget.left_bytes().min(most));
+    budget.spend("the messages of a recording", limit)?;
+    let decoded = decode(content, limit)?;
+    budget.back_to(mark);
+    Ok(decoded)
+}
+
 /// Measurements that Snug wrote.
 fn own(
     content: &[u8],
     budget: &Budget,
     log: &mut FindingLog,
 ) -> Result<Vec<Recording>, IngestError> {
-    let campaign = recordings(content)?;
+    let campaign = bounded(content, budget, recordings_within)?;
     for file in &campaign.files {
         // Torque, force and three quantities of motion at most.
         budget.spend_on::<[f64; 5]>("a channel", file.recording.torque_nm.len())?;
@@ -76,7 +96,7 @@ fn own(
         );
     }
     if campaign.files.is_empty() {
-        let present = numeric_channels(content)?.channels;
+        let present = bounded(content, budget, numeric_channels_within)?.channels;
         return Err(IngestError::NoRecordings {
             present: present
                 .iter()
@@ -112,7 +132,7 @@ fn declared(
     budget: &Budget,
     log: &mut FindingLog,
 ) -> Result<Recording, IngestError> {
-    let mut read = numeric_channels(content)?;
+    let mut read = bounded(content, budget, numeric_channels_within)?;
     report_completeness(&read.completeness, log);
     for channel in &read.channels {
         budget.spend_on::<[f64; 2]>("a channel", channel.values.len())?;

@@ -1,7 +1,7 @@
-use crate::excerpt::excerpt;
 use crate::finding_log::{About, FindingLog};
 use crate::mat::{Content, Value};
 use snug_campaign::Segment;
+use snug_campaign::excerpt;
 
 /// No tightening of hand-held tools lasts this many samples.
 const LONGEST_SAMPLES: f64 = 1e9;

@@ -1,9 +1,9 @@
 //! What a file may make its reader do.
 
 use crate::IngestError;
-use crate::excerpt::excerpt;
 use crate::memory::Budget;
 use hdf5_pure::{Dataset, Layout};
+use snug_campaign::excerpt;
 
 /// Deflate cannot make less than one byte of this many.
 const LARGEST_COMPRESSION: u64 = 1032;
