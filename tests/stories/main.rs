@@ -6,6 +6,7 @@ mod bad_input;
 mod blind;
 mod campaign;
 mod coarse;
+mod faults;
 mod gap;
 mod interruption;
 mod intervals;

@@ -1,5 +1,5 @@
 use crate::arguments::{LogFormat, LogOptions};
-use std::io::IsTerminal;
+use crate::terminal::Printable;
 use tracing_subscriber::EnvFilter;
 
 /// Sends `tracing` to standard error, as text or as JSON lines.
@@ -11,8 +11,8 @@ pub fn start(options: &LogOptions) -> Result<(), String> {
         .map_err(|error| format!("--log-level {}: {error}", options.log_level))?;
     let subscriber = tracing_subscriber::fmt()
         .with_env_filter(filter)
-        .with_ansi(std::io::stderr().is_terminal())
-        .with_writer(std::io::stderr)
+        .with_ansi(false)
+        .with_writer(Printable::stderr)
         // A full disk behind standard error is no reason to end a run.
         .log_internal_errors(false);
     match options.log {

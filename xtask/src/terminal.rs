@@ -38,6 +38,26 @@ pub fn complain(text: &str) {
     std::io::stderr().write_all(line.as_bytes()).ok();
 }
 
+/// Standard error for whatever writes lines of its own: what it writes is shown, never sent as it is.
+pub struct Printable(std::io::Stderr);
+
+impl Printable {
+    pub fn stderr() -> Self {
+        Self(std::io::stderr())
+    }
+}
+
+impl Write for Printable {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        let text = printable(&String::from_utf8_lossy(bytes));
+        self.0.write_all(text.as_bytes()).map(|()| bytes.len())
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        self.0.flush()
+    }
+}
+
 /// What a summary may send to a terminal beside text: bold on and off.
 const ALLOWED: [&str; 2] = ["\u{1b}[1m", "\u{1b}[0m"];
 

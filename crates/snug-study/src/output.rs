@@ -40,20 +40,20 @@ impl Workplace {
         settings: &RunSettings,
         interrupted: &AtomicBool,
     ) -> Result<Self, StudyError> {
-        let listing = snug_ingest::list(&study.source, &study.source.path)?;
+        let disk = &*settings.disk;
+        let listing = snug_ingest::list_on(disk, &study.source, &study.source.path)?;
         let inputs = Inputs {
             data: Some(&study.source.path),
             measurements: &listing.files,
             study: settings.study_file.as_deref(),
         };
-        keep_apart(&*settings.disk, &settings.out, NAMES, inputs)?;
+        keep_apart(disk, &settings.out, NAMES, inputs)?;
         let go_on = || !interrupted.load(Ordering::Relaxed);
         let waiting: Option<&dyn Fn() -> bool> = match settings.wait {
             true => Some(&go_on),
             false => None,
         };
-        let disk = settings.disk.clone();
-        let results = Results::begin(disk, &settings.out, NAMES, waiting)?;
+        let results = Results::begin(settings.disk.clone(), &settings.out, NAMES, waiting)?;
         Ok(Self { listing, results })
     }
 }

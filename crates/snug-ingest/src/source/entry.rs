@@ -39,10 +39,10 @@ impl Entry {
         }
     }
 
-    /// Tells a link that leads nowhere from a name that is not there: the folder around it lists it.
+    /// Tells a link that leads nowhere from a name that is not there.
     pub(super) fn of_named(disk: &dyn Disk, path: &Path) -> Self {
         match Self::of(disk, path) {
-            Self::Nothing if is_listed(disk, path) => Self::DanglingLink,
+            Self::Nothing if disk.link_metadata(path).is_ok() => Self::DanglingLink,
             entry => entry,
         }
     }
@@ -72,16 +72,6 @@ impl Entry {
             Self::Refused(_) => "not accessible",
         }
     }
-}
-
-fn is_listed(disk: &dyn Disk, path: &Path) -> bool {
-    let folder = match path.parent() {
-        Some(folder) if folder.as_os_str().is_empty() => Path::new("."),
-        Some(folder) => folder,
-        None => return false,
-    };
-    disk.entries(folder)
-        .is_ok_and(|entries| entries.iter().any(|e| e.file_name() == path.file_name()))
 }
 
 #[cfg(unix)]
