@@ -4,9 +4,9 @@ use rand::seq::IndexedRandom;
 use rand::{Rng, SeedableRng, rngs::StdRng};
 
 /// A source of mutated inputs; the same seed gives the same ones.
-pub struct Mutation<'a> {
+pub struct Mutation {
     pub random: StdRng,
-    corpus: &'a [Vec<u8>],
+    corpus: Vec<Vec<u8>>,
 }
 
 /// Numbers at which programs go wrong.
@@ -54,16 +54,15 @@ const WORDS: [&str; 24] = [
     "\u{0}",
 ];
 
-impl<'a> Mutation<'a> {
-    pub fn new(seed: u64, corpus: &'a [Vec<u8>]) -> Self {
+impl Mutation {
+    pub fn new(seed: u64, corpus: Vec<Vec<u8>>) -> Self {
         let random = StdRng::seed_from_u64(seed);
         Self { random, corpus }
     }
 
     /// One of the inputs to start from.
     pub fn start(&mut self) -> Vec<u8> {
-        let corpus = self.corpus;
-        corpus
+        self.corpus
             .choose(&mut self.random)
             .expect("there is a corpus")
             .clone()

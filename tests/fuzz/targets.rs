@@ -18,7 +18,7 @@ pub struct Target {
     /// Name of the file that an input is put into.
     pub file: &'static str,
     /// A new input.
-    pub mutate: fn(&mut Mutation<'_>) -> Vec<u8>,
+    pub mutate: fn(&mut Mutation) -> Vec<u8>,
     /// Reads the input, which stands in the file, too.
     pub attempt: fn(&Path, &[u8]),
 }

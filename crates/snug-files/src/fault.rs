@@ -1,4 +1,4 @@
-//! A disk that fails on purpose.
+//! A disk that fails on purpose, for tests of whatever reads and writes through this crate.
 
 use crate::{Disk, Host, Input, Output};
 use std::fs::{File, Metadata};

@@ -4,7 +4,6 @@ mod apart;
 mod digest;
 mod disk;
 mod error;
-#[cfg(feature = "faults")]
 pub mod fault;
 mod identity;
 mod journal;

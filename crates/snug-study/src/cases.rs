@@ -7,6 +7,7 @@ use rayon::prelude::*;
 use snug_campaign::Rejection;
 use snug_diagnose::Case;
 use snug_files::{Disk, Host};
+use snug_ingest::IngestError;
 use snug_preprocess::preprocess;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -32,8 +33,12 @@ pub(crate) fn chosen(
     let read = |from: usize| -> Result<Vec<Part>, StudyError> {
         let some: Vec<usize> = (from..files.len()).step_by(stride).collect();
         let parts = some.into_par_iter().map(|number| {
-            let all = cases_of_file(study, disk, &files[number])?;
-            Ok(Part::of(number, all, each, number / stride))
+            let (all, unread) = match cases_of_file(study, disk, &files[number])? {
+                Ok(all) => (all, None),
+                Err(error) => (Vec::new(), Some(error)),
+            };
+            let part = Part::of(number, all, each, number / stride);
+            Ok(Part { unread, ..part })
         });
         parts.collect::<Vec<Result<_, _>>>().into_iter().collect()
     };
@@ -46,8 +51,12 @@ pub(crate) fn chosen(
     }
     let is_selection = parts.len() < files.len() || parts.iter().any(|part| part.is_selection);
     let remark = selection(taken(&parts), parts.len(), files.len());
+    let unread: Vec<IngestError> = (parts.iter_mut())
+        .filter_map(|part| part.unread.take())
+        .collect();
     let mut comparable = comparable(parts.into_iter().flat_map(|part| part.cases).collect());
     comparable.remarks.extend(is_selection.then_some(remark));
+    (comparable.remarks).extend(unread_files(&unread));
     Ok(comparable)
 }
 
@@ -58,6 +67,8 @@ struct Part {
     cases: Vec<Case>,
     /// Whether it has more.
     is_selection: bool,
+    /// Why nothing could be read of it.
+    unread: Option<IngestError>,
 }
 
 impl Part {
@@ -73,6 +84,7 @@ impl Part {
             number,
             cases: kept.collect(),
             is_selection: picked < count,
+            unread: None,
         }
     }
 }
@@ -88,12 +100,17 @@ fn selection(taken: usize, read: usize, all: usize) -> String {
     )
 }
 
-fn cases_of_file(study: &Study, disk: &dyn Disk, path: &Path) -> Result<Vec<Case>, StudyError> {
+fn cases_of_file(
+    study: &Study,
+    disk: &dyn Disk,
+    path: &Path,
+) -> Result<Result<Vec<Case>, IngestError>, StudyError> {
     let lever_arm_m = study.preprocess.rig.lever_arm_m;
-    // What cannot be read, and everything else that is left out, the run of the study names in its findings.
-    let Ok(ingested) = snug_ingest::read_on(disk, &study.source, path, lever_arm_m) else {
-        return Ok(Vec::new());
+    let ingested = match snug_ingest::read_on(disk, &study.source, path, lever_arm_m) {
+        Ok(ingested) => ingested,
+        Err(error) => return Ok(Err(error)),
     };
+    // Everything else that is left out the run of the study names in its findings.
     let only_simulated = study.validation_segments();
     let mut cases = Vec::new();
     for recording in &ingested.recordings {
@@ -126,5 +143,18 @@ fn cases_of_file(study: &Study, disk: &dyn Disk, path: &Path) -> Result<Vec<Case
             }
         }
     }
-    Ok(cases)
+    Ok(Ok(cases))
+}
+
+/// What is to be said of files that could not be read for a diagnosis: a disk that fails for a moment may read them again
+/// when the study is run, and then no finding names them.
+pub(crate) fn unread_files(errors: &[IngestError]) -> Option<String> {
+    let first = errors.first()?;
+    let more = match errors.len() - 1 {
+        0 => String::new(),
+        some => format!(" (and {some} more)"),
+    };
+    Some(format!(
+        "Not every file could be read, so this diagnosis is in part without it: {first}{more}."
+    ))
 }

@@ -1,6 +1,6 @@
 //! A study diagnosed: tightenings to the diagnosis, its models back into the study, every rung of the ladder evaluated.
 
-use crate::cases::chosen;
+use crate::cases::{chosen, unread_files};
 use crate::comparable::Comparable;
 use crate::evaluation::Evaluated;
 use crate::file_evaluation::evaluate_alone;
@@ -13,6 +13,7 @@ use serde::{Deserialize, Serialize};
 use snug_campaign::{Diagnosis, Rejection, Rung, Showcase, TighteningId, Traces};
 use snug_diagnose::{Answer, Case, DiagnoseError, Goal, Question, RungModel, Watch, examine};
 use snug_files::Disk;
+use snug_ingest::IngestError;
 use snug_model::{Effect, ParameterSettings};
 use snug_statistics::descriptive::median;
 use std::path::PathBuf;
@@ -246,7 +247,11 @@ fn climb(
             some => format!("evaluating {}", some.join(" + ")),
         };
         progress(ProgressEvent::Stage { what: &text });
-        showcase.push(measure(&last, disk, files, rung, shown.as_ref())?);
+        let mut unread = Vec::new();
+        let traces = measure(&last, disk, files, rung, shown.as_ref(), &mut unread)?;
+        showcase.push(traces);
+        let remark = unread_files(&unread);
+        (diagnosis.reasons).extend(remark.filter(|remark| !diagnosis.reasons.contains(remark)));
     }
     let ends = (
         showcase.first_mut().and_then(Option::take),
@@ -298,29 +303,34 @@ fn with_model(study: &Study, model: &RungModel, changes: bool) -> Study {
     study
 }
 
-/// Fills in what only an evaluation of the whole study can tell of a rung; returns the signals of one tightening.
+/// Fills in what only an evaluation of the whole study can tell of a rung, and why files could not be read for it; returns
+/// the signals of one tightening.
 fn measure(
     study: &Study,
     disk: &dyn Disk,
     files: &[PathBuf],
     rung: &mut Rung,
     shown: Option<&TighteningId>,
+    unread: &mut Vec<IngestError>,
 ) -> Result<Option<Traces>, StudyError> {
-    let evaluated: Vec<Result<Vec<Evaluated>, StudyError>> = files
-        .par_iter()
-        .map(|path| {
-            let mut all = evaluate_alone(study, disk, path)?;
-            for one in &mut all {
-                one.traces = one.traces.take().filter(|_| Some(&one.result.id) == shown);
-            }
-            Ok(all)
-        })
-        .collect();
+    let evaluated = files.par_iter().map(|path| {
+        let mut all = evaluate_alone(study, disk, path)?;
+        for one in all.iter_mut().flatten() {
+            one.traces = one.traces.take().filter(|_| Some(&one.result.id) == shown);
+        }
+        Ok(all)
+    });
+    let evaluated: Vec<Result<Result<Vec<Evaluated>, IngestError>, StudyError>> =
+        evaluated.collect();
     let (mut squares, mut fits, mut selected, mut count) =
         (Vec::new(), Vec::new(), 0_usize, 0_usize);
     let mut traces = None;
     for file in evaluated {
-        for one in file? {
+        let all = file?.unwrap_or_else(|error| {
+            unread.push(error);
+            Vec::new()
+        });
+        for one in all {
             if one
                 .result
                 .selection

@@ -6,6 +6,7 @@ use rayon::prelude::*;
 use snug_campaign::{Estimate, Finding, FitStatus, Recording, Rejection, Severity, TighteningId};
 use snug_files::Disk;
 use snug_identify::SIDE_BY_SIDE;
+use snug_ingest::IngestError;
 use snug_preprocess::{Prepared, Preset, Window, preprocess};
 use std::path::Path;
 
@@ -68,21 +69,22 @@ pub fn evaluate_file(
     })
 }
 
-/// Reads, prepares and evaluates one file under the study's own preset only; what cannot be read is left out.
+/// Reads, prepares and evaluates one file under the study's own preset only; the inner error says why it cannot be read.
 pub fn evaluate_alone(
     study: &Study,
     disk: &dyn Disk,
     path: &Path,
-) -> Result<Vec<Evaluated>, StudyError> {
+) -> Result<Result<Vec<Evaluated>, IngestError>, StudyError> {
     let lever_arm_m = study.preprocess.rig.lever_arm_m;
-    let Ok(ingested) = snug_ingest::read_on(disk, &study.source, path, lever_arm_m) else {
-        return Ok(Vec::new());
+    let ingested = match snug_ingest::read_on(disk, &study.source, path, lever_arm_m) {
+        Ok(ingested) => ingested,
+        Err(error) => return Ok(Err(error)),
     };
     let mut evaluated = Vec::new();
     for recording in &ingested.recordings {
         evaluated.extend(evaluate(study, recording, &mut Vec::new())?);
     }
-    Ok(evaluated)
+    Ok(Ok(evaluated))
 }
 
 /// What preset `snug` found, for a run of the original program, which looks for nothing: told, without consequence.

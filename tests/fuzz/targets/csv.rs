@@ -17,8 +17,8 @@ pub const TARGET: Target = Target {
 /// One layout by names and a column of times, one by places and a rate.
 static SOURCES: LazyLock<[Source; 2]> = LazyLock::new(|| {
     [
-        r#"Csv(channels: [(column: Name("torque"), signal: Torque, unit: NewtonMetre), (column: Name("angle"), signal: Angle, unit: Radian)])"#,
-        r#"Csv(channels: [(column: Index(1), signal: Torque, unit: NewtonMetre), (column: Index(2), signal: Angle, unit: Degree)], sampling: Rate(hz: 100.0), ranges: [(name: "a", start: 2, end: 9)])"#,
+        r#"Csv(channels: [(column: Name("torque"), signal: Torque, unit: NewtonMetre), (column: Name("angle"), signal: Displacement, unit: Radian)])"#,
+        r#"Csv(channels: [(column: Index(1), signal: Torque, unit: NewtonMetre), (column: Index(2), signal: Displacement, unit: Degree)], sampling: Rate(hz: 100.0), ranges: [(name: "a", start: 2, end: 9)])"#,
     ]
     .map(|format| {
         let text = format!("(source: (format: {format}))");

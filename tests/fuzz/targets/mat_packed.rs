@@ -17,7 +17,7 @@ const HEADER_BYTES: usize = 128;
 /// Type of a compressed element.
 const COMPRESSED: u32 = 15;
 
-fn mutate(mutation: &mut Mutation<'_>) -> Vec<u8> {
+fn mutate(mutation: &mut Mutation) -> Vec<u8> {
     let file = mutation.start();
     if mutation.random.random_range(0..4) == 0 {
         let mut file = file;

@@ -16,7 +16,7 @@ const MAGIC_BYTES: usize = 8;
 const CHUNK: u8 = 6;
 
 /// Replaces every chunk by one without compression whose content is changed.
-fn mutate(mutation: &mut Mutation<'_>) -> Vec<u8> {
+fn mutate(mutation: &mut Mutation) -> Vec<u8> {
     let file = mutation.start();
     let mut changed = file[..MAGIC_BYTES].to_vec();
     let mut rest = &file[MAGIC_BYTES..];

@@ -55,7 +55,7 @@ const ODD: [f64; 9] = [
     32767.0,
 ];
 
-fn mutate(mutation: &mut Mutation<'_>) -> Vec<u8> {
+fn mutate(mutation: &mut Mutation) -> Vec<u8> {
     let good = &*GOOD;
     let random = &mut mutation.random;
     let samples = good.torque.len() / 2;

@@ -123,7 +123,7 @@ fn a_table_is_not_written_over_while_it_is_read() {
     let study = place.data.with_file_name("rig.ron");
     fs::write(
         &study,
-        r#"(source: (format: Csv(channels: [(column: Index(1), signal: Torque, unit: NewtonMetre), (column: Index(2), signal: Angle, unit: Radian)], sampling: Rate(hz: 100.0))), preprocess: (window: Whole))"#,
+        r#"(source: (format: Csv(channels: [(column: Index(1), signal: Torque, unit: NewtonMetre), (column: Index(2), signal: Displacement, unit: Radian)], sampling: Rate(hz: 100.0))), preprocess: (window: Whole))"#,
     )
     .unwrap();
     let words = [
