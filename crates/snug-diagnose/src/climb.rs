@@ -69,7 +69,7 @@ impl Climb {
     }
 
     /// What was reached by `ended`, the end of the way; also where whoever watches ended it.
-    pub fn as_far_as_it_went(
+    pub fn until_interrupted(
         mut self,
         ended: Result<(), DiagnoseError>,
     ) -> Result<Self, DiagnoseError> {

@@ -10,7 +10,7 @@ impl Search<'_> {
     pub fn improve(&self) -> Result<Climb, DiagnoseError> {
         let mut climb = self.compare()?;
         let ended = self.ascend(&mut climb);
-        climb.as_far_as_it_went(ended)
+        climb.until_interrupted(ended)
     }
 
     /// Rung by rung; `climb` holds those that were reached also where this fails.

@@ -37,7 +37,7 @@ impl Search<'_> {
     pub fn diagnose(&self) -> Result<Climb, DiagnoseError> {
         let mut climb = self.compare()?;
         let ended = self.name_the_first(&mut climb);
-        climb.as_far_as_it_went(ended)
+        climb.until_interrupted(ended)
     }
 
     fn name_the_first(&self, climb: &mut Climb) -> Result<(), DiagnoseError> {
@@ -61,7 +61,7 @@ impl Search<'_> {
     pub fn add(&self, effects: &[Effect]) -> Result<Climb, DiagnoseError> {
         let mut climb = self.compare()?;
         let ended = self.put_in(effects, &mut climb);
-        climb.as_far_as_it_went(ended)
+        climb.until_interrupted(ended)
     }
 
     fn put_in(&self, effects: &[Effect], climb: &mut Climb) -> Result<(), DiagnoseError> {

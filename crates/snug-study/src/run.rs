@@ -143,7 +143,7 @@ pub(crate) fn run_with(
         progress,
         interrupted,
     };
-    run.to_the_end(listing, output)
+    run.carry_out(listing, output)
         .map_err(|error| match partial {
             Some(partial) if partial.is_file() => StudyError::Unfinished {
                 source: Box::new(error),
@@ -164,7 +164,7 @@ struct Run<'a> {
 }
 
 impl Run<'_> {
-    fn to_the_end(self, listing: Listing, mut output: Output) -> Result<Outcome, StudyError> {
+    fn carry_out(self, listing: Listing, mut output: Output) -> Result<Outcome, StudyError> {
         let progress = self.progress;
         let mut collected = Collected::default();
         collected.note(listing.findings, &mut output)?;
