@@ -295,7 +295,9 @@ impl Results {
             self.names.iter().any(|result| {
                 let (stem, ending) = result.rsplit_once('.').unwrap_or((result, ""));
                 name.strip_prefix(stem)
-                    .is_some_and(|rest| rest.starts_with(PARTIAL) && rest.ends_with(ending))
+                    .and_then(|rest| rest.strip_prefix(PARTIAL)?.strip_suffix(ending))
+                    // What a recovery kept beside has one more part.
+                    .is_some_and(|time| !time.trim_end_matches('.').contains('.'))
             })
         });
         found.sort();

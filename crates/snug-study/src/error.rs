@@ -141,6 +141,14 @@ pub enum StudyError {
         /// Why.
         source: RecordError,
     },
+    /// A recording could not be made whole.
+    #[error("cannot recover {}: {source}{}", path.display(), remedy(source))]
+    NotRecovered {
+        /// The recording; it is as it was.
+        path: PathBuf,
+        /// Why.
+        source: RecordError,
+    },
     /// A run that came to no end after it had recorded something; the results of the run before stand.
     #[error("{source}; nothing was replaced, and what was recorded until then is in {partial} (`cargo xtask recover {partial}` makes it whole)", partial = partial.display())]
     Unfinished {

@@ -25,7 +25,7 @@ pub struct Recovered {
 /// that no recording is taken for cut while it is being written.
 ///
 /// # Errors
-/// [`StudyError::Recording`] for a file that is no recording, [`StudyError::Files`].
+/// [`StudyError::NotRecovered`] for a file that is no recording, [`StudyError::Files`].
 pub fn recover(path: &Path) -> Result<Recovered, StudyError> {
     let refused = |action| {
         move |source| FilesError::Refused {
@@ -34,7 +34,7 @@ pub fn recover(path: &Path) -> Result<Recovered, StudyError> {
             source,
         }
     };
-    let recording = |source| StudyError::Recording {
+    let recording = |source| StudyError::NotRecovered {
         path: path.to_path_buf(),
         source,
     };

@@ -93,7 +93,7 @@ impl Study {
     /// The study with every default written out, as RON that [`Study::read`] takes.
     ///
     /// # Errors
-    /// [`StudyError::Write`] when a value has no RON form.
+    /// [`StudyError::Serialize`] when a value has no RON form.
     pub fn to_ron(&self) -> Result<String, StudyError> {
         options()
             .to_string_pretty(self, ron::ser::PrettyConfig::default())
