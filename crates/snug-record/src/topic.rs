@@ -28,3 +28,29 @@ pub const MEASUREMENT_SAMPLES: &str = "/measurement/samples";
 pub const STUDY: &str = "snug.study";
 /// The metadata record of a recovered recording: what was saved and what is missing.
 pub const RECOVERED: &str = "snug.recovered";
+
+/// What a channel of Snug's holds of the measurements.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Measured {
+    /// What a tightening's window is.
+    Window,
+    /// A window's samples.
+    Signals,
+    /// What a whole measurement file is.
+    File,
+    /// A file's samples.
+    Samples,
+}
+
+impl Measured {
+    /// By a channel's topic and the name of its schema; `None` for any other channel.
+    pub(crate) fn of(topic: &str, schema: &str) -> Option<Self> {
+        match (topic, schema) {
+            (WINDOW, "snug.Window") => Some(Self::Window),
+            (SIGNALS, "snug.Signals") => Some(Self::Signals),
+            (MEASUREMENT_FILE, "snug.MeasurementFile") => Some(Self::File),
+            (MEASUREMENT_SAMPLES, "snug.MeasurementSamples") => Some(Self::Samples),
+            _ => None,
+        }
+    }
+}

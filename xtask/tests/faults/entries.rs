@@ -1,6 +1,6 @@
 //! Whatever lies in a folder of data is read, or told.
 
-use crate::program::{ended, entries, few_files, results, text, xtask};
+use crate::program::{ended, entries, few_files, results, words, xtask};
 use std::fs;
 use std::os::unix::fs::symlink;
 use std::process::Command;
@@ -33,13 +33,7 @@ fn every_entry_of_a_folder_is_read_or_told() {
         fs::write(at(name), "").unwrap();
     }
     let out = tempfile::tempdir().unwrap();
-    let words = [
-        "run",
-        "--data",
-        text(data.path()),
-        "--out",
-        text(out.path()),
-    ];
+    let words = words("run", data.path(), out.path());
     let (code, said) = ended(&mut xtask(&words));
     assert_eq!(code, 0, "{said}");
     assert!(!said.contains("\u{1b}[2J"), "no name steers the terminal");
@@ -64,7 +58,7 @@ fn a_campaign_of_which_nothing_is_identified_fails_with_the_reason() {
     fs::write(data.path().join("garbage.mat"), [7; 300]).unwrap();
     let out = tempfile::tempdir().unwrap();
     for verb in ["run", "compare", "diagnose", "improve"] {
-        let words = [verb, "--data", text(data.path()), "--out", text(out.path())];
+        let words = words(verb, data.path(), out.path());
         let (code, said) = ended(&mut xtask(&words));
         assert_eq!(code, 1, "{verb}: {said}");
         assert!(

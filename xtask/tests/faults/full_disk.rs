@@ -1,6 +1,6 @@
 //! A disk that fills while results are written.
 
-use crate::program::{differing, ended, expected, few_files, results, text, xtask};
+use crate::program::{differing, ended, expected, few_files, results, text, words, xtask};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use tempfile::TempDir;
@@ -35,13 +35,7 @@ impl Drop for SmallDisk {
 }
 
 fn run(data: &Path, out: &Path) -> (i32, String) {
-    ended(&mut xtask(&[
-        "run",
-        "--data",
-        text(data),
-        "--out",
-        text(out),
-    ]))
+    ended(&mut xtask(&words("run", data, out)))
 }
 
 #[test]

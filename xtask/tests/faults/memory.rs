@@ -1,6 +1,6 @@
 //! Files that ask for more memory than there is.
 
-use crate::program::{ended, few_files, results, text, xtask_below};
+use crate::program::{ended, few_files, results, words, xtask_below};
 use flate2::{Compression, write::ZlibEncoder};
 use std::io::Write;
 use std::path::Path;
@@ -43,7 +43,7 @@ fn bomb(name: &str, inflated_bytes: u32) -> Vec<u8> {
 }
 
 fn run(data: &Path, out: &Path) -> (i32, String) {
-    let words = ["run", "--data", text(data), "--out", text(out)];
+    let words = words("run", data, out);
     ended(&mut xtask_below(LIMIT, &words))
 }
 

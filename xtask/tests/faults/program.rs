@@ -61,6 +61,11 @@ pub fn few_files(count: usize) -> TempDir {
     folder
 }
 
+/// A verb on data, with a folder for its results.
+pub fn words<'a>(verb: &'a str, data: &'a Path, out: &'a Path) -> [&'a str; 5] {
+    [verb, "--data", text(data), "--out", text(out)]
+}
+
 pub fn text(path: &Path) -> &str {
     path.to_str().unwrap()
 }
@@ -96,13 +101,7 @@ pub fn entries(folder: &Path) -> Vec<PathBuf> {
 /// What a run of this data leaves in a folder of its own.
 pub fn expected(data: &Path) -> Results {
     let out = tempfile::tempdir().unwrap();
-    let (code, said) = ended(&mut xtask(&[
-        "run",
-        "--data",
-        text(data),
-        "--out",
-        text(out.path()),
-    ]));
+    let (code, said) = ended(&mut xtask(&words("run", data, out.path())));
     assert_eq!(code, 0, "{said}");
     results(out.path())
 }

@@ -1,6 +1,6 @@
 //! Signals by which people and systems end a program.
 
-use crate::program::{ended, fixture, results, said, text, xtask, xtask_below};
+use crate::program::{ended, fixture, results, said, text, words, xtask, xtask_below};
 use std::process::{Child, Command};
 use std::time::Duration;
 
@@ -116,7 +116,7 @@ fn a_run_that_is_stopped_says_which_files_it_did_not_reach() {
 fn a_hang_up_that_was_ignored_stays_ignored() {
     let out = tempfile::tempdir().unwrap();
     let data = fixture("mystery");
-    let words = ["diagnose", "--data", text(&data), "--out", text(out.path())];
+    let words = words("diagnose", &data, out.path());
     let child = xtask_below(r#"trap "" HUP; exec "$0" "$@""#, &words)
         .spawn()
         .unwrap();
@@ -130,20 +130,13 @@ fn a_hang_up_that_was_ignored_stays_ignored() {
 fn the_second_signal_ends_at_once() {
     let out = tempfile::tempdir().unwrap();
     let data = fixture("mystery");
-    let words = ["improve", "--data", text(&data), "--out", text(out.path())];
-    let child = xtask(&words).spawn().unwrap();
+    let child = xtask(&words("improve", &data, out.path())).spawn().unwrap();
     std::thread::sleep(Duration::from_millis(400));
     send("-TERM", &child);
     std::thread::sleep(Duration::from_millis(20));
     send("-TERM", &child);
     let output = child.wait_with_output().unwrap();
     assert_eq!(output.status.code(), Some(130), "{}", said(&output));
-    let (code, said) = ended(&mut xtask(&[
-        "run",
-        "--data",
-        text(&data),
-        "--out",
-        text(out.path()),
-    ]));
+    let (code, said) = ended(&mut xtask(&words("run", &data, out.path())));
     assert_eq!(code, 0, "{said}");
 }

@@ -1,19 +1,13 @@
 //! Readers that go away and redirections to a full disk.
 
-use crate::program::{ended, few_files, results, text, xtask, xtask_below};
+use crate::program::{ended, few_files, results, words, xtask, xtask_below};
 use std::process::Stdio;
 
 #[test]
 fn a_reader_that_has_gone_is_no_failure() {
     let data = few_files(1);
     let out = tempfile::tempdir().unwrap();
-    let words = [
-        "run",
-        "--data",
-        text(data.path()),
-        "--out",
-        text(out.path()),
-    ];
+    let words = words("run", data.path(), out.path());
     let mut child = xtask(&words).spawn().unwrap();
     drop(child.stdout.take());
     let output = child.wait_with_output().unwrap();
@@ -37,13 +31,7 @@ fn a_reader_that_has_gone_is_no_failure() {
 fn a_full_disk_behind_standard_output_is_told() {
     let data = few_files(1);
     let out = tempfile::tempdir().unwrap();
-    let words = [
-        "run",
-        "--data",
-        text(data.path()),
-        "--out",
-        text(out.path()),
-    ];
+    let words = words("run", data.path(), out.path());
     let full = || {
         Stdio::from(
             std::fs::File::options()

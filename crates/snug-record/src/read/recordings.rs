@@ -5,7 +5,8 @@ use super::budget::{Budget, Exhausted};
 use super::stream::{Completeness, Item, scan};
 use crate::measurement::Assembly;
 use crate::signals::{self, MeasuredSample};
-use crate::{RecordError, Window, topic};
+use crate::topic::{self, Measured};
+use crate::{RecordError, Window};
 use snug_campaign::{Motion, Quantity, Recording, Segment, TimeBase};
 use std::collections::{HashMap, HashSet};
 use std::ops::ControlFlow;
@@ -83,18 +84,9 @@ const ENTRY_BYTES: usize = 1024;
 /// Memory of a window's sample in its columns \[bytes\].
 const COLUMNS_BYTES: u64 = 48;
 
-/// Snug's topics that hold measurements.
-#[derive(Clone, Copy)]
-enum Topic {
-    Window,
-    Signals,
-    File,
-    Samples,
-}
-
 #[derive(Default)]
 struct Reader {
-    topics: HashMap<u16, Topic>,
+    topics: HashMap<u16, Measured>,
     whole: Vec<Assembly>,
     windows: Vec<(Window, Vec<MeasuredSample>)>,
     study_ron: Option<String>,
@@ -105,17 +97,10 @@ impl Reader {
     fn item(&mut self, item: &Item<'_>, budget: &mut Budget) -> Result<(), Exhausted> {
         match item {
             Item::Channel { id, channel } => {
-                let found = match (channel.topic.as_str(), channel.schema.name.as_str()) {
-                    (topic::WINDOW, "snug.Window") => Topic::Window,
-                    (topic::SIGNALS, "snug.Signals") => Topic::Signals,
-                    (topic::MEASUREMENT_FILE, "snug.MeasurementFile") => Topic::File,
-                    (topic::MEASUREMENT_SAMPLES, "snug.MeasurementSamples") => Topic::Samples,
-                    _ => {
-                        self.topics.remove(id);
-                        return Ok(());
-                    }
+                match Measured::of(&channel.topic, &channel.schema.name) {
+                    Some(found) => self.topics.insert(*id, found),
+                    None => self.topics.remove(id),
                 };
-                self.topics.insert(*id, found);
             }
             Item::Metadata(metadata) => {
                 if metadata.name == topic::STUDY {
@@ -136,14 +121,19 @@ impl Reader {
     }
 
     /// Pays for what a message of that length leaves in memory.
-    fn pay(&mut self, topic: Topic, length: usize, budget: &mut Budget) -> Result<(), Exhausted> {
+    fn pay(
+        &mut self,
+        topic: Measured,
+        length: usize,
+        budget: &mut Budget,
+    ) -> Result<(), Exhausted> {
         match topic {
-            Topic::Window if length > LONGEST_WINDOW_BYTES => Ok(()),
-            Topic::Window | Topic::File => {
+            Measured::Window if length > LONGEST_WINDOW_BYTES => Ok(()),
+            Measured::Window | Measured::File => {
                 budget.spend((MESSAGE_GROWTH.saturating_mul(length) + ENTRY_BYTES) as u64)
             }
-            Topic::Samples => budget.spend(2 * length as u64),
-            Topic::Signals => {
+            Measured::Samples => budget.spend(2 * length as u64),
+            Measured::Signals => {
                 budget.spend(COLUMNS_BYTES)?;
                 match self.windows.last_mut() {
                     Some((_, samples)) => budget.grow(samples),
@@ -153,27 +143,27 @@ impl Reader {
         }
     }
 
-    fn message(&mut self, topic: Topic, data: &[u8]) -> Option<()> {
+    fn message(&mut self, topic: Measured, data: &[u8]) -> Option<()> {
         match topic {
-            Topic::Window if data.len() > LONGEST_WINDOW_BYTES => return None,
-            Topic::Window => {
+            Measured::Window if data.len() > LONGEST_WINDOW_BYTES => return None,
+            Measured::Window => {
                 let window: Window = serde_json::from_slice(data).ok()?;
                 if window.stored_every == 0 {
                     return None;
                 }
                 self.windows.push((window, Vec::new()));
             }
-            Topic::Signals => {
+            Measured::Signals => {
                 let sample = signals::decode(data)?;
                 let (window, samples) = self.windows.last_mut()?;
                 let fits = sample.tightening == window.tightening
                     && samples.len() < window.stored_samples();
                 fits.then(|| samples.push(sample))?;
             }
-            Topic::File => self
+            Measured::File => self
                 .whole
                 .push(Assembly::new(serde_json::from_slice(data).ok()?)),
-            Topic::Samples => self.whole.last_mut()?.add(data)?,
+            Measured::Samples => self.whole.last_mut()?.add(data)?,
         }
         Some(())
     }

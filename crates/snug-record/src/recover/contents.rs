@@ -2,7 +2,8 @@
 
 use super::Recovery;
 use crate::measurement::{self, FileHeader};
-use crate::{Window, signals, topic};
+use crate::topic::Measured;
+use crate::{Window, signals};
 use snug_campaign::TighteningId;
 use std::collections::HashMap;
 
@@ -11,14 +12,6 @@ const LONGEST_WINDOW_BYTES: usize = 1 << 20;
 const LONGEST_FILE_BYTES: usize = 4 << 20;
 /// Incomplete tightenings and files that are listed.
 const MOST_LISTED: usize = 100;
-
-#[derive(Clone, Copy)]
-enum Topic {
-    Window,
-    Signals,
-    File,
-    Samples,
-}
 
 /// A tightening or file whose samples are coming.
 struct Open<T> {
@@ -30,7 +23,7 @@ struct Open<T> {
 
 #[derive(Default)]
 pub(super) struct Contents {
-    topics: HashMap<u16, Topic>,
+    topics: HashMap<u16, Measured>,
     window: Option<Open<TighteningId>>,
     file: Option<Open<String>>,
     tightenings: Gathered<TighteningId>,
@@ -67,25 +60,18 @@ impl<T> Gathered<T> {
 
 impl Contents {
     pub(super) fn channel(&mut self, id: u16, name: &str, schema: &str) {
-        let found = match (name, schema) {
-            (topic::WINDOW, "snug.Window") => Topic::Window,
-            (topic::SIGNALS, "snug.Signals") => Topic::Signals,
-            (topic::MEASUREMENT_FILE, "snug.MeasurementFile") => Topic::File,
-            (topic::MEASUREMENT_SAMPLES, "snug.MeasurementSamples") => Topic::Samples,
-            _ => {
-                self.topics.remove(&id);
-                return;
-            }
+        match Measured::of(name, schema) {
+            Some(found) => self.topics.insert(id, found),
+            None => self.topics.remove(&id),
         };
-        self.topics.insert(id, found);
     }
 
     /// Looks at a message; what cannot be understood does not count.
     pub(super) fn message(&mut self, id: u16, data: &[u8]) -> Option<()> {
         match self.topics.get(&id)? {
-            Topic::Window if data.len() > LONGEST_WINDOW_BYTES => {}
-            Topic::File if data.len() > LONGEST_FILE_BYTES => {}
-            Topic::Window => {
+            Measured::Window if data.len() > LONGEST_WINDOW_BYTES => {}
+            Measured::File if data.len() > LONGEST_FILE_BYTES => {}
+            Measured::Window => {
                 let window: Window = serde_json::from_slice(data).ok()?;
                 let open = Open {
                     wanted: window.stored_samples() as u64,
@@ -98,12 +84,12 @@ impl Contents {
                 };
                 self.tightenings.close(self.window.replace(open));
             }
-            Topic::Signals => {
+            Measured::Signals => {
                 let window = self.window.as_mut()?;
                 let sample = signals::decode(data)?;
                 window.found += u64::from(sample.tightening == window.tightening);
             }
-            Topic::File => {
+            Measured::File => {
                 let header: FileHeader = serde_json::from_slice(data).ok()?;
                 let open = Open {
                     wanted: header.samples as u64,
@@ -113,7 +99,7 @@ impl Contents {
                 };
                 self.files.close(self.file.replace(open));
             }
-            Topic::Samples => {
+            Measured::Samples => {
                 let file = self.file.as_mut()?;
                 let (first, end) = measurement::block_samples(data)?;
                 // A block that does not follow the one before leaves a gap that no later one closes.
