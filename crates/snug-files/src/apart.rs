@@ -32,6 +32,10 @@ pub fn keep_apart(
     let Some(place) = identity(folder)? else {
         return Ok(());
     };
+    if !disk.metadata(folder).is_ok_and(|one| one.is_dir()) {
+        // Whoever wants to write there is told that it is no folder.
+        return Ok(());
+    }
     if let Some(data) = inputs.data
         && identity(data)? == Some(place)
     {

@@ -74,3 +74,11 @@ fn files_made_to_do_harm_are_refused() {
         assert!(error.finding().message.len() > 40, "{error}");
     }
 }
+
+/// One of its chunks says that it is 4 GB long; the file has 21 kB.
+#[test]
+fn a_chunk_that_ends_beyond_the_file_is_refused_before_room_is_made_for_it() {
+    let file = std::path::Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../../fixtures/fuzz/hdf5/chunk_beyond_file.mat");
+    MatFile::read(&file).unwrap_err();
+}

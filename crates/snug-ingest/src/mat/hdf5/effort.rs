@@ -2,7 +2,7 @@
 
 use crate::IngestError;
 use crate::memory::Budget;
-use hdf5_pure::{Dataset, Layout};
+use hdf5_pure::{Chunk, Dataset, Layout};
 use snug_campaign::excerpt;
 
 /// Deflate cannot make less than one byte of this many.
@@ -57,11 +57,17 @@ impl<'a> Effort<'a> {
         let claimed = bytes_of(&dataset.shape().map_err(failed)?, element);
         let (held, largest_piece) = match dataset.layout().map_err(failed)? {
             Layout::Chunked { chunk_shape, .. } => {
-                let stored = dataset.chunks().map_or(self.file_bytes, |chunks| {
-                    chunks
-                        .iter()
-                        .fold(0, |sum: u64, chunk| sum.saturating_add(chunk.storage_size))
-                });
+                let chunks = dataset.chunks().map_err(failed)?;
+                let ends = |chunk: &Chunk| chunk.address.saturating_add(chunk.storage_size);
+                // Room for a chunk is asked for before anybody looks whether the file holds it.
+                if let Some(beyond) = chunks.iter().find(|one| ends(one) > self.file_bytes) {
+                    return Err(too_large(path, beyond.storage_size, self.file_bytes));
+                }
+                let stored = match chunks.is_empty() {
+                    true => self.file_bytes,
+                    false => (chunks.iter())
+                        .fold(0, |sum: u64, chunk| sum.saturating_add(chunk.storage_size)),
+                };
                 let stored = stored.min(self.file_bytes);
                 let held = stored.saturating_mul(LARGEST_COMPRESSION);
                 (held.max(SMALLEST_BYTES), bytes_of(&chunk_shape, element))
