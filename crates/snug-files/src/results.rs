@@ -104,7 +104,7 @@ impl Results {
     /// # Errors
     /// [`FilesError::Refused`].
     pub fn create_lasting(&mut self, name: &str) -> Result<Growing, FilesError> {
-        let (stem, ending) = name.rsplit_once('.').unwrap_or((name, ""));
+        let (stem, ending) = parts(name);
         let time = humantime::format_rfc3339_seconds(SystemTime::now()).to_string();
         let time = time.replace(['-', ':'], "");
         // The clock may have been set back, so the time alone is no name of its own.
@@ -168,8 +168,12 @@ impl Results {
     pub fn exchange(mut self) -> Result<Exchanged, FilesError> {
         let written = self.ready.iter().map(|one| self.folder.join(&one.name));
         let written = written.collect();
-        let (journal, set_aside) = self.plan()?;
-        let kept = self.keep_old()?;
+        let Plan {
+            journal,
+            replaced,
+            set_aside,
+        } = self.plan()?;
+        self.keep_old(&replaced)?;
         let (disk, folder) = (&*self.disk, self.folder.as_path());
         let new = folder.join(NEW);
         let sync = |folder: &Path| {
@@ -184,7 +188,7 @@ impl Results {
         disk.rename(&draft, &folder.join(JOURNAL))
             .map_err(FilesError::refused("write", &folder.join(JOURNAL)))?;
         sync(folder)?;
-        journal.carry_out(disk, folder, &kept)?;
+        journal.carry_out(disk, folder, &replaced)?;
         self.lasting = None;
         // The new results stand. What fails from here on the next run makes good.
         let ended = disk
@@ -200,26 +204,37 @@ impl Results {
         })
     }
 
-    /// The renames to make, and where files go that are no results.
-    fn plan(&mut self) -> Result<(Journal, Vec<PathBuf>), FilesError> {
+    /// What to do with everything that has a result's name. Each old result is read once, to see whether it is one: what is
+    /// decided here holds for all that follows.
+    fn plan(&mut self) -> Result<Plan, FilesError> {
         let (disk, folder) = (&*self.disk, self.folder.as_path());
         let known = Manifest::read(disk, folder)?;
         let mut manifest = Manifest::default();
         let (mut asides, mut set_aside, mut intos) = (Vec::new(), Vec::new(), Vec::new());
+        let mut replaced = BTreeSet::new();
         for &name in self.names {
             let path = folder.join(name);
             let is_there = exists(disk, &path).map_err(FilesError::refused("look at", &path))?;
             let is_new = self.ready.iter().any(|one| one.name == name);
-            if is_there && !known.holds(disk, folder, name) {
-                let (stem, ending) = name.rsplit_once('.').unwrap_or((name, ""));
+            if !is_there {
+                continue;
+            }
+            let from = name.to_owned();
+            if !known.holds(disk, folder, name) {
+                let (stem, ending) = parts(name);
                 let to = self.free_name(|number| format!("{stem}.kept-{number}.{ending}"))?;
                 set_aside.push(folder.join(&to));
-                let from = name.to_owned();
                 asides.push(Move::Aside { from, to });
-            } else if is_there && !is_new {
-                let (from, to) = (name.to_owned(), format!("{OLD}/{name}"));
+            } else if is_new {
+                replaced.insert(from);
+            } else {
+                let to = format!("{OLD}/{name}");
                 asides.push(Move::Aside { from, to });
             }
+        }
+        let old_manifest = folder.join(MANIFEST);
+        if exists(disk, &old_manifest).map_err(FilesError::refused("look at", &old_manifest))? {
+            replaced.insert(MANIFEST.to_owned());
         }
         for one in &self.ready {
             manifest.insert(&one.name, one.digest);
@@ -230,30 +245,27 @@ impl Results {
         let (from, to) = (format!("{NEW}/{MANIFEST}"), MANIFEST.to_owned());
         intos.push(Move::Into { from, to });
         asides.extend(intos);
-        Ok((Journal { moves: asides }, set_aside))
+        Ok(Plan {
+            journal: Journal { moves: asides },
+            replaced,
+            set_aside,
+        })
     }
 
-    /// Gives old results that will be replaced a second name; returns the names of those.
-    fn keep_old(&self) -> Result<BTreeSet<String>, FilesError> {
-        let (disk, folder) = (&*self.disk, self.folder.as_path());
-        let old = folder.join(OLD);
+    /// Gives old results that will be replaced a second name.
+    fn keep_old(&self, replaced: &BTreeSet<String>) -> Result<(), FilesError> {
+        let disk = &*self.disk;
+        let old = self.folder.join(OLD);
         disk.create_folder(&old)
             .map_err(FilesError::refused("make the folder", &old))?;
-        let known = Manifest::read(disk, folder)?;
-        let mut kept = BTreeSet::new();
-        for Ready { name, .. } in &self.ready {
-            let path = folder.join(name);
-            let is_result = name == MANIFEST || known.holds(disk, folder, name);
-            if is_result && exists(disk, &path).map_err(FilesError::refused("look at", &path))? {
-                let second = old.join(name);
-                // Some file systems know no second names.
-                disk.link(&path, &second)
-                    .or_else(|_| copy(disk, &path, &second))
-                    .map_err(FilesError::refused("keep the old result", &path))?;
-                kept.insert(name.clone());
-            }
+        for name in replaced {
+            let (path, second) = (self.folder.join(name), old.join(name));
+            // Some file systems know no second names.
+            disk.link(&path, &second)
+                .or_else(|_| copy(disk, &path, &second))
+                .map_err(FilesError::refused("keep the old result", &path))?;
         }
-        Ok(kept)
+        Ok(())
     }
 
     fn grow(&self, from: String, name: &str) -> Result<Growing, FilesError> {
@@ -293,7 +305,7 @@ impl Results {
         found.retain(|path| {
             let name = path.file_name().unwrap_or_default().to_string_lossy();
             self.names.iter().any(|result| {
-                let (stem, ending) = result.rsplit_once('.').unwrap_or((result, ""));
+                let (stem, ending) = parts(result);
                 name.strip_prefix(stem)
                     .and_then(|rest| rest.strip_prefix(PARTIAL)?.strip_suffix(ending))
                     // What a recovery kept beside has one more part.
@@ -303,6 +315,20 @@ impl Results {
         found.sort();
         found
     }
+}
+
+/// How an exchange is to go.
+struct Plan {
+    journal: Journal,
+    /// Old results in whose place a new one comes.
+    replaced: BTreeSet<String>,
+    /// Where files go that are no results.
+    set_aside: Vec<PathBuf>,
+}
+
+/// Stem and ending of a result's name.
+fn parts(name: &str) -> (&str, &str) {
+    name.rsplit_once('.').unwrap_or((name, ""))
 }
 
 /// Between the stem of a lasting result's name and the time at which it was begun.
