@@ -76,16 +76,20 @@ impl Outcome {
         }
         let mut left_out =
             (self.result.findings.iter()).filter(|finding| finding.severity == Severity::LeftOut);
-        let first = match left_out.next() {
-            Some(finding) => format!("{}: {}", finding.file, finding.message),
-            None => "no fit found an optimum".to_owned(),
+        let Some(first) = left_out.next() else {
+            return Some(
+                "nothing was identified: no fit found an optimum; the column status of \
+                 tightenings.csv says how each ended"
+                    .to_owned(),
+            );
         };
         let more = match left_out.count() {
             0 => String::new(),
             some => format!(" (and {some} more)"),
         };
         Some(format!(
-            "nothing was identified: {first}{more}; findings.json says everything"
+            "nothing was identified: {}: {}{more}; findings.json says everything",
+            first.file, first.message
         ))
     }
 }
