@@ -10,6 +10,8 @@ use std::collections::BTreeSet;
 const ALLOWED: &[(&str, &[&str])] = &[
     ("snug-campaign", &[]),
     ("snug-files", &[]),
+    ("snug-spectrum", &[]),
+    ("snug-tidy", &[]),
     ("snug-statistics", &[]),
     ("snug-record", &["snug-campaign"]),
     (
@@ -17,7 +19,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
         &["snug-campaign", "snug-files", "snug-record"],
     ),
     ("snug-preprocess", &["snug-campaign"]),
-    ("snug-model", &["snug-campaign"]),
+    ("snug-model", &["snug-campaign", "snug-spectrum"]),
     ("snug-identify", &["snug-campaign", "snug-model"]),
     (
         "snug-diagnose",
@@ -25,6 +27,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "snug-campaign",
             "snug-identify",
             "snug-model",
+            "snug-spectrum",
             "snug-statistics",
         ],
     ),

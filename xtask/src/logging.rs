@@ -1,23 +1,26 @@
 use crate::arguments::{LogFormat, LogOptions};
 use crate::terminal::Printable;
-use tracing_subscriber::EnvFilter;
+use tracing_subscriber::filter::Targets;
+use tracing_subscriber::layer::SubscriberExt;
+use tracing_subscriber::util::SubscriberInitExt;
+use tracing_subscriber::{fmt, registry};
 
 /// Sends `tracing` to standard error, as text or as JSON lines.
 ///
 /// # Errors
 /// What is wrong with the filter.
 pub fn start(options: &LogOptions) -> Result<(), String> {
-    let filter = EnvFilter::try_new(&options.log_level)
+    let filter: Targets = (options.log_level.parse())
         .map_err(|error| format!("--log-level {}: {error}", options.log_level))?;
-    let subscriber = tracing_subscriber::fmt()
-        .with_env_filter(filter)
+    let lines = fmt::layer()
         .with_ansi(false)
         .with_writer(Printable::stderr)
         // A full disk behind standard error is no reason to end a run.
         .log_internal_errors(false);
+    let subscriber = registry().with(filter);
     match options.log {
-        LogFormat::Text => subscriber.init(),
-        LogFormat::Json => subscriber.json().init(),
+        LogFormat::Text => subscriber.with(lines).init(),
+        LogFormat::Json => subscriber.with(lines.json()).init(),
     }
     Ok(())
 }

@@ -9,7 +9,6 @@ mod progress;
 mod signals;
 mod summary;
 mod terminal;
-mod tidy;
 mod verbs;
 mod workspace;
 

@@ -4,7 +4,6 @@ mod accelerometer;
 mod acting;
 mod acting_torque;
 mod assembly;
-mod band_limited;
 mod bench;
 mod custom;
 mod custom_settings;

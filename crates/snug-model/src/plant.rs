@@ -87,13 +87,7 @@ impl<'a, N: Number> Plant<'a, N> {
 
     /// dv/dt \[m/s²\], and the rates of the effects' `own` states.
     #[inline(always)]
-    pub fn rates<const X: usize>(
-        &self,
-        position: f64,
-        at: &Instant<N>,
-        own: &[N; X],
-        own_rates: &mut [N; X],
-    ) -> N {
+    pub fn rates(&self, position: f64, at: &Instant<N>, own: &[N], own_rates: &mut [N]) -> N {
         let hand_n = self.hand_force(at, own);
         for actor in self.acting.on(Hook::Moving) {
             actor.set_rates(at, own, hand_n, own_rates);
@@ -120,7 +114,7 @@ impl<'a, N: Number> Plant<'a, N> {
 
     /// What the hand's spring and damper exert \[N\]: k (1 + Σ stiffening) d + c dd/dt.
     #[inline(always)]
-    fn hand_force<const X: usize>(&self, at: &Instant<N>, own: &[N; X]) -> N {
+    fn hand_force(&self, at: &Instant<N>, own: &[N]) -> N {
         let (supports, deflecting) = (
             self.acting.on(Hook::Support),
             self.acting.on(Hook::Deflection),

@@ -2,7 +2,7 @@
 //! sensors show it.
 
 use crate::acting_torque::ActingTorque;
-use crate::assembly::{Assembly, MAXIMUM_OWN_STATES};
+use crate::assembly::Assembly;
 use crate::bench::Bench;
 use crate::effect::Kinematics;
 use crate::linear::{self, Oscillator, Response};
@@ -43,12 +43,7 @@ impl Assembly {
         if self.moves_as_base() && !bench.is_restarted() {
             return zero.vectorize(Exact(on_bench));
         }
-        match self.own_state_count {
-            0 => zero.vectorize(Stepped::<N, _, 0>(on_bench)),
-            1 => zero.vectorize(Stepped::<N, _, 1>(on_bench)),
-            2 => zero.vectorize(Stepped::<N, _, 2>(on_bench)),
-            _ => zero.vectorize(Stepped::<N, _, MAXIMUM_OWN_STATES>(on_bench)),
-        }
+        zero.vectorize(Stepped(on_bench))
     }
 }
 
@@ -108,16 +103,16 @@ impl<N: Number, F: FnMut(usize, &Kinematics<N>)> Task for Exact<'_, N, F> {
 }
 
 /// The true motion by Runge–Kutta.
-struct Stepped<'a, N: Number, F, const X: usize>(OnBench<'a, N, F>);
+struct Stepped<'a, N: Number, F>(OnBench<'a, N, F>);
 
-impl<N: Number, F: FnMut(usize, &Kinematics<N>), const X: usize> Task for Stepped<'_, N, F, X> {
+impl<N: Number, F: FnMut(usize, &Kinematics<N>)> Task for Stepped<'_, N, F> {
     type Output = ();
     #[inline(always)]
     fn run(self) {
         let (assembly, p) = (self.0.assembly, self.0.p);
         let (bench, acting_torque) = (self.0.bench, self.0.acting_torque);
         let seen = self.0.seen();
-        runge_kutta::respond::<N, X>(assembly, p, bench, acting_torque, seen);
+        runge_kutta::respond::<N>(assembly, p, bench, acting_torque, seen);
     }
 }
 

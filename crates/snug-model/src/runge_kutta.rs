@@ -5,7 +5,7 @@
 
 use crate::Number;
 use crate::acting_torque::ActingTorque;
-use crate::assembly::Assembly;
+use crate::assembly::{Assembly, MAXIMUM_OWN_STATES};
 use crate::bench::Bench;
 use crate::effect::{Instant, Kinematics};
 use crate::plant::{Plant, initial_motion};
@@ -24,13 +24,14 @@ const STAGES: [(f64, f64, f64); 4] = [
 /// Simulates from rest (or the effects' initial motion, or again and again from the input's restarts) and hands every
 /// sample's true motion to `sample`.
 ///
-/// `p` are all parameters of the assembly in its order, `X` is at least the number of its effects' own states.
+/// `p` are all parameters of the assembly in its order.
 ///
 /// The four stages are a loop, so that the equations stand once in the compiled program and stay in its cache. The first
 /// stage's rates are those at the grid point itself: they give the sample's acceleration as well. Trial points are
-/// changed where they lie: to copy numbers with their derivatives would take longer than to compute them.
+/// changed where they lie: to copy numbers with their derivatives would take longer than to compute them. How many states
+/// the effects have is known at run time only: for each number of them, the program would hold all of this once more.
 #[inline(always)]
-pub fn respond<N: Number, const X: usize>(
+pub fn respond<N: Number>(
     assembly: &Assembly,
     p: &[N],
     bench: &Bench<'_, N::Real>,
@@ -42,7 +43,10 @@ pub fn respond<N: Number, const X: usize>(
     let known = acting_torque.is_known();
     let mut plant = Plant::new(assembly, p, bench, known);
     let [angle, velocity] = initial_motion(assembly.parts(), p);
-    let (mut x, mut v, mut own) = (angle.times(lever), velocity.times(lever), [zero; X]);
+    let (mut x, mut v) = (angle.times(lever), velocity.times(lever));
+    let states = assembly.own_state_count.min(MAXIMUM_OWN_STATES);
+    let mut own = [zero; MAXIMUM_OWN_STATES];
+    let (mut own_at, mut own_after, mut own_rates) = (own, own, own);
     let mut at = Instant {
         torque_nm: zero,
         x_m: x,
@@ -50,7 +54,6 @@ pub fn respond<N: Number, const X: usize>(
         since_onset_s: bench.zero,
         lever_arm_m: lever,
     };
-    let mut own_rates = own;
     let points = bench.torque_nm().len();
     let last = points.saturating_sub(1);
     let (mut torque, mut index) = (acting_torque.at(0), 0);
@@ -64,8 +67,9 @@ pub fn respond<N: Number, const X: usize>(
         let next = acting_torque.at((point + 1).min(last));
         let rise = if bench.held { zero } else { next - torque };
         (at.x_m, at.v_m_per_s) = (x, v);
-        let mut own_at = own;
-        let (mut x_after, mut v_after, mut own_after) = (x, v, own);
+        let (mut x_after, mut v_after) = (x, v);
+        own_at[..states].copy_from_slice(&own[..states]);
+        own_after[..states].copy_from_slice(&own[..states]);
         for (stage, (ahead, further, weight)) in STAGES.into_iter().enumerate() {
             let position = point as f64 + ahead;
             let torque_nm = match known {
@@ -73,7 +77,8 @@ pub fn respond<N: Number, const X: usize>(
                 false => torque + rise * ahead,
             };
             plant.drive(&mut at, position, torque_nm);
-            let acceleration = plant.rates(position, &at, &own_at, &mut own_rates);
+            let acceleration =
+                plant.rates(position, &at, &own_at[..states], &mut own_rates[..states]);
             if stage == 0 && point == index * bench.substeps {
                 let motion = Kinematics {
                     displacement_rad: x.times(per_lever),
@@ -91,12 +96,13 @@ pub fn respond<N: Number, const X: usize>(
             v_after += acceleration.times(weight);
             at.x_m = x + at.v_m_per_s.times(further);
             at.v_m_per_s = v + acceleration.times(further);
-            for state in 0..X {
+            for state in 0..states {
                 own_after[state] += own_rates[state].times(weight);
                 own_at[state] = own[state] + own_rates[state].times(further);
             }
         }
-        (x, v, own) = (x_after, v_after, own_after);
+        (x, v) = (x_after, v_after);
+        own[..states].copy_from_slice(&own_after[..states]);
         torque = next;
     }
 }

@@ -1,20 +1,15 @@
 //! The misfit over frequency.
 //!
-//! P_k = |Σ_t h_t w_t e^{−2πi k t / n}|² / Σ h², whose expectation is 1 at every frequency when w is white noise of unit
-//! variance. The window h rises and falls as a cosine over 5 % of the samples at each end (Tukey), so that a residual that
-//! does not end where it began leaks no false high frequencies; a longer fall would hide the rise of the pulse.
+//! The whitened residual's [`Periodogram`], whose expectation is 1 at every frequency where nothing but noise is left, summed
+//! over bands.
 
 use super::aspect::{Part, Sum, View};
 use super::grid::{round_up, tidy};
 use super::residual::Residuals;
 use rayon::prelude::*;
-use realfft::{RealFftPlanner, RealToComplex};
+use snug_spectrum::Periodogram;
 use std::collections::BTreeMap;
-use std::f64::consts::PI;
-use std::sync::Arc;
 
-/// Share of the samples over which the window rises, and again falls.
-const TAPER: f64 = 0.05;
 /// A band this many frequencies wide is the narrowest.
 const NARROWEST: f64 = 1.5;
 
@@ -30,22 +25,19 @@ pub fn view(residuals: &Residuals<'_>) -> Option<View> {
         .map(|index| 0.5 / interval_s(index))
         .reduce(f64::max)?;
     let edges = edges_hz(NARROWEST / longest_s, highest_hz);
-    let mut planner = RealFftPlanner::new();
-    let mut plans: BTreeMap<usize, Arc<dyn RealToComplex<f64>>> = BTreeMap::new();
+    let mut periodograms: BTreeMap<usize, Periodogram> = BTreeMap::new();
     for one in &residuals.all {
         let length = one.values.len();
-        plans
-            .entry(length)
-            .or_insert_with(|| planner.plan_fft_forward(length));
+        (periodograms.entry(length)).or_insert_with(|| Periodogram::of_length(length));
     }
     let sums = residuals
         .all
         .par_iter()
         .map(|one| {
-            let plan = &plans[&one.values.len()];
+            let power = periodograms[&one.values.len()].power(&one.values);
             let step_hz =
                 1.0 / (one.values.len() as f64 * one.seen.tightening.time_base.interval_s);
-            band_sums(&periodogram(&one.values, plan.as_ref()), step_hz, &edges)
+            band_sums(&power, step_hz, &edges)
         })
         .collect();
     let parts = edges
@@ -74,27 +66,6 @@ fn edges_hz(narrowest_hz: f64, highest_hz: f64) -> Vec<f64> {
     edges
 }
 
-/// P_k for k = 0 … n/2.
-fn periodogram(values: &[f64], plan: &dyn RealToComplex<f64>) -> Vec<f64> {
-    let window = window(values.len());
-    let power: f64 = window.iter().map(|h| h * h).sum();
-    let mut input: Vec<f64> = values.iter().zip(&window).map(|(w, h)| w * h).collect();
-    let mut spectrum = plan.make_output_vec();
-    plan.process(&mut input, &mut spectrum)
-        .expect("buffers of the plan's own lengths");
-    spectrum.iter().map(|x| x.norm_sqr() / power).collect()
-}
-
-fn window(length: usize) -> Vec<f64> {
-    let ramp = (TAPER * length as f64).max(1.0);
-    (0..length)
-        .map(|index| {
-            let from_edge = (index.min(length - 1 - index) as f64 + 0.5) / ramp;
-            0.5 * (1.0 - (PI * from_edge.min(1.0)).cos())
-        })
-        .collect()
-}
-
 /// Frequencies between the ends stand for their negative twin as well.
 fn band_sums(power: &[f64], step_hz: f64, edges: &[f64]) -> Vec<Sum> {
     let mut sums = vec![Sum::default(); edges.len() - 1];
@@ -111,6 +82,7 @@ fn band_sums(power: &[f64], step_hz: f64, edges: &[f64]) -> Vec<Sum> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::f64::consts::PI;
 
     /// A whole number of cycles: its power lies in its band but for what the window's edges spread, n/2 · A² in total.
     #[test]
@@ -119,10 +91,10 @@ mod tests {
         let values: Vec<f64> = (0..n)
             .map(|t| 3.0 * (2.0 * PI * 70.0 * f64::from(t) * interval_s).sin())
             .collect();
-        let plan = RealFftPlanner::new().plan_fft_forward(values.len());
+        let power = Periodogram::of_length(values.len()).power(&values);
         let edges = edges_hz(5.0, 5000.0);
         assert_eq!(edges[..4], [0.0, 5.0, 10.0, 20.0]);
-        let sums = band_sums(&periodogram(&values, plan.as_ref()), 1.0 / 0.3, &edges);
+        let sums = band_sums(&power, 1.0 / 0.3, &edges);
         let total: f64 = sums.iter().map(|sum| sum.square).sum();
         assert!((total / (4.5 * 3000.0) - 1.0).abs() < 0.01, "{total}");
         let band = edges.iter().position(|edge| *edge == 50.0);
@@ -134,12 +106,8 @@ mod tests {
     #[test]
     fn a_ramp_leaks_nothing_upwards() {
         let values: Vec<f64> = (0..3000).map(|t| f64::from(t) / 3000.0).collect();
-        let plan = RealFftPlanner::new().plan_fft_forward(values.len());
-        let sums = band_sums(
-            &periodogram(&values, plan.as_ref()),
-            1.0 / 0.3,
-            &edges_hz(5.0, 5000.0),
-        );
+        let power = Periodogram::of_length(values.len()).power(&values);
+        let sums = band_sums(&power, 1.0 / 0.3, &edges_hz(5.0, 5000.0));
         let mean = |sum: &Sum| sum.square / sum.count;
         assert!(mean(&sums[0]) / mean(&sums[7]) > 1e7);
     }

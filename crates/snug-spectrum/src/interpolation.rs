@@ -1,3 +1,5 @@
+//! Values between samples, as a signal without anything above half the sampling rate has them.
+
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 use std::cell::RefCell;
 use std::f64::consts::PI;

@@ -3,7 +3,7 @@
 //! The search is textual: a dependency is used where its name stands as a path (`name::`), an import (`use name`) or a macro
 //! (`name!`), outside comments. That finds what nobody names; a name of the same spelling may hide one.
 
-use super::{Error, Outcome, Problem, read, read_toml};
+use crate::check::{Error, Outcome, Problem, read, read_toml};
 use cargo_metadata::{DependencyKind, Metadata, Package, TargetKind};
 use serde::Deserialize;
 use std::collections::{BTreeMap, BTreeSet};
@@ -101,7 +101,7 @@ fn member(package: &Package, metadata: &Metadata) -> Result<Member, Error> {
     })
 }
 
-/// Appends every Rust file in a folder and below.
+/// Appends every Rust file in a folder and below, but for packages of their own.
 fn append_rust(folder: &Path, text: &mut String) -> Result<(), Error> {
     let unreadable = |source| Error::Unreadable {
         path: folder.to_path_buf(),
@@ -113,7 +113,9 @@ fn append_rust(folder: &Path, text: &mut String) -> Result<(), Error> {
         .collect();
     for path in paths.map_err(unreadable)? {
         if path.is_dir() {
-            append_rust(&path, text)?;
+            if !path.join("Cargo.toml").is_file() {
+                append_rust(&path, text)?;
+            }
         } else if path.extension().is_some_and(|extension| extension == "rs") {
             text.push_str(&read(&path)?);
             text.push('\n');

@@ -3,8 +3,8 @@
 //! Compared with a snapshot that is committed (`fixtures/advisories.toml`), for the check needs no network: what was
 //! published after the snapshot, it cannot know.
 
-use super::lockfile::{Locked, Lockfile};
-use super::{Error, Outcome, Problem, read_toml};
+use crate::check::{Error, Outcome, Problem, read_toml};
+use crate::lockfile::{Locked, Lockfile};
 use semver::VersionReq;
 use serde::Deserialize;
 use std::collections::BTreeSet;

@@ -1,15 +1,10 @@
 //! What must hold of the workspace as a whole and can be checked without a network: one check, one file.
 
-mod advisories;
-mod duplicates;
-mod licences;
-mod lockfile;
-mod unused;
-
-use crate::workspace;
+use crate::lockfile::Lockfile;
+use crate::{advisories, duplicates, licences, unused};
 use cargo_metadata::{Metadata, MetadataCommand};
-use lockfile::Lockfile;
 use std::path::{Path, PathBuf};
+use std::process::Command;
 
 /// Something that is wrong, and what to do about it.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -100,7 +95,7 @@ fn describe(root: &Path) -> Result<Metadata, Error> {
 /// What cargo builds on this machine, as `cargo tree` lists it: a package a line, with its depth first or none.
 ///
 /// Not asked of `cargo metadata`, which counts optional packages that no feature in use asks for.
-fn tree(root: &Path, options: &[&str]) -> Result<String, Error> {
+pub fn tree(root: &Path, options: &[&str]) -> Result<String, Error> {
     cargo(
         root,
         &[&["tree", "--locked", "--offline"], options].concat(),
@@ -110,7 +105,7 @@ fn tree(root: &Path, options: &[&str]) -> Result<String, Error> {
 /// What cargo answers; to answer nothing is to fail.
 fn cargo(root: &Path, arguments: &[&str]) -> Result<String, Error> {
     let command = || format!("cargo {}", arguments.join(" "));
-    let output = workspace::cargo()
+    let output = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
         .current_dir(root)
         .args(arguments)
         .output();
@@ -128,7 +123,7 @@ fn cargo(root: &Path, arguments: &[&str]) -> Result<String, Error> {
 }
 
 /// A text file of the workspace.
-fn read(path: &Path) -> Result<String, Error> {
+pub fn read(path: &Path) -> Result<String, Error> {
     std::fs::read_to_string(path).map_err(|source| Error::Unreadable {
         path: path.to_path_buf(),
         source,
@@ -136,7 +131,7 @@ fn read(path: &Path) -> Result<String, Error> {
 }
 
 /// A TOML file of the workspace.
-fn read_toml<T: serde::de::DeserializeOwned>(path: &Path) -> Result<T, Error> {
+pub fn read_toml<T: serde::de::DeserializeOwned>(path: &Path) -> Result<T, Error> {
     toml::from_str(&read(path)?).map_err(|source| Error::Malformed {
         path: path.to_path_buf(),
         source,

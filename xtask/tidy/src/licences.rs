@@ -1,7 +1,7 @@
 //! Licences and sources: everything comes from crates.io, under a licence that lets Snug be passed on under its own.
 
-use super::lockfile::Lockfile;
-use super::{Error, Outcome, Problem, tree};
+use crate::check::{Error, Outcome, Problem, tree};
+use crate::lockfile::Lockfile;
 use spdx::{Expression, LicenseReq, ParseMode};
 use std::collections::BTreeSet;
 use std::path::Path;

@@ -2,7 +2,6 @@
 #![allow(clippy::unwrap_used)]
 
 use super::*;
-use crate::workspace;
 
 fn snapshot(advisories: &str) -> Snapshot {
     toml::from_str(&format!(
@@ -83,7 +82,7 @@ fn packages_nobody_looked_up_are_named() {
 /// that is known to be affected is found.
 #[test]
 fn the_committed_snapshot_is_sound() {
-    let snapshot = Snapshot::read(&workspace::root()).unwrap();
+    let snapshot = Snapshot::read(&crate::root()).unwrap();
     let ids: BTreeSet<&str> = snapshot.advisories.iter().map(|a| &*a.id).collect();
     assert_eq!(ids.len(), snapshot.advisories.len());
     for advisory in &snapshot.advisories {

@@ -2,7 +2,7 @@
 //!
 //! Counted over normal dependencies, macros and what they are made of included (`cargo tree -p xtask -e normal -d`).
 
-use super::{Error, Outcome, Problem, tree};
+use crate::check::{Error, Outcome, Problem, tree};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
