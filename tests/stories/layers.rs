@@ -20,12 +20,17 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ),
     ("snug-preprocess", &["snug-campaign"]),
     ("snug-model", &["snug-campaign", "snug-spectrum"]),
-    ("snug-identify", &["snug-campaign", "snug-model"]),
+    (
+        "snug-identify",
+        &["snug-campaign", "snug-least-squares", "snug-model"],
+    ),
+    ("snug-least-squares", &[]),
     (
         "snug-diagnose",
         &[
             "snug-campaign",
             "snug-identify",
+            "snug-least-squares",
             "snug-model",
             "snug-spectrum",
             "snug-statistics",
@@ -41,6 +46,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "snug-files",
             "snug-identify",
             "snug-ingest",
+            "snug-least-squares",
             "snug-model",
             "snug-preprocess",
             "snug-record",

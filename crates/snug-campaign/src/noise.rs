@@ -34,3 +34,17 @@ pub struct NoiseFloor {
     /// Number of samples it was estimated from.
     pub samples: usize,
 }
+
+impl NoiseFloor {
+    /// Declared white noise of this standard deviation, in the quantity's unit.
+    pub fn white(quantity: Quantity, standard_deviation: f64) -> Self {
+        Self {
+            source: NoiseSource::Declared,
+            quantity,
+            standard_deviation,
+            autoregression: Vec::new(),
+            innovation_sd: standard_deviation,
+            samples: 0,
+        }
+    }
+}

@@ -1,4 +1,4 @@
-use crate::{Conditions, Estimate, Motion, NoiseFloor, Rig, TimeBase};
+use crate::{Conditions, Estimate, Motion, NoiseFloor, Quantity, Rig, TimeBase};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
@@ -59,6 +59,46 @@ pub struct Tightening {
     pub noise: Option<NoiseFloor>,
     /// What was measured in the quiet part and taken out.
     pub corrections: Vec<Correction>,
+}
+
+impl Tightening {
+    /// A tightening from arrays: torque \[Nm\], sampled every `interval_s` from 0 s on, on a rig; what is not said is unknown,
+    /// not invented. Peak and target torque are those of the torque given.
+    pub fn from_torque(rig: Rig, interval_s: f64, torque_nm: Vec<f64>) -> Self {
+        let peak_torque_nm = torque_nm.iter().copied().fold(0.0, f64::max);
+        Self {
+            id: TighteningId {
+                file: String::new(),
+                number: 1,
+            },
+            conditions: Conditions::default(),
+            rig,
+            time_base: TimeBase {
+                start_s: 0.0,
+                interval_s,
+            },
+            torque_nm,
+            motion: Motion::default(),
+            grip_force_n: None,
+            peak_torque_nm,
+            target_torque_nm: 5.0 * (peak_torque_nm / 5.0).round(),
+            onset: None,
+            noise: None,
+            corrections: Vec::new(),
+        }
+    }
+
+    /// The same with one measured quantity, one value per sample of the torque.
+    pub fn with(mut self, quantity: Quantity, samples: Vec<f64>) -> Self {
+        self.motion.set(quantity, samples);
+        self
+    }
+
+    /// The same with the noise of what was measured.
+    pub fn with_noise(mut self, noise: NoiseFloor) -> Self {
+        self.noise = Some(noise);
+        self
+    }
 }
 
 /// Why a tightening was rejected.

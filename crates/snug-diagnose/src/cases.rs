@@ -2,7 +2,7 @@
 
 use crate::Case;
 use snug_campaign::{Estimate, WorkDone};
-use snug_identify::Work;
+use snug_least_squares::Work;
 use std::ops::Deref;
 use std::sync::atomic::{AtomicUsize, Ordering};
 

@@ -1,8 +1,8 @@
 //! One direction in which an effect could push, and what the units say of it.
 
-use crate::dense::dot;
 use crate::hypothesis::Hypothesis;
 use crate::simulated::Asked;
+use snug_least_squares::matrix::inner_product as dot;
 use snug_model::{Effect, Law, PlausibleRange, Scope};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 

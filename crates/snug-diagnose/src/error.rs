@@ -1,4 +1,5 @@
 use snug_identify::IdentifyError;
+use snug_least_squares::SolveError;
 use snug_model::ModelError;
 use thiserror::Error;
 
@@ -22,4 +23,7 @@ pub enum DiagnoseError {
     /// A fit could not begin.
     #[error(transparent)]
     Identify(#[from] IdentifyError),
+    /// A pooled fit could not begin.
+    #[error(transparent)]
+    Solve(#[from] SolveError),
 }

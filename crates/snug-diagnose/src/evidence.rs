@@ -1,6 +1,6 @@
 //! How clearly a sum over units differs from zero, when a few loud units may carry most of it.
 
-use crate::dense::dot;
+use snug_least_squares::matrix::inner_product as dot;
 use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
 
 /// Standard error of Σ x over independent units.

@@ -9,7 +9,7 @@ use crate::sizes::held;
 use crate::units::Units;
 use crate::wording::spoken;
 use snug_campaign::Experiment;
-use snug_identify::PooledSettings;
+use snug_least_squares::PooledSettings;
 use snug_model::{Effect, Input};
 
 /// How the torque of a tightening at hand is changed for a tightening to be made.

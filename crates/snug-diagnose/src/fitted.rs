@@ -1,11 +1,11 @@
 //! A hypothesis after its fit: sizes, errors, and what it is worth in data that took no part.
 
-use crate::dense::{Square, dot};
 use crate::hypothesis::{Hypothesis, Room, Start};
 use crate::sizes::first_parameter;
 use crate::torque_noise::passed_on;
 use crate::units::Units;
-use snug_identify::PooledFit;
+use snug_least_squares::PooledFit;
+use snug_least_squares::matrix::{SymmetricMatrix, inner_product as dot};
 use snug_model::{BASE_PARAMETERS, Effect};
 use snug_statistics::descriptive::median;
 use std::collections::BTreeMap;
@@ -20,7 +20,7 @@ pub(crate) struct Block {
     /// Jᵀr; over the shared parameters where the unit is a whole tightening, else over own and shared.
     gradient: Vec<f64>,
     /// JᵀJ likewise.
-    curvature: Square,
+    curvature: SymmetricMatrix,
 }
 
 /// A fitted hypothesis.
@@ -44,9 +44,9 @@ pub(crate) struct Fitted {
     /// Whether residuals are in units of a measured noise.
     pub is_weighted: bool,
     /// Per tightening curvature over own and shared (only where units are stretches).
-    member_curvature: Vec<Square>,
+    member_curvature: Vec<SymmetricMatrix>,
     /// Per tightening projected curvature and gradient over the shared parameters.
-    profiles: Vec<(Square, Vec<f64>)>,
+    profiles: Vec<(SymmetricMatrix, Vec<f64>)>,
     /// Parameters that every tightening has of its own, beyond the base model's.
     pub own_effect_count: usize,
 }
@@ -60,7 +60,7 @@ impl Fitted {
             .iter()
             .map(|profile| {
                 (
-                    Square::new(p, profile.curvature.clone()),
+                    SymmetricMatrix::new(p, profile.curvature.clone()),
                     profile.gradient.clone(),
                 )
             })
@@ -110,7 +110,7 @@ impl Fitted {
     fn work_out_blocks(
         &mut self,
         hypothesis: &Hypothesis<'_>,
-        profiles: &[snug_identify::Profile],
+        profiles: &[snug_least_squares::Profile],
     ) {
         let order: Vec<usize> = match self.units.are_whole() {
             true => Vec::new(),
@@ -136,11 +136,11 @@ impl Fitted {
             }
             let (residual, jacobian) = hypothesis.weighted(member, values, &order, &mut room);
             let count = residual.len();
-            let mut whole = Square::zero(order.len());
+            let mut whole = SymmetricMatrix::zero(order.len());
             for range in self.units.ranges(count) {
                 let r = &residual[range.clone()];
                 let column = |index: usize| &jacobian[index * count..][range.clone()];
-                let mut curvature = Square::zero(order.len());
+                let mut curvature = SymmetricMatrix::zero(order.len());
                 for i in 0..order.len() {
                     for j in 0..order.len() {
                         curvature.set(i, j, dot(column(i), column(j)));
@@ -272,8 +272,8 @@ impl Fitted {
     }
 
     /// Projected curvature over the shared parameters, all tightenings together.
-    pub fn shared_curvature(&self) -> Square {
-        let mut sum = Square::zero(self.shared.len());
+    pub fn shared_curvature(&self) -> SymmetricMatrix {
+        let mut sum = SymmetricMatrix::zero(self.shared.len());
         for (curvature, _) in &self.profiles {
             sum.add(curvature);
         }
@@ -282,7 +282,7 @@ impl Fitted {
 
     /// Curvature and the gradient of each unit, whose last entries belong to the shared parameters. Stretches of one
     /// tightening speak of its own parameters, too.
-    pub fn shared_evidence(&self) -> (Square, Vec<Vec<f64>>) {
+    pub fn shared_evidence(&self) -> (SymmetricMatrix, Vec<Vec<f64>>) {
         let gradients = |scale: &dyn Fn(usize) -> bool| -> Vec<Vec<f64>> {
             let units = (0..self.blocks.len()).filter(|&unit| scale(unit));
             units
@@ -300,7 +300,7 @@ impl Fitted {
     }
 
     /// Projected curvature and gradient of each tightening over the shared parameters.
-    pub fn profiles(&self) -> &[(Square, Vec<f64>)] {
+    pub fn profiles(&self) -> &[(SymmetricMatrix, Vec<f64>)] {
         &self.profiles
     }
 
@@ -337,7 +337,7 @@ impl Fitted {
         squares
     }
 
-    fn hold_out(&self, units: &[usize], total: Square, squares: &mut [f64]) {
+    fn hold_out(&self, units: &[usize], total: SymmetricMatrix, squares: &mut [f64]) {
         let mut rest = total;
         let mut gradient = vec![0.0; rest.size()];
         for &unit in units {

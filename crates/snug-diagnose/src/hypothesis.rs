@@ -4,9 +4,9 @@ use crate::DiagnoseError;
 use crate::case::Case;
 use crate::cases::Cases;
 use crate::simulated::{Asked, Simulated, simulate};
-use snug_identify::{
-    Constraints, EvaluationError, PooledFit, PooledResidual, PooledSettings, Subject, Trial,
-    Whitening, average, convex_set, identify_all, solve_pooled,
+use snug_identify::{Subject, Whitening, average, convex_set, identify_all};
+use snug_least_squares::{
+    Constraints, EvaluationError, PooledFit, PooledResidual, PooledSettings, Trial, solve_pooled,
 };
 use snug_model::{BASE_PARAMETERS, Effect, Law, Model, Scope};
 

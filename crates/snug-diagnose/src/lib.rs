@@ -6,7 +6,6 @@ mod case;
 mod cases;
 mod climb;
 mod column;
-mod dense;
 mod detectability;
 mod error;
 mod evidence;

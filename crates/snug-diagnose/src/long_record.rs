@@ -2,9 +2,8 @@
 
 use crate::hypothesis::{Hypothesis, Start};
 use crate::{Case, DiagnoseError};
-use snug_identify::{
-    DenseResidual, PooledFit, PooledSettings, Settings, TighteningResidual, convex_set, solve,
-};
+use snug_identify::{TighteningResidual, convex_set};
+use snug_least_squares::{DenseResidual, PooledFit, PooledSettings, Settings, solve};
 
 /// Samples of all records together up to which they are soon simulated.
 const SOON: usize = 30_000;
@@ -79,7 +78,7 @@ fn lowest(
         }
     }
     let Some(best) = best else {
-        let none = || snug_identify::IdentifyError::NoStart.into();
+        let none = || snug_least_squares::SolveError::NoStart.into();
         return Err(refused.unwrap_or_else(none));
     };
     hypothesis.fit(&Start::at(&best), settings)

@@ -1,8 +1,8 @@
-use crate::dense::{Square, dot};
+use snug_least_squares::matrix::{SymmetricMatrix, inner_product as dot};
 
 /// Coordinates of each signal in an orthonormal basis of all of them: their inner products are all that it takes.
 pub(crate) fn coordinates(signals: &[Vec<f64>]) -> Vec<Vec<f64>> {
-    let mut products = Square::zero(signals.len());
+    let mut products = SymmetricMatrix::zero(signals.len());
     for (i, one) in signals.iter().enumerate() {
         for (j, other) in signals[..=i].iter().enumerate() {
             let product = dot(one, other);

@@ -10,7 +10,8 @@ use crate::sizes::first_parameter;
 use crate::units::Units;
 use crate::unlisted::is_unlisted;
 use crate::{DiagnoseError, DiagnoseSettings};
-use snug_identify::{IdentifyError, PooledFit, PooledSettings, REACHES, SIDE_BY_SIDE};
+use snug_identify::{REACHES, SIDE_BY_SIDE};
+use snug_least_squares::{PooledFit, PooledSettings, SolveError};
 use snug_model::{BASE_PARAMETERS, Effect, Law, Scope};
 use snug_statistics::descriptive::median;
 
@@ -177,7 +178,7 @@ fn rough(
         end.ok()
     });
     let lowest = ends.min_by(|a, b| a.cost().total_cmp(&b.cost()));
-    let end = lowest.ok_or(IdentifyError::NoStart)?;
+    let end = lowest.ok_or(SolveError::NoStart)?;
     let factors = astray(hypothesis, &end.own, &of_few[0].own);
     let mut start = starts[0].clone();
     start.own.iter_mut().for_each(|own| times(own, &factors));

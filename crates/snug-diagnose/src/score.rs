@@ -5,7 +5,6 @@
 
 use crate::DiagnoseError;
 use crate::column::{Column, directions};
-use crate::dense::dot;
 use crate::fitted::Fitted;
 use crate::hypothesis::{Hypothesis, Room};
 use crate::nuisance::{Nuisance, coordinates};
@@ -16,6 +15,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 use rayon::prelude::*;
 use snug_identify::average;
+use snug_least_squares::matrix::inner_product as dot;
 use snug_model::{Effect, Input};
 
 /// The fitted model against which effects are scored.

@@ -1,9 +1,9 @@
 //! The sizes of a fitted hypothesis' effects, with intervals that survive coloured noise and a little misfit.
 
 use crate::Case;
-use crate::dense::dot;
 use crate::fitted::Fitted;
 use snug_campaign::EffectParameter;
+use snug_least_squares::matrix::inner_product as dot;
 use snug_model::{BASE_PARAMETERS, Effect, Law, Model, ParameterSpec, Scope};
 use statrs::distribution::{ContinuousCDF, StudentsT};
 

@@ -4,13 +4,13 @@
 //! simulated output is in every residual. A lag or a smoothing delay takes it out and fits better although nothing lags.
 //! Models are therefore compared by what their residual holds beyond it.
 
-use crate::dense::dot;
 use crate::hypothesis::Hypothesis;
 use crate::simulated::Asked;
 use crate::units::Units;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
+use snug_least_squares::matrix::inner_product as dot;
 use snug_model::Input;
 
 /// Standard deviation of a normal variable over the median of its size.

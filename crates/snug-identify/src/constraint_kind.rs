@@ -1,5 +1,5 @@
-use crate::{Affine, Constraints};
 use serde::{Deserialize, Serialize};
+use snug_least_squares::{Affine, Constraints};
 use snug_model::Model;
 
 /// A constraint a study can ask for on m, c, k.

@@ -4,6 +4,7 @@ use snug_diagnose::DiagnoseError;
 use snug_files::FilesError;
 use snug_identify::IdentifyError;
 use snug_ingest::IngestError;
+use snug_least_squares::SolveError;
 use snug_model::ModelError;
 use snug_preprocess::PreprocessError;
 use snug_record::RecordError;
@@ -214,7 +215,7 @@ impl StudyError {
                 | Self::UnknownRange { .. }
                 | Self::FixedAgainstConstraint { .. }
                 | Self::Ingest(IngestError::Setting { .. } | IngestError::UnitOfSignal { .. })
-                | Self::Identify(IdentifyError::Setting { .. })
+                | Self::Identify(IdentifyError::Solve(SolveError::Setting { .. }))
                 | Self::Record(RecordError::Setting { .. })
                 | Self::Preprocess(_)
                 | Self::Model(_)
@@ -263,7 +264,7 @@ impl StudyError {
                 | ModelError::ExpressionValue { .. },
             ) => Some("model.custom".to_owned()),
             Self::Model(_) => Some("model.effects".to_owned()),
-            Self::Identify(IdentifyError::Setting { name, .. }) => {
+            Self::Identify(IdentifyError::Solve(SolveError::Setting { name, .. })) => {
                 Some(format!("identify.solver.{name}"))
             }
             Self::Record(RecordError::Setting { field, .. }) => Some(format!("record.{field}")),

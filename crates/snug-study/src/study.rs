@@ -3,7 +3,7 @@ use crate::{DiagnosisSettings, StudyError, syntax};
 use ron::extensions::Extensions;
 use serde::{Deserialize, Serialize};
 use snug_campaign::{Intersample, Quantity, Rig};
-use snug_identify::{ConstraintKind, IdentifySettings};
+use snug_identify::{ConstraintKind, IdentifyError, IdentifySettings};
 use snug_ingest::Source;
 use snug_model::{ModelError, ModelSettings};
 use snug_preprocess::{PreprocessSettings, Preset};
@@ -141,7 +141,7 @@ impl Study {
     /// The first setting that is not allowed, with its field, value and what is allowed.
     pub fn check(&self) -> Result<(), StudyError> {
         self.preprocess.check()?;
-        self.identify.solver.check()?;
+        (self.identify.solver.check()).map_err(IdentifyError::from)?;
         self.record.check()?;
         self.diagnosis.check()?;
         self.selection.check()?;

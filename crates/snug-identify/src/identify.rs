@@ -1,0 +1,373 @@
+//! Tightenings, identified: the glue between model, measurement and solver.
+
+use crate::base_model::fit::BaseFit;
+use crate::base_model::noise::Settled;
+use crate::base_model::{fit, noise};
+use crate::batch::Simulator;
+use crate::constraint_kind::{ConstraintKind, convex_set};
+use crate::error::IdentifyError;
+use crate::multistart::decimated::RoughRecord;
+use crate::multistart::integral_start::integral_start;
+use crate::multistart::search::Valleys;
+use crate::noise::score_covariance::{OwnedNoise, noise_of};
+use crate::residual::restarts::Simulation;
+use crate::residual::tightening::TighteningResidual;
+use crate::residual::whitening::Whitening;
+use serde::{Deserialize, Serialize};
+use snug_campaign::{
+    Estimate, FitStatus, Identifiability, Interval, Parameter, ParameterEstimate, Quantity,
+    Tightening,
+};
+use snug_least_squares::{Constraints, Covariance, Fit, Settings, SolveError, Status};
+use snug_model::{Input, Model, NormalEquations};
+use std::iter::once;
+
+/// How tightenings are identified.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct IdentifySettings {
+    /// Which output is fitted: `Acceleration`, `Velocity` or `Displacement`; default `Acceleration`.
+    pub fitted_output: Quantity,
+    /// What must hold of m, c, k; default `[Positive, LightlyDamped]`.
+    pub constraints: Vec<ConstraintKind>,
+    /// Samples at the window's start that count for nothing; default 0.
+    pub unscored_samples: usize,
+    /// How the model is run beside the measurement: `Automatic`, `FreeRun` or `Restarted(every_s: …)`; default
+    /// `Automatic`.
+    pub simulation: Simulation,
+    /// The solver's own settings; default [`Settings::of_measurement`].
+    pub solver: Settings,
+}
+
+impl Default for IdentifySettings {
+    fn default() -> Self {
+        Self {
+            fitted_output: Quantity::Acceleration,
+            constraints: vec![ConstraintKind::Positive, ConstraintKind::LightlyDamped],
+            unscored_samples: 0,
+            simulation: Simulation::Automatic,
+            solver: Settings::of_measurement(),
+        }
+    }
+}
+
+/// One tightening with the model and the input to identify it with.
+#[derive(Debug, Clone, Copy)]
+pub struct Subject<'a> {
+    /// Its free parameters are identified.
+    pub model: &'a Model,
+    /// The torque.
+    pub input: &'a Input,
+    /// The measurement.
+    pub tightening: &'a Tightening,
+}
+
+/// Identifies the free parameters of `model` from one tightening.
+///
+/// The residual is measured − simulated of the fitted output. Where the noise floor is of that output, the residual is
+/// whitened with it (generalised least squares); otherwise all samples weigh the same. Either way the covariance is that
+/// of the estimate under the measured noise, with the uncertainty of what was corrected in the quiet part, and widened
+/// where the residual holds more than noise. A fixed parameter with a standard error widens it, too, and keeps that error
+/// and its interval in the estimate.
+///
+/// # Errors
+/// [`IdentifyError::MissingOutput`] when the tightening does not hold the fitted output, [`IdentifyError::TooShort`]
+/// when fewer samples are scored than parameters are free, and what [`crate::solve`] refuses.
+pub fn identify(
+    model: &Model,
+    input: &Input,
+    tightening: &Tightening,
+    settings: &IdentifySettings,
+) -> Result<Estimate, IdentifyError> {
+    let alone = Subject {
+        model,
+        input,
+        tightening,
+    };
+    let mut outcomes = identify_all(&[alone], settings);
+    outcomes.pop().expect("one outcome for one subject")
+}
+
+/// Tightenings worth handing over to [`identify_all`] at a time: more than the widest vector registers hold, since fits end one
+/// by one, and few enough to be shared out among threads.
+pub const SIDE_BY_SIDE: usize = 16;
+
+/// Identifies many tightenings, each as [`identify`] does and with the same bits, as many at a time as the processor's vector
+/// registers hold.
+pub fn identify_all(
+    subjects: &[Subject<'_>],
+    settings: &IdentifySettings,
+) -> Vec<Result<Estimate, IdentifyError>> {
+    let quantity = settings.fitted_output;
+    let whitenings: Vec<Option<Whitening>> = (subjects.iter())
+        .map(|subject| Whitening::of(subject.tightening, quantity))
+        .collect();
+    let mut attempts: Vec<Result<Attempt<'_>, IdentifyError>> = (subjects.iter())
+        .zip(&whitenings)
+        .map(|(subject, whitening)| Attempt::new(subject, whitening.as_ref(), settings))
+        .collect();
+    let roughs: Vec<Option<RoughRecord>> = (attempts.iter().zip(subjects))
+        .map(|(attempt, subject)| attempt.as_ref().ok()?.rough(subject, quantity))
+        .collect();
+    let mut in_sweeps: Vec<BaseFit<'_, '_>> = (attempts.iter_mut().flatten())
+        .filter_map(Attempt::in_sweeps)
+        .collect();
+    fit::fit_all(&mut in_sweeps, quantity, &settings.solver);
+    drop(in_sweeps);
+    let mut settled: Vec<Settled<'_, '_>> = (attempts.iter_mut().zip(subjects))
+        .filter_map(|(attempt, subject)| attempt.as_mut().ok()?.settled(subject))
+        .collect();
+    noise::ask_all(&mut settled, quantity);
+    drop(settled);
+    let simulator = Simulator::default();
+    let estimates = (attempts.into_iter().zip(subjects).zip(&roughs)).map(
+        |((attempt, subject), rough)| async {
+            (attempt?.estimate(subject, rough.as_ref(), settings, &simulator)).await
+        },
+    );
+    simulator.finish(estimates)
+}
+
+/// A tightening on its way to an estimate.
+struct Attempt<'a> {
+    residual: TighteningResidual<'a>,
+    set: Constraints,
+    /// In the order of preference.
+    starts: Vec<Vec<f64>>,
+    /// The first so many differ in the effects' parameters; what follows are the same again with other m, c, k.
+    distinct_starts: usize,
+    usual_start: Vec<f64>,
+    outcome: Option<Result<Fit, SolveError>>,
+    latest: Option<([f64; 3], NormalEquations)>,
+    noise: Option<OwnedNoise>,
+}
+
+impl<'a> Attempt<'a> {
+    fn new(
+        subject: &Subject<'a>,
+        whitening: Option<&'a Whitening>,
+        settings: &IdentifySettings,
+    ) -> Result<Self, IdentifyError> {
+        let quantity = settings.fitted_output;
+        let motion = &subject.tightening.motion;
+        let residual = TighteningResidual::new(
+            subject.model,
+            subject.input,
+            motion
+                .get(quantity)
+                .ok_or(IdentifyError::MissingOutput { quantity })?,
+            quantity,
+            whitening,
+            settings.unscored_samples,
+        );
+        residual.check_length()?;
+        let usual = starts(subject.model);
+        let is_rugged = usual.len() > 1 || residual.lets_go();
+        let near = integral_start(subject).filter(|_| is_rugged || residual.is_base());
+        Ok(Self {
+            residual,
+            set: convex_set(subject.model, &settings.constraints),
+            starts: near.map_or_else(|| usual.clone(), |near| nearer(&usual, &near, is_rugged)),
+            distinct_starts: usual.len(),
+            usual_start: usual.into_iter().next().unwrap_or_default(),
+            outcome: None,
+            latest: None,
+            noise: None,
+        })
+    }
+
+    /// As sweeps fit it, if they can.
+    fn in_sweeps(&mut self) -> Option<BaseFit<'_, 'a>> {
+        match self.starts.as_slice() {
+            [start] if self.residual.is_base() => Some(BaseFit {
+                residual: &mut self.residual,
+                start,
+                usual_start: &self.usual_start,
+                set: &self.set,
+                outcome: &mut self.outcome,
+                latest: &mut self.latest,
+            }),
+            _ => None,
+        }
+    }
+
+    /// As sweeps ask about its noise: if the last one of the fit was made at the estimate.
+    fn settled<'r>(&'r mut self, subject: &'r Subject<'a>) -> Option<Settled<'r, 'a>> {
+        let Some(Ok(fit)) = &self.outcome else {
+            return None;
+        };
+        let (values, found) = self.latest?;
+        let is_here = self.residual.all_values(&fit.values).starts_with(&values);
+        is_here.then_some(Settled {
+            residual: &mut self.residual,
+            subject,
+            fit,
+            found,
+            noise: &mut self.noise,
+        })
+    }
+
+    /// On what several starts are tried.
+    fn rough(&self, subject: &Subject<'a>, quantity: Quantity) -> Option<RoughRecord> {
+        let is_one = self.starts.len() == 1;
+        (!is_one).then(|| RoughRecord::of(subject, quantity))?
+    }
+
+    /// As it is fitted by itself.
+    fn valleys<'s>(
+        &'s self,
+        subject: &'s Subject<'a>,
+        rough: Option<&'a RoughRecord>,
+        settings: &'s IdentifySettings,
+        simulator: &'s Simulator<'a>,
+    ) -> Valleys<'s, 'a> {
+        Valleys {
+            residual: &self.residual,
+            set: &self.set,
+            starts: &self.starts,
+            distinct_starts: self.distinct_starts,
+            rough,
+            subject,
+            settings,
+            simulator,
+        }
+    }
+
+    /// The estimate with its covariance, after a fit if that is still to be made.
+    async fn estimate(
+        mut self,
+        subject: &Subject<'a>,
+        rough: Option<&'a RoughRecord>,
+        settings: &IdentifySettings,
+        simulator: &Simulator<'a>,
+    ) -> Result<Estimate, IdentifyError> {
+        let fit = match self.outcome.take() {
+            Some(outcome) => outcome?,
+            None => {
+                let valleys = self.valleys(subject, rough, settings, simulator);
+                valleys.lowest().await?
+            }
+        };
+        let noise = match self.noise {
+            Some(noise) => noise,
+            None => noise_of(&mut self.residual, subject, &fit, simulator).await,
+        };
+        let mut covariance = fit.covariance(noise.as_residual_noise());
+        self.residual.widen_by_fixed(&fit, &mut covariance);
+        Ok(estimate(subject.model, &self.set, &fit, &covariance))
+    }
+}
+
+/// Free values of the usual start, then of the further ones.
+fn starts(model: &Model) -> Vec<Vec<f64>> {
+    let free = model.free();
+    let usual: Vec<f64> = model.parameters().iter().map(|p| p.value).collect();
+    once(usual)
+        .chain(model.further_starts())
+        .map(|values| free.iter().map(|&index| values[index]).collect())
+        .collect()
+}
+
+/// The same starts with m, c, k that explain the tightening as far as it can be without an effect: from values of other
+/// tightenings, a search first takes what m, c, k lack for the effect, and wanders.
+///
+/// Where valley lies beside valley, the starts are kept as they are, too: an effect that acts for long makes such m, c, k
+/// worthless, and who tries several starts side by side hardly notices as many more.
+fn nearer(usual: &[Vec<f64>], near: &[f64], is_rugged: bool) -> Vec<Vec<f64>> {
+    let nearer = |start: &Vec<f64>| [near, &start[near.len()..]].concat();
+    let kept = if is_rugged { usual } else { &[] };
+    usual
+        .iter()
+        .map(nearer)
+        .chain(kept.iter().cloned())
+        .collect()
+}
+
+/// Of every interval.
+const CONFIDENCE: f64 = 0.95;
+/// Standard errors to either side that hold 95 % of a normal distribution.
+const NORMAL_QUANTILE: f64 = 1.959_963_984_540_054;
+
+/// The fit in the words everyone shares; intervals end where a parameter's own bounds do.
+fn estimate(model: &Model, set: &Constraints, fit: &Fit, covariance: &Covariance) -> Estimate {
+    let free = model.free();
+    let parameters = (model.parameters().iter().enumerate())
+        .map(
+            |(index, parameter)| match free.iter().position(|&free| free == index) {
+                Some(column) => ParameterEstimate {
+                    value: fit.values[column],
+                    standard_error: covariance.standard_errors[column],
+                    interval: covariance
+                        .interval(column, fit.values[column], CONFIDENCE)
+                        .map(|ends| within(ends, set.bounds_of(column))),
+                    fixed: false,
+                    ..as_fixed(parameter)
+                },
+                None => as_fixed(parameter),
+            },
+        )
+        .collect();
+    let name = |column: usize| model.parameters()[free[column]].name.clone();
+    Estimate {
+        parameters,
+        covariance: covariance.matrix.clone(),
+        status: status(fit.status),
+        active_constraints: fit
+            .active
+            .iter()
+            .map(|active| active.name.clone())
+            .collect(),
+        identifiability: Identifiability {
+            rank: fit.identifiability.rank,
+            free: fit.identifiability.free,
+            condition: fit.identifiability.condition,
+            strongest_correlation: fit
+                .identifiability
+                .strongest
+                .map(|(first, second, correlation)| (name(first), name(second), correlation)),
+        },
+        iterations: fit.work.iterations,
+        evaluations: fit.work.evaluations + fit.work.linearizations,
+        conic_solves: fit.work.conic_solves,
+    }
+}
+
+/// A fixed parameter with what is stated about it.
+fn as_fixed(parameter: &Parameter) -> ParameterEstimate {
+    let value = parameter.value;
+    ParameterEstimate {
+        name: parameter.name.clone(),
+        unit: parameter.unit.clone(),
+        value,
+        standard_error: parameter.standard_error,
+        interval: parameter.standard_error.map(|error| {
+            let half = NORMAL_QUANTILE * error;
+            within(
+                (value - half, value + half),
+                (parameter.minimum, parameter.maximum),
+            )
+        }),
+        fixed: true,
+    }
+}
+
+fn within((low, high): (f64, f64), (minimum, maximum): (f64, f64)) -> Interval {
+    Interval {
+        low: low.max(minimum),
+        high: high.min(maximum),
+    }
+}
+
+fn status(status: Status) -> FitStatus {
+    match status {
+        Status::Converged => FitStatus::Converged,
+        Status::ConvergedAtConstraint => FitStatus::ConvergedAtConstraint,
+        Status::IterationLimit => FitStatus::IterationLimit,
+        Status::Stalled => FitStatus::Stalled,
+        Status::NotIdentifiable => FitStatus::NotIdentifiable,
+        Status::Failed => FitStatus::Failed,
+    }
+}
+
+#[cfg(test)]
+mod tests;

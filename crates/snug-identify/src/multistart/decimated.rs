@@ -1,0 +1,145 @@
+//! Many starts tried roughly: on the same tightening with every few samples replaced by their mean.
+//!
+//! Which valley a start leads to shows on a record of a few hundred samples as well as on the whole one, for a fraction of
+//! the work. Only the ends of the best rough fits are worth a fit of every sample.
+
+use crate::batch::Simulator;
+use crate::identify::{IdentifySettings, Subject};
+use crate::multistart::early_stopping::{Rules, race};
+use crate::multistart::multiple_shooting::along_motion;
+use crate::residual::tightening::TighteningResidual;
+use snug_campaign::{Intersample, Quantity};
+use snug_least_squares::{Constraints, Fit, Settings, SolveError, Work};
+use snug_model::{Input, Model};
+
+/// Samples that a rough record should have: its noise is then still small beside a whole tightening's motion.
+const ENOUGH_SAMPLES: usize = 375;
+/// Longest interval between rough samples \[s\]: a shut-off, the fastest event of a tightening, takes several of them.
+const LONGEST_INTERVAL_S: f64 = 1e-3;
+/// A rough fit has gone far enough when this share of the residual could still be removed.
+const ROUGH_TOLERANCE: f64 = 1e-2;
+/// Most steps of any fit that need not go far: what takes longer crawls.
+const MOST_STEPS: usize = 20;
+/// Ends are worth a fit of every sample up to this multiple of the lowest rough cost, and at most so many.
+pub(crate) const WORTH: f64 = 1.2;
+const MOST_ENDS: usize = 2;
+/// Of the race between rough fits.
+const RULES: Rules = Rules {
+    heat: 12,
+    worth: WORTH,
+};
+/// Rough costs that agree to this share are those of one valley.
+const SAME_VALLEY: f64 = 1e-3;
+
+/// Where fits of every sample should begin.
+pub(crate) struct Tried {
+    /// Best first.
+    pub starts: Vec<Vec<f64>>,
+    /// Steps and simulations on the rough record; of these every one is a fraction of one on the whole.
+    pub work: Work,
+}
+
+/// A tightening with every few samples replaced by their mean.
+pub(crate) struct RoughRecord {
+    /// Samples that became one.
+    factor: usize,
+    /// The torque.
+    input: Input,
+    /// The same with restarts from the measured motion, where that is known and restarts do not hide what is fitted: they do
+    /// anything but the acceleration.
+    pub guided: Option<Input>,
+    measured: Vec<f64>,
+}
+
+impl RoughRecord {
+    /// Of the tightening's torque and `quantity`; `None` where the record is too short for one, or the simulation is restarted
+    /// from the measured motion.
+    pub fn of(subject: &Subject<'_>, quantity: Quantity) -> Option<Self> {
+        let (input, measured) = (subject.input, subject.tightening.motion.get(quantity)?);
+        let interval_s = input.grid_interval_s() * input.substeps() as f64;
+        let shortest = (LONGEST_INTERVAL_S / interval_s) as usize;
+        let factor = shortest.min(input.samples() / ENOUGH_SAMPLES);
+        if factor < 2 || input.is_restarted() {
+            return None;
+        }
+        let torque_nm: Vec<f64> =
+            (input.grid_nm().iter().step_by(input.substeps()).copied()).collect();
+        // Means stand for the middle of what they are taken over.
+        let late_s = 0.5 * (factor - 1) as f64 * interval_s;
+        let rough = Input::new(
+            &means(&torque_nm, factor),
+            interval_s * factor as f64,
+            Intersample::Linear,
+        )
+        .with_onset(input.onset_s() - late_s)
+        .with_rest_before(input.rest_before_s() + late_s)
+        .with_zero_at(input.zero_at().map(|sample| sample / factor));
+        let means_of = |quantity| Some(means(subject.tightening.motion.get(quantity)?, factor));
+        let guided = || {
+            let angle_rad = means_of(Quantity::Displacement)?;
+            let velocity_rad_per_s = means_of(Quantity::Velocity)?;
+            Some(along_motion(rough.clone(), &angle_rad, &velocity_rad_per_s))
+        };
+        let guided = (quantity == Quantity::Acceleration).then(guided).flatten();
+        Some(Self {
+            factor,
+            input: rough,
+            guided,
+            measured: means(measured, factor),
+        })
+    }
+
+    /// Measured minus simulated under `input`, which is this record's own or one with restarts.
+    pub fn residual<'r>(
+        &'r self,
+        model: &'r Model,
+        input: &'r Input,
+        settings: &IdentifySettings,
+    ) -> TighteningResidual<'r> {
+        let unscored = settings.unscored_samples.div_ceil(self.factor);
+        let quantity = settings.fitted_output;
+        TighteningResidual::new(model, input, &self.measured, quantity, None, unscored)
+    }
+
+    /// The ends of rough fits from `starts` that are worth a fit of every sample; `None` where no fit has one.
+    pub async fn try_from<'a>(
+        &'a self,
+        starts: &[Vec<f64>],
+        subject: &Subject<'a>,
+        set: &Constraints,
+        settings: &IdentifySettings,
+        simulator: &Simulator<'a>,
+    ) -> Result<Option<Tried>, SolveError> {
+        let residual = self.residual(subject.model, &self.input, settings);
+        let solver = rough_solver(settings, ROUGH_TOLERANCE);
+        let (ends, work) = race(&residual, starts, set, &solver, RULES, simulator).await?;
+        let starts = apart(ends, MOST_ENDS);
+        Ok((!starts.is_empty()).then_some(Tried { starts, work }))
+    }
+}
+
+/// Settings of a fit that need not go far.
+pub(crate) fn rough_solver(settings: &IdentifySettings, tolerance: f64) -> Settings {
+    Settings {
+        gradient_tolerance: tolerance.max(settings.solver.gradient_tolerance),
+        max_iterations: MOST_STEPS.min(settings.solver.max_iterations),
+        ..settings.solver.clone()
+    }
+}
+
+/// Of `ends`, lowest first, one of every valley whose cost is worth it, at most so many.
+pub(crate) fn apart(mut ends: Vec<Fit>, most: usize) -> Vec<Vec<f64>> {
+    ends.retain(|end| end.cost.is_finite());
+    ends.dedup_by(|next, kept| (next.cost / kept.cost - 1.0).abs() < SAME_VALLEY);
+    let lowest = ends.first().map_or(f64::NAN, |end| end.cost);
+    let worthy = ends.into_iter().filter(|end| end.cost <= WORTH * lowest);
+    worthy.map(|end| end.values).take(most).collect()
+}
+
+/// Of every `factor` samples; what is left over at the end is left out.
+fn means(signal: &[f64], factor: usize) -> Vec<f64> {
+    let parts = signal.chunks_exact(factor);
+    parts
+        .map(|part| part.iter().sum::<f64>() / factor as f64)
+        .collect()
+}

@@ -1,0 +1,184 @@
+//! One tightening's fit where its cost has valley beside valley: an effect with several starts, or one that lets go.
+
+use crate::batch::Simulator;
+use crate::identify::{IdentifySettings, Subject};
+use crate::multistart::decimated::{RoughRecord, Tried, WORTH, apart, rough_solver};
+use crate::multistart::early_stopping::{Rules, race};
+use crate::multistart::multiple_shooting::try_guided;
+use crate::multistart::smoothing::REACHES;
+use crate::residual::tightening::TighteningResidual;
+use snug_least_squares::{
+    Constraints, Fit, ResidualNoise, Settings, SolveError, Status, Work, best,
+};
+use snug_model::BASE_PARAMETERS;
+use std::iter::once;
+
+/// Of the race between fits of every sample.
+const RULES: Rules = Rules {
+    heat: 12,
+    worth: 1.0,
+};
+
+/// Samples to either side over which the residual is averaged on the way to where it is not: less than a millisecond.
+const NEAR: usize = 8;
+/// Of the race between averaged fits: the same valley may be lower by as much when it is seen as it is.
+const NEAR_RULES: Rules = Rules {
+    heat: 12,
+    worth: WORTH,
+};
+
+/// Mean square of a whitened residual beyond which a fit may have ended in the wrong valley.
+const FAR_OFF: f64 = 2.0;
+/// Mean square of a whitened residual up to which it is hardly more than noise.
+const CLOSE: f64 = 1.1;
+/// Standard errors that an effect's parameter is away from zero when the effect is surely there.
+const SURE: f64 = 8.0;
+
+/// An averaged fit has gone far enough when this share of the residual could still be removed.
+const NEARER_TOLERANCE: f64 = 1e-2;
+
+/// What is searched, and from where.
+pub(crate) struct Valleys<'s, 'a> {
+    pub residual: &'s TighteningResidual<'a>,
+    pub set: &'s Constraints,
+    /// In the order of preference.
+    pub starts: &'s [Vec<f64>],
+    /// The first so many differ in the effects' parameters; what follows are the same again with other m, c, k.
+    pub distinct_starts: usize,
+    /// On which starts are tried, where there is one.
+    pub rough: Option<&'a RoughRecord>,
+    pub subject: &'s Subject<'a>,
+    pub settings: &'s IdentifySettings,
+    pub simulator: &'s Simulator<'a>,
+}
+
+impl<'a> Valleys<'_, 'a> {
+    /// The lowest end that was found. Where an effect lets go of the hand's spring, many optima lie close together: what
+    /// leaves more than noise is begun again from where it ended, and from where it began, seen from ever nearer.
+    pub async fn lowest(&self) -> Result<Fit, SolveError> {
+        let fit = self.searched().await?;
+        if !self.is_rugged() || self.is_beyond_doubt(&fit) {
+            return Ok(fit);
+        }
+        let mut work = fit.work;
+        let mut ends = vec![fit];
+        for start in once(&ends[0].values.clone()).chain(self.starts) {
+            let end = self.ever_nearer(start, &mut work).await?;
+            let is_beyond_doubt = self.is_beyond_doubt(&end);
+            ends.push(end);
+            if is_beyond_doubt {
+                break;
+            }
+        }
+        best(ends, work)
+    }
+
+    /// Whether spikes in the residual hide the way: the measured acceleration jumps where an effect lets go.
+    fn is_rugged(&self) -> bool {
+        self.residual.is_whitened() && self.residual.lets_go()
+    }
+
+    /// Where the residual leads to that is averaged over ever fewer samples.
+    async fn ever_nearer(&self, start: &[f64], work: &mut Work) -> Result<Fit, SolveError> {
+        let rough = rough_solver(self.settings, NEARER_TOLERANCE);
+        let mut values = start.to_vec();
+        for reach in REACHES {
+            let averaged = self.residual.averaged(reach);
+            let end = self.followed(&averaged, values, &rough, work).await?;
+            values = end.values;
+        }
+        self.followed(self.residual, values, &self.settings.solver, work)
+            .await
+    }
+
+    /// Where a fit from one start ends.
+    async fn followed(
+        &self,
+        residual: &TighteningResidual<'a>,
+        start: Vec<f64>,
+        solver: &Settings,
+        work: &mut Work,
+    ) -> Result<Fit, SolveError> {
+        let (ends, more) =
+            race(residual, &[start], self.set, solver, RULES, self.simulator).await?;
+        work.add(&more);
+        best(ends, more)
+    }
+
+    /// The best of the ends that the starts lead to. Of several starts, what they lead to along the measured motion is tried
+    /// first; that is the answer where it leaves no doubt. Otherwise those that lead on in a rough fit are followed to the
+    /// end as well; all of them where that comes to nothing, or leaves so much that a lower valley may have been missed.
+    async fn searched(&self) -> Result<Fit, SolveError> {
+        let (mut ends, mut work): (Vec<Fit>, Work) = Default::default();
+        let mut follow = async |starts: &[Vec<f64>], before: &Work| {
+            let (more, on_all) = self.raced(starts).await?;
+            ends.extend(more);
+            work.add(before);
+            work.add(&on_all);
+            best(ends.clone(), work)
+        };
+        if let Some(rough) = self.rough {
+            if let Some(guided) = self.guided(rough).await? {
+                let fit = follow(&guided.starts, &guided.work).await?;
+                if self.is_beyond_doubt(&fit) {
+                    return Ok(fit);
+                }
+            }
+            let (subject, set, settings) = (self.subject, self.set, self.settings);
+            let tried = rough.try_from(self.starts, subject, set, settings, self.simulator);
+            if let Some(tried) = tried.await? {
+                let fit = follow(&tried.starts, &tried.work).await?;
+                if fit.status.is_converged() && !self.is_far_off(&fit) {
+                    return Ok(fit);
+                }
+            }
+        }
+        follow(self.starts, &Work::default()).await
+    }
+
+    /// The ends that these starts lead to; where spikes hide the way, by way of where the averaged residual leads.
+    pub async fn raced(&self, starts: &[Vec<f64>]) -> Result<(Vec<Fit>, Work), SolveError> {
+        let (set, simulator, solver) = (self.set, self.simulator, &self.settings.solver);
+        if !self.is_rugged() {
+            return race(self.residual, starts, set, solver, RULES, simulator).await;
+        }
+        let averaged = self.residual.averaged(NEAR);
+        let rough = rough_solver(self.settings, NEARER_TOLERANCE);
+        let (ends, before) = race(&averaged, starts, set, &rough, NEAR_RULES, simulator).await?;
+        let led = apart(ends, starts.len());
+        let starts = if led.is_empty() { starts } else { &led };
+        let raced = race(self.residual, starts, set, solver, RULES, simulator);
+        let (ends, mut work) = raced.await?;
+        work.add(&before);
+        Ok((ends, work))
+    }
+
+    /// What the starts lead to along the measured motion, which needs no m, c, k from elsewhere; only where the noise is
+    /// known, since nothing else says when a fit is good enough.
+    pub async fn guided(&self, rough: &'a RoughRecord) -> Result<Option<Tried>, SolveError> {
+        if !self.residual.is_whitened() {
+            return Ok(None);
+        }
+        let distinct = &self.starts[..self.distinct_starts];
+        let (subject, set, settings) = (self.subject, self.set, self.settings);
+        try_guided(rough, subject, distinct, set, settings, self.simulator).await
+    }
+
+    /// Whether a fit leaves hardly more than noise, inside the constraints, and the effects are surely there: another
+    /// valley may then be as low by chance, but not lower by much.
+    pub fn is_beyond_doubt(&self, fit: &Fit) -> bool {
+        let is_close = fit.sum_of_squares() < CLOSE * fit.residual_count as f64;
+        let errors = fit.covariance(ResidualNoise::Unit).standard_errors;
+        let of_effects = (self.residual.free().iter().zip(&fit.values).zip(&errors))
+            .filter(|((index, _), _)| **index >= BASE_PARAMETERS.len());
+        let mut of_effects =
+            of_effects.map(|((_, value), error)| error.is_some_and(|e| value.abs() > SURE * e));
+        fit.status == Status::Converged && is_close && of_effects.all(|is_sure| is_sure)
+    }
+
+    /// Whether a fit whose noise is known leaves far more than that.
+    fn is_far_off(&self, fit: &Fit) -> bool {
+        let noise = fit.residual_count as f64;
+        self.residual.is_whitened() && fit.sum_of_squares() > FAR_OFF * noise
+    }
+}

@@ -1,0 +1,348 @@
+use crate::batch::Request;
+use crate::error::IdentifyError;
+use crate::multistart::smoothing::average;
+use crate::residual::whitening::Whitening;
+use snug_campaign::Quantity;
+use snug_least_squares::{EvaluationError, Residual};
+use snug_model::{Effect, Input, Model, ScoredRecord};
+
+/// Measured minus simulated output of one tightening over the model's free parameters, whitened where the noise is known.
+#[derive(Clone)]
+pub struct TighteningResidual<'a> {
+    model: &'a Model,
+    input: &'a Input,
+    measured: &'a [f64],
+    quantity: Quantity,
+    whitening: Option<&'a Whitening>,
+    unscored: usize,
+    /// Samples to either side over which the residual is averaged.
+    reach: usize,
+    free: Vec<usize>,
+    values: Vec<f64>,
+    output: Vec<f64>,
+    sensitivity: Vec<f64>,
+    foreseen: Foreseen,
+}
+
+/// A simulation that was made before it was asked for.
+#[derive(Clone, Default)]
+struct Foreseen {
+    /// Of all parameters.
+    values: Vec<f64>,
+    with_slopes: bool,
+    output: Vec<f64>,
+    sensitivity: Vec<f64>,
+}
+
+impl<'a> TighteningResidual<'a> {
+    /// `unscored` samples at the start count for nothing (an unknown initial state dies away in them).
+    pub fn new(
+        model: &'a Model,
+        input: &'a Input,
+        measured: &'a [f64],
+        quantity: Quantity,
+        whitening: Option<&'a Whitening>,
+        unscored: usize,
+    ) -> Self {
+        let free = model.free();
+        Self {
+            model,
+            input,
+            measured,
+            quantity,
+            whitening,
+            unscored: unscored.min(measured.len()),
+            reach: 0,
+            values: model.parameters().iter().map(|p| p.value).collect(),
+            output: Vec::new(),
+            sensitivity: Vec::new(),
+            foreseen: Foreseen::default(),
+            free,
+        }
+    }
+
+    /// The same averaged over `reach` samples to either side, see [`average`].
+    pub(crate) fn averaged(&self, reach: usize) -> Self {
+        Self {
+            reach,
+            ..self.clone()
+        }
+    }
+
+    /// Number of samples, scored or not.
+    pub fn samples(&self) -> usize {
+        self.measured.len()
+    }
+
+    /// The fitted quantity.
+    pub fn quantity(&self) -> Quantity {
+        self.quantity
+    }
+
+    /// Another quantity, simulated with these free values.
+    pub fn simulate(&mut self, free_values: &[f64], quantity: Quantity) -> Vec<f64> {
+        let mut output = vec![0.0; self.samples()];
+        let (model, input) = (self.model, self.input);
+        model.output(self.all_values(free_values), input, quantity, &mut output);
+        output
+    }
+
+    /// The filter that the residual is whitened with, where the noise is known.
+    pub(crate) fn whitening(&self) -> Option<&Whitening> {
+        self.whitening
+    }
+
+    /// Whether the residual is whitened with a known noise.
+    pub fn is_whitened(&self) -> bool {
+        self.whitening.is_some()
+    }
+
+    /// Whether one of the model's effects lets go of the hand's spring, at instants between which the residual jumps.
+    pub(crate) fn lets_go(&self) -> bool {
+        self.model.effects().any(Effect::lets_go)
+    }
+
+    /// Refuses fewer residuals than free parameters.
+    ///
+    /// # Errors
+    /// [`IdentifyError::TooShort`].
+    pub fn check_length(&self) -> Result<(), IdentifyError> {
+        let (residuals, parameters) = (self.residual_count(), self.parameter_count());
+        if residuals > parameters {
+            Ok(())
+        } else {
+            Err(IdentifyError::TooShort {
+                residuals,
+                parameters,
+            })
+        }
+    }
+
+    /// Whether sweeps of the base model fit it: they know no effects and no restarts.
+    pub(crate) fn is_base(&self) -> bool {
+        self.model.effects().next().is_none() && !self.input.is_restarted() && !self.free.is_empty()
+    }
+
+    /// Grid points of the input per sample.
+    pub(crate) fn substeps(&self) -> usize {
+        self.input.substeps()
+    }
+
+    /// What is scored, both sides weighed, for the sweeps that fit the base model.
+    pub(crate) fn scored(&self) -> ScoredRecord<'a> {
+        let (substeps, grid) = (self.input.substeps(), self.input.grid_nm());
+        let measured = &self.measured[self.unscored..];
+        let torque = &grid[(self.unscored * substeps).min(grid.len())..];
+        let scored = self.residual_count();
+        let order = measured.len() - scored;
+        let (filter, torque_nm, measured) = match self.whitening {
+            Some(whitening) => {
+                let mut white_torque = vec![0.0; torque.len().saturating_sub(order * substeps)];
+                let mut white = vec![0.0; scored];
+                whitening.apply_to_grid(torque, substeps, &mut white_torque);
+                whitening.apply(measured, &mut white);
+                (whitening.weights(), white_torque.into(), white.into())
+            }
+            None => (vec![1.0], torque.into(), measured.into()),
+        };
+        ScoredRecord {
+            rig: *self.model.rig(),
+            input: self.input,
+            filter,
+            first: self.unscored + order,
+            torque_nm,
+            measured,
+        }
+    }
+
+    /// Every sample as it was measured, the acceleration beside the torque (zero where it was not measured).
+    pub(crate) fn beside(&self, acceleration: Option<&'a [f64]>) -> ScoredRecord<'a> {
+        ScoredRecord {
+            rig: *self.model.rig(),
+            input: self.input,
+            filter: vec![1.0],
+            first: 0,
+            torque_nm: self.input.grid_nm().into(),
+            measured: match acceleration {
+                Some(measured) => measured.into(),
+                None => vec![0.0; self.samples()].into(),
+            },
+        }
+    }
+
+    /// All parameters of the model at these free values.
+    pub(crate) fn all_values(&mut self, free_values: &[f64]) -> &[f64] {
+        for (&index, &value) in self.free.iter().zip(free_values) {
+            self.values[index] = value;
+        }
+        &self.values
+    }
+
+    /// Indices of the free parameters in the model.
+    pub(crate) fn free(&self) -> &[usize] {
+        &self.free
+    }
+
+    /// Whitens (or copies) the scored part of `signal` into `scored`.
+    pub fn weigh(&self, signal: &[f64], scored: &mut [f64]) {
+        let signal = &signal[self.unscored..];
+        match self.whitening {
+            Some(whitening) => whitening.apply(signal, scored),
+            None => scored.copy_from_slice(signal),
+        }
+    }
+}
+
+impl<'a> TighteningResidual<'a> {
+    /// The simulation with these free values, which whoever makes it may make beside others.
+    pub(crate) fn request(&mut self, free_values: &[f64], with_slopes: bool) -> Request<'a> {
+        let samples = self.samples();
+        let mut room = std::mem::take(&mut self.foreseen);
+        room.output.resize(samples, 0.0);
+        room.sensitivity.resize(samples * self.free.len(), 0.0);
+        Request {
+            model: self.model,
+            input: self.input,
+            quantity: self.quantity,
+            values: self.all_values(free_values).to_vec(),
+            free: match with_slopes {
+                true => self.free.clone(),
+                false => Vec::new(),
+            },
+            output: room.output,
+            sensitivity: room.sensitivity,
+            is_done: false,
+        }
+    }
+
+    /// Keeps a simulation that was [requested](Self::request): if the residual is asked for there next, it is at hand.
+    pub(crate) fn foresee(&mut self, simulated: Request<'a>) {
+        self.foreseen = Foreseen {
+            values: simulated.values,
+            with_slopes: !simulated.free.is_empty(),
+            output: simulated.output,
+            sensitivity: simulated.sensitivity,
+        };
+    }
+}
+
+impl TighteningResidual<'_> {
+    fn weigh_and_average(&self, signal: &[f64], scored: &mut [f64]) {
+        self.weigh(signal, scored);
+        if self.reach > 0 {
+            average(scored, self.reach);
+        }
+    }
+
+    /// The fixed parameters that are not known exactly: index in the model and standard error.
+    pub(crate) fn uncertain(&self) -> Vec<(usize, f64)> {
+        let parameters = self.model.parameters().iter().enumerate();
+        parameters
+            .filter(|(_, parameter)| parameter.fixed)
+            .filter_map(|(index, parameter)| Some((index, parameter.standard_error?)))
+            .collect()
+    }
+
+    /// ∂r/∂p of any parameter of the model at the values last evaluated, weighted as the residual.
+    pub(crate) fn column_of(&self, parameter: usize) -> Vec<f64> {
+        let samples = self.samples();
+        let (mut output, mut column) = (vec![0.0; samples], vec![0.0; samples]);
+        self.model.sensitivities(
+            &self.values,
+            &[parameter],
+            self.input,
+            self.quantity,
+            &mut output,
+            &mut column,
+        );
+        for value in &mut column {
+            *value = -*value;
+        }
+        let mut weighted = vec![0.0; self.residual_count()];
+        self.weigh(&column, &mut weighted);
+        weighted
+    }
+
+    /// Measured − simulated of every sample and, where asked, its Jacobian (column-major, samples × free).
+    fn subtract(&self, residual: &mut [f64], jacobian: Option<&mut [f64]>) {
+        let foreseen = &self.foreseen;
+        let is_foreseen =
+            foreseen.values == self.values && foreseen.with_slopes == jacobian.is_some();
+        if is_foreseen {
+            residual.copy_from_slice(&foreseen.output);
+        }
+        match jacobian {
+            Some(jacobian) if is_foreseen => {
+                for (slope, simulated) in jacobian.iter_mut().zip(&foreseen.sensitivity) {
+                    *slope = -simulated;
+                }
+            }
+            None if is_foreseen => {}
+            Some(jacobian) => {
+                self.model.sensitivities(
+                    &self.values,
+                    &self.free,
+                    self.input,
+                    self.quantity,
+                    residual,
+                    jacobian,
+                );
+                for value in jacobian {
+                    *value = -*value;
+                }
+            }
+            None => self
+                .model
+                .output(&self.values, self.input, self.quantity, residual),
+        }
+        for (simulated, measured) in residual.iter_mut().zip(self.measured) {
+            *simulated = measured - *simulated;
+        }
+    }
+}
+
+impl Residual for TighteningResidual<'_> {
+    fn residual_count(&self) -> usize {
+        let lost = self.whitening.map_or(0, Whitening::order);
+        (self.measured.len() - self.unscored).saturating_sub(lost)
+    }
+
+    fn parameter_count(&self) -> usize {
+        self.free.len()
+    }
+
+    fn evaluate(
+        &mut self,
+        parameters: &[f64],
+        residual: &mut [f64],
+        jacobian: Option<&mut [f64]>,
+    ) -> Result<(), EvaluationError> {
+        self.all_values(parameters);
+        if self.whitening.is_none() && self.unscored == 0 && self.reach == 0 {
+            // Every sample counts, and counts the same: straight into the solver's buffers.
+            self.subtract(residual, jacobian);
+            return Ok(());
+        }
+        let (mut every, mut sensitivity) = (
+            std::mem::take(&mut self.output),
+            std::mem::take(&mut self.sensitivity),
+        );
+        let wanted = jacobian.is_some();
+        every.resize(self.samples(), 0.0);
+        sensitivity.resize(self.samples() * self.free.len(), 0.0);
+        self.subtract(&mut every, wanted.then_some(&mut sensitivity[..]));
+        self.weigh_and_average(&every, residual);
+        if let Some(jacobian) = jacobian {
+            let (samples, scored) = (self.measured.len(), residual.len());
+            for (column, weighted) in sensitivity
+                .chunks_exact(samples)
+                .zip(jacobian.chunks_exact_mut(scored))
+            {
+                self.weigh_and_average(column, weighted);
+            }
+        }
+        self.output = every;
+        self.sensitivity = sensitivity;
+        Ok(())
+    }
+}

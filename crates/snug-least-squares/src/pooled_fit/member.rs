@@ -1,0 +1,174 @@
+//! One member of a pooled fit: its own step, and what it leaves to the shared parameters.
+
+use super::problem::Profile;
+use crate::conic::constraints::Constraints;
+use crate::matrix::{add_scaled, dot, triangularize, upper_transposed_times};
+use crate::problem::linearization::Linearization;
+use crate::solver::fit::Work;
+use crate::solver::step::Stepper;
+
+/// One member while the fit goes on.
+pub struct Member {
+    pub own: Vec<f64>,
+    pub here: Linearization,
+    pub there: Linearization,
+    pub stepper: Stepper,
+    conditional: Linearization,
+    /// Its active set at the last step.
+    active_set: Vec<usize>,
+    rest: Rest,
+}
+
+/// What a member says of α once β_i has done what it may: ½‖right + rows · dα‖², p rows.
+#[derive(Default)]
+struct Rest {
+    rows: Vec<f64>,
+    right: Vec<f64>,
+}
+
+impl Member {
+    /// At its start, beside `p` shared parameters.
+    pub fn new(own: Vec<f64>, p: usize) -> Self {
+        let n = own.len();
+        Self {
+            own,
+            here: Linearization::new(n + p),
+            there: Linearization::new(n + p),
+            stepper: Stepper::new(n),
+            conditional: Linearization::new(n),
+            active_set: Vec::new(),
+            rest: Rest::default(),
+        }
+    }
+
+    /// Steps β_i after α has moved by `shift`; true when its active set has changed.
+    pub fn follow(
+        &mut self,
+        shift: &[f64],
+        damping: f64,
+        set: &Constraints,
+        work: &mut Work,
+    ) -> bool {
+        let n = self.own.len();
+        let size = n + shift.len();
+        let conditional = &mut self.conditional;
+        conditional
+            .reachable
+            .copy_from_slice(&self.here.reachable[..n]);
+        for (column, step) in shift.iter().enumerate() {
+            let factor = &self.here.factor[(n + column) * size..][..n];
+            add_scaled(&mut conditional.reachable, *step, factor);
+        }
+        for column in 0..n {
+            conditional.factor[column * n..(column + 1) * n]
+                .copy_from_slice(&self.here.factor[column * size..column * size + n]);
+        }
+        upper_transposed_times(
+            &conditional.factor,
+            n,
+            &conditional.reachable,
+            &mut conditional.gradient,
+        );
+        self.stepper.rescale(conditional, 0.0);
+        if !(self.stepper).find(&self.own, conditional, damping, set, work) {
+            self.stepper.stay(&self.own);
+        }
+        let active = self
+            .stepper
+            .step
+            .active
+            .iter()
+            .map(|active| active.inequality);
+        let has_changed = !active.clone().eq(self.active_set.iter().copied());
+        self.active_set.clear();
+        self.active_set.extend(active);
+        has_changed
+    }
+
+    /// The decrease of ½‖r_i‖² that the step of β_i and `shift` predict together.
+    pub fn predicted_decrease(&self, shift: &[f64]) -> f64 {
+        let step = [self.stepper.displacement(), shift].concat();
+        -self.here.rise(&step)
+    }
+
+    /// Works out what is left to α once β_i follows as damping and constraints let it: along an inequality that its own step
+    /// presses on, never through it.
+    pub fn eliminate(&mut self, p: usize, damping: f64, set: &Constraints) {
+        let directions = self.stepper.free_directions(&self.own, set);
+        let (n, free) = (self.own.len(), directions.len());
+        let size = n + p;
+        let (rows, columns) = (size + free, free + p);
+        let mut stacked = vec![0.0; rows * columns];
+        let mut right = vec![0.0; rows];
+        right[..size].copy_from_slice(&self.here.reachable);
+        for (column, direction) in directions.iter().enumerate() {
+            let target = &mut stacked[column * rows..][..rows];
+            for (factor, along) in self.here.factor.chunks_exact(size).zip(direction) {
+                add_scaled(&mut target[..n], *along, &factor[..n]);
+            }
+            target[size + column] = damping.sqrt();
+        }
+        for column in 0..p {
+            stacked[(free + column) * rows..][..size]
+                .copy_from_slice(&self.here.factor[(n + column) * size..][..size]);
+        }
+        triangularize(&mut stacked, &mut right, rows, columns);
+        let rest = &mut self.rest;
+        rest.right.clear();
+        rest.right.extend_from_slice(&right[free..columns]);
+        rest.rows.clear();
+        rest.rows.resize(p * p, 0.0);
+        for column in 0..p {
+            rest.rows[column * p..][..=column]
+                .copy_from_slice(&stacked[(free + column) * rows + free..][..=column]);
+        }
+    }
+
+    pub fn profile(&self, p: usize) -> Profile {
+        let n = self.own.len();
+        let size = n + p;
+        // The last p rows of the factor: R_αα.
+        let column = |index: usize| &self.here.factor[(n + index) * size + n..][..p];
+        let reachable = &self.here.reachable[n..];
+        let mut curvature = vec![0.0; p * p];
+        for j in 0..p {
+            for i in 0..p {
+                curvature[j * p + i] = dot(column(i), column(j));
+            }
+        }
+        Profile {
+            cost: self.here.cost,
+            curvature,
+            gradient: (0..p).map(|j| dot(column(j), reachable)).collect(),
+        }
+    }
+}
+
+/// The least-squares problem in α alone, every β_i following: what all leave to it, stacked and triangularised.
+pub fn reduce(members: &[Member], p: usize) -> Linearization {
+    let rows = members.len() * p;
+    let mut stacked = vec![0.0; rows * p];
+    let mut right = vec![0.0; rows];
+    for (index, member) in members.iter().enumerate() {
+        for column in 0..p {
+            stacked[column * rows + index * p..][..p]
+                .copy_from_slice(&member.rest.rows[column * p..][..p]);
+        }
+        right[index * p..][..p].copy_from_slice(&member.rest.right);
+    }
+    let mut reduced = Linearization::new(p);
+    triangularize(&mut stacked, &mut right, rows, p);
+    for column in 0..p {
+        let filled = column + 1;
+        reduced.factor[column * p..column * p + filled]
+            .copy_from_slice(&stacked[column * rows..column * rows + filled]);
+    }
+    reduced.reachable.copy_from_slice(&right[..p]);
+    upper_transposed_times(
+        &reduced.factor,
+        p,
+        &reduced.reachable,
+        &mut reduced.gradient,
+    );
+    reduced
+}

@@ -1,0 +1,5 @@
+//! Covariance and identifiability of what was fitted.
+
+pub(crate) mod covariance;
+pub(crate) mod identifiability;
+pub(crate) mod leverage;
