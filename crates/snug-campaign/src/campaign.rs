@@ -1,3 +1,5 @@
+//! What an evaluated campaign hands to report and recording: presets compared, tightenings, conditions, tests.
+
 use crate::{
     Diagnosis, Finding, Interval, Rejection, SignalUnits, TighteningId, TighteningResult, Traces,
 };

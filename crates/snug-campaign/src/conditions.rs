@@ -1,3 +1,5 @@
+//! Participant, strategy, joint and pace: the factors by which tightenings are grouped and compared.
+
 use serde::{Deserialize, Serialize};
 
 /// Under which conditions a file's tightenings were made; what the file does not say is `None`.

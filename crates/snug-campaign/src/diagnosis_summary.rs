@@ -1,3 +1,5 @@
+//! The part of a diagnosis that verdict.json and the recording share, so that both say the same of it.
+
 use crate::{
     AddedEffect, CorrectedEffect, Detectability, Diagnosis, Drift, Experiment, NegativeControl,
     NoiseStatement, Removal, UnlistedTerm, WorkDone,

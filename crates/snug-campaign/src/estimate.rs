@@ -1,3 +1,5 @@
+//! Identified values and what to check before believing them: intervals, how the fit ended, constraints, rank.
+
 use serde::{Deserialize, Serialize};
 
 /// A closed interval \[low, high\]; 95 % confidence unless said otherwise.

@@ -1,3 +1,5 @@
+//! What was left out, repaired or is worth knowing of the data: bad data is a finding, not an error.
+
 use serde::{Deserialize, Serialize};
 
 /// How much a finding changed.

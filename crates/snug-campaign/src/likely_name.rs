@@ -1,3 +1,5 @@
+//! The known name that a misspelt one probably means, for errors about settings and arguments.
+
 use strsim::normalized_damerau_levenshtein;
 
 /// Share of the letters that must be right for a name to count as meant.

@@ -1,3 +1,5 @@
+//! Measurement noise: where it was measured, and its spectrum as an autoregressive process that whitens residuals.
+
 use crate::Quantity;
 use serde::{Deserialize, Serialize};
 

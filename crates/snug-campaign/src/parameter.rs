@@ -1,3 +1,5 @@
+//! A model's parameter as MATLAB's idnlgrey has it: name, unit, value, bounds, fixed or free, and who said so.
+
 use serde::{Deserialize, Serialize};
 
 /// Who said what a parameter's value is.

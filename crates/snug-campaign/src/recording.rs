@@ -1,3 +1,5 @@
+//! A measurement file in SI units, nothing repaired: what ingest hands to preprocessing.
+
 use crate::{Conditions, Quantity, TimeBase};
 use serde::{Deserialize, Serialize};
 

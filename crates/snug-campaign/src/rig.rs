@@ -1,3 +1,5 @@
+//! A rig's known constants, which derivative of its motion is meant, and what its input does between samples.
+
 use serde::{Deserialize, Serialize};
 
 /// Which derivative of the motion is meant.

@@ -1,3 +1,5 @@
+//! One tightening on its way: ready for identification, its result and fit measures, and why it was rejected.
+
 use crate::{Conditions, Estimate, Motion, NoiseFloor, Quantity, Rig, TimeBase};
 use serde::{Deserialize, Serialize};
 use std::fmt;

@@ -1,3 +1,5 @@
+//! When samples were taken: one uniform grid per recording or tightening, so that no channel carries times of its own.
+
 use serde::{Deserialize, Serialize};
 
 /// A uniform sampling grid: sample `i` was taken at `start_s + i · interval_s`.

@@ -1,3 +1,5 @@
+//! Why files could not be written, or must not be, each with what to do about it.
+
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 use thiserror::Error;
