@@ -1,3 +1,5 @@
+//! Declared stretches of a recording, as for estimation and validation, in place of a table of events.
+
 use crate::IngestError;
 use crate::finding_log::{About, FindingLog};
 use serde::{Deserialize, Serialize};

@@ -1,3 +1,5 @@
+//! Which units a source's declared channels are shown in; conversion to SI is `signal.rs`.
+
 use crate::{Format, Signal, Source, Unit};
 use snug_campaign::SignalUnits;
 

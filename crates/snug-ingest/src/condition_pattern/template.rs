@@ -1,3 +1,5 @@
+//! Splits a label at a template's fields, backtracking, because words may hold the text that separates them.
+
 use crate::IngestError;
 use serde::{Deserialize, Serialize};
 

@@ -1,3 +1,5 @@
+//! Labels of the thesis, of other studies and of neither, and templates that cannot be.
+
 use super::*;
 
 fn pattern(template: &str) -> ConditionPattern {

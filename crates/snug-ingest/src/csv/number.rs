@@ -1,3 +1,5 @@
+//! A cell's number, with decimal point or comma.
+
 use serde::{Deserialize, Serialize};
 
 /// How decimals are written.

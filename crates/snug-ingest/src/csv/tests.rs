@@ -1,3 +1,4 @@
+//! CSV dialects, damaged cells and rows, declared columns and times, from text to recording.
 #![allow(clippy::unwrap_used)]
 
 use super::*;

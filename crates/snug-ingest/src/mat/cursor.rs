@@ -1,3 +1,5 @@
+//! Bounded reading of a MAT file's bytes in either byte order: every error names the offset.
+
 use crate::IngestError;
 use crate::memory::Budget;
 

@@ -1,3 +1,5 @@
+//! Numeric arrays in the type of their MATLAB class, so that 64-bit integers stay exact until doubles are asked for.
+
 use super::cursor::ByteOrder;
 
 /// The numbers of an array, in column-major order, as the file's class holds them.

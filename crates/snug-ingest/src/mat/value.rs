@@ -1,3 +1,5 @@
+//! The tree that every level of MAT file is read into: variables, arrays, cells, structs, sparse matrices.
+
 use super::Numbers;
 use snug_campaign::excerpt;
 

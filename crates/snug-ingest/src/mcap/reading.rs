@@ -1,3 +1,5 @@
+//! An MCAP file to recordings: whole measurements that Snug recorded, or declared channels on one time grid.
+
 use super::McapLayout;
 use crate::csv::assemble;
 use crate::finding_log::{About, FindingLog};

@@ -1,3 +1,4 @@
+//! Jitter, gaps, repeated and missing times, and what becomes of the samples beside them.
 #![allow(clippy::unwrap_used)]
 
 use super::*;

@@ -1,3 +1,4 @@
+//! Folders with every kind of entry, disks that fail, and the source as a study file writes it.
 #![allow(clippy::unwrap_used)]
 
 use super::*;

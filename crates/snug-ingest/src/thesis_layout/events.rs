@@ -1,3 +1,5 @@
+//! The thesis' table of events to segments; one damaged row costs its own tightening where the others leave its place.
+
 use crate::finding_log::{About, FindingLog};
 use crate::mat::{Content, Value};
 use snug_campaign::Segment;

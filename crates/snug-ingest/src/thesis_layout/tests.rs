@@ -1,3 +1,4 @@
+//! Thesis files put together variable by variable: names of channels, event times that are wrong, lengths that differ.
 #![allow(clippy::unwrap_used)]
 
 use super::*;

@@ -1,3 +1,5 @@
+//! The elements of an HDF5 dataset by their HDF5 type, before MATLAB's class says what they mean.
+
 use super::{Numbers, failed};
 use crate::IngestError;
 use crate::mat::cursor::ByteOrder;

@@ -1,3 +1,5 @@
+//! The tagged element of level 5: type, size and data, checked against the bytes that are there.
+
 use crate::IngestError;
 use crate::mat::cursor::{ByteOrder, Cursor};
 use crate::mat::numbers::{NumberKind, Numbers};

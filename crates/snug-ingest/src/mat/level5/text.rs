@@ -1,3 +1,5 @@
+//! Character arrays: which of the format's number types hold text, and in which encoding.
+
 use super::element::{Element, ElementType};
 use crate::IngestError;
 use crate::mat::cursor::Cursor;
