@@ -1,3 +1,5 @@
+//! Fits an autoregression to noise: it whitens residuals, and gives the standard error of a mean under coloured noise.
+
 /// Prediction error over variance below which no further order is added: the rest is rounding (a pure line spectrum).
 const SMALLEST_ERROR_RATIO: f64 = 1e-6;
 

@@ -1,3 +1,5 @@
+//! Known processes back, noise whitened that the fit has not seen, and hum that must stay stable.
+
 use super::*;
 use crate::synthetic::{autoregressive_noise, coloured_noise, white_noise};
 

@@ -1,3 +1,5 @@
+//! The offset of a channel as the quiet part shows it, with a standard error that holds under coloured noise.
+
 use crate::autoregression::Autoregression;
 use crate::channel::Channel;
 use snug_campaign::Correction;

@@ -1,3 +1,5 @@
+//! A segment's channels: names and units for findings, and which effect of the catalogue an offset of each would be.
+
 use snug_campaign::Quantity;
 
 /// One measured signal of a segment.

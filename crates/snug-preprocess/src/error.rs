@@ -1,3 +1,5 @@
+//! Settings that preprocessing refuses before it looks at any data.
+
 use thiserror::Error;
 
 /// Why preprocessing could not start. Faults of the data are findings instead.

@@ -1,3 +1,5 @@
+//! The faults inside the window that keep a tightening out of the statistics, although it can be fitted.
+
 use crate::autoregression::Autoregression;
 use crate::channel::Channel;
 use crate::locate::Located;

@@ -1,3 +1,5 @@
+//! Velocity and displacement by the trapezoidal rule where the rig measures a higher derivative only.
+
 use snug_campaign::{Motion, Quantity};
 
 /// Cumulative integral by the trapezoidal rule, zero at the first sample.

@@ -1,3 +1,5 @@
+//! Where the pulse lies in a segment, and where the window is put for it; refuses segments without a usable pulse.
+
 use crate::channel::Channel;
 use crate::onset::{Baseline, Pulse, onset, pulses};
 use crate::presets::Context;

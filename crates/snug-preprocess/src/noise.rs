@@ -1,3 +1,5 @@
+//! The fitted noise process in the words of `snug-campaign`.
+
 use crate::autoregression::Autoregression;
 use snug_campaign::{NoiseFloor, NoiseSource, Quantity};
 

@@ -1,3 +1,5 @@
+//! Where the original program takes displacement as zero, its 1-based sample numbers and rounding included.
+
 use std::ops::Range;
 
 /// Where the original takes the offset when there is no local minimum \[s\]: its 1-based sample 274.

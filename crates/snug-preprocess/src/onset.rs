@@ -1,3 +1,5 @@
+//! The pulses of a torque and the sample at which one begins, which for a slow rise lies well before the threshold.
+
 use crate::PreprocessError;
 use crate::settings::in_range;
 use crate::spread::{difference_scale, location_and_scale};

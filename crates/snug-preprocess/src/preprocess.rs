@@ -1,3 +1,5 @@
+//! The crate's way in: divides a recording, prepares every segment by the preset, and collects what was found.
+
 use crate::division;
 use crate::presets::{Context, snug, thesis, whole};
 use crate::remarks::Remarks;

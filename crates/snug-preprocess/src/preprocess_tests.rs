@@ -1,3 +1,4 @@
+//! Whole recordings, clean and spoilt in one place: what each fault costs, and that its neighbour is left alone.
 #![allow(clippy::unwrap_used)]
 
 use super::*;

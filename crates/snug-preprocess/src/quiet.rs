@@ -1,3 +1,5 @@
+//! The quiet part before the pulse: which samples it has, and whether a channel is at rest in them.
+
 use crate::PreprocessError;
 use crate::autoregression::Autoregression;
 use crate::settings::in_range;

@@ -1,3 +1,5 @@
+//! Measures noise and offset of every channel in the quiet part and takes the offsets out of the segment.
+
 use crate::autoregression::Autoregression;
 use crate::bias::Offset;
 use crate::channel::Channel;

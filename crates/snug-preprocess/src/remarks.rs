@@ -1,3 +1,5 @@
+//! What every step writes its findings to, so that they carry the tightening's name and its rejection is not forgotten.
+
 use crate::channel::Channel;
 use snug_campaign::{Finding, Severity, TighteningId};
 

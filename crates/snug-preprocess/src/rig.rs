@@ -1,3 +1,5 @@
+//! The rig's settings: lever arm, and the tool's inertia, which in the thesis depends on the force transducer.
+
 use crate::PreprocessError;
 use crate::settings::in_range;
 use serde::{Deserialize, Serialize};

@@ -1,3 +1,5 @@
+//! The preprocessing part of a study file: preset, window and every step's settings, checked before work starts.
+
 use crate::{OnsetSettings, PreprocessError, QualitySettings, QuietSettings, RigSettings};
 use serde::{Deserialize, Serialize};
 

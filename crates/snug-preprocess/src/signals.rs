@@ -1,3 +1,5 @@
+//! A segment cut out of its recording: channels of one length, for the steps to change.
+
 use crate::channel::Channel;
 use crate::remarks::Remarks;
 use snug_campaign::{Finding, Motion, Quantity, Recording, Segment};

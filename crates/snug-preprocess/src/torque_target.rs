@@ -1,3 +1,5 @@
+//! Peak torque and the target torque it stands for; the target groups tightenings in the statistics.
+
 /// Width of a target-torque bin \[Nm\].
 const BIN_NM: f64 = 5.0;
 

@@ -1,3 +1,5 @@
+//! Window times to sample ranges; the original keeps one sample fewer than its length calls for.
+
 use std::ops::Range;
 
 /// Samples kept by the `snug` preset: as many as the length calls for, 0-based \[start, start + length).

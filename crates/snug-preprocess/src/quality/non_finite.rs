@@ -1,3 +1,5 @@
+//! Bridges short runs of missing samples, and says where the runs are that are too long for it.
+
 use std::ops::Range;
 
 /// Missing samples of one channel.

@@ -1,3 +1,5 @@
+//! Exchanged channels and wrong signs, told by mechanics: a torque has one sign, an acceleration swings both ways.
+
 use std::ops::Range;
 
 /// How one-sided a signal is: |Σ x| / Σ |x|, 1 for one sign only, 0 for balance; 0 for silence.

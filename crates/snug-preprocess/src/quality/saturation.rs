@@ -1,3 +1,5 @@
+//! Channels at the limit of their range, told from the top of a coarsely quantised peak.
+
 /// Samples pinned at the largest or smallest value of a channel.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Saturation {

@@ -1,3 +1,5 @@
+//! The thresholds of the data-quality checks, with default and allowed range.
+
 use crate::PreprocessError;
 use crate::settings::in_range;
 use serde::{Deserialize, Serialize};

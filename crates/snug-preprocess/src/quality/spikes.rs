@@ -1,3 +1,5 @@
+//! Mends spikes of one to three samples, except those that the tool's own motion explains.
+
 use crate::spread::median;
 use std::ops::Range;
 

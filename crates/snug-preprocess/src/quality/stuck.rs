@@ -1,3 +1,5 @@
+//! Dropouts: runs of one repeated value, longer than quantised noise repeats itself by chance.
+
 use std::ops::Range;
 
 /// A channel that freezes for at least this share of its samples is quantised or free of noise: nothing can be said.
