@@ -1,3 +1,5 @@
+//! The recording's part of a study file: which samples are kept, compression, and sizes that bound file and memory.
+
 use crate::RecordError;
 use serde::{Deserialize, Serialize};
 

@@ -1,5 +1,5 @@
-#![allow(clippy::unwrap_used)]
 //! A small campaign with every mantissa bit in use, for the tests below.
+#![allow(clippy::unwrap_used)]
 
 mod diagnosis;
 mod interruption;

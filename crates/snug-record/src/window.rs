@@ -1,3 +1,5 @@
+//! `/tightening/window`: what a tightening's samples alone do not say, so that it can be evaluated anew.
+
 use crate::schema::{Field, Kind, Message, field};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Deserializer, Serialize};

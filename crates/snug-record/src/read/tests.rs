@@ -1,5 +1,5 @@
-#![allow(clippy::unwrap_used)]
 //! What the readers make of files that other programs wrote.
+#![allow(clippy::unwrap_used)]
 
 mod forge;
 mod hostile;

@@ -1,3 +1,5 @@
+//! A diagnosis as its topics hold it: every field in its schema, and the ladder readable as numbers.
+
 use super::small_chunks;
 use crate::{Recorder, read, topic};
 use serde_json::Value;

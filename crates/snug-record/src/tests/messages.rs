@@ -1,3 +1,5 @@
+//! Every JSON message against the schema that stands beside it, as viewers read it.
+
 use super::tightenings;
 use crate::{RecordSettings, Recorder, topic};
 use serde_json::Value;

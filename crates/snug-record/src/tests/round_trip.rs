@@ -1,3 +1,5 @@
+//! What is recorded comes back bit for bit, as windows and as whole files, and thinned as the settings say.
+
 use super::{INTERVAL_S, bits, noise, record, small_chunks, tightenings};
 use crate::read::{Completeness, Extent, numeric_channels, recordings};
 use crate::{Compression, RecordSettings, Recorder, Samples, topic};
