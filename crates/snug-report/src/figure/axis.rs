@@ -1,3 +1,5 @@
+//! Axes of a figure: scales with ticks at round numbers, drawn also where values are equal, missing or not finite.
+
 use crate::number::{fixed, short, superscript};
 
 /// A mark on an axis with its text.

@@ -1,3 +1,5 @@
+//! What a figure draws on its axes (lines, bands, dots, bars), as SVG; what is not finite is left out.
+
 use super::{Frame, pixel};
 use maud::{Markup, html};
 

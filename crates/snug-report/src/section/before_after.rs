@@ -1,3 +1,5 @@
+//! What the final model gained on one tightening: curves to zoom into, or still ones where no script runs.
+
 use super::DiagnosisSection;
 use crate::decimation;
 use crate::figure::{Axis, Bar, Figure, Mark, captioned, legend, linear_range};

@@ -1,3 +1,5 @@
+//! Tables of the misfit in units, in percent and in multiples of the noise, for all tightenings together and for each.
+
 use super::DiagnosisSection;
 use crate::effect_name::unit_text;
 use crate::number::{drawn, plain, significant};

@@ -1,3 +1,5 @@
+//! Groups side by side: mean, interval and spread of every quantity per level of every factor, drawn and as tables.
+
 use super::{Section, factors, nothing};
 use crate::figure::{Axis, Dot, Figure, Mark, Segment, captioned, legend, linear_range};
 use crate::number::{missing, percent, percent_interval, rounded, share, significant};

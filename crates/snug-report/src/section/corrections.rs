@@ -1,3 +1,5 @@
+//! Which sensor errors were taken out, how large they were, and whether chance alone could make them so.
+
 use super::{Section, nothing};
 use crate::effect_name::unit_text;
 use crate::figure::{Axis, Dot, Figure, Mark, Segment, captioned, legend, linear_range};

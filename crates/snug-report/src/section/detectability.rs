@@ -1,3 +1,5 @@
+//! Limits of a diagnosis: how often it raises a false alarm, and from which size on an absent effect would show.
+
 use super::DiagnosisSection;
 use crate::effect_name::{effect_name, unit_text};
 use crate::effect_words::{parameter_name, sentence};

@@ -1,3 +1,5 @@
+//! Quirks of the original program that move results. The numbers named here are fixed text: no run computes them.
+
 use super::{Section, nothing};
 use maud::{Markup, html};
 use snug_campaign::CampaignResult;

@@ -1,3 +1,5 @@
+//! Histograms around the bulk of the values; what lies beyond the axis is counted in words and squeezes nothing.
+
 use super::{Section, counted, fitted, nothing};
 use crate::figure::{Axis, Bar, Figure, Mark, Segment, captioned, legend, round_step};
 use crate::number::significant;

@@ -1,3 +1,5 @@
+//! Work counters instead of times: they are the same on every run, so that a slower diagnosis shows as a change.
+
 use super::DiagnosisSection;
 use maud::{Markup, html};
 use snug_campaign::{CampaignResult, Diagnosis, WorkDone};

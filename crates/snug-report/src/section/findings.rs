@@ -1,3 +1,5 @@
+//! Findings by kind, the gravest first, so that a frequent remark does not hide a rare loss of data.
+
 use super::{Section, counted, nothing};
 use crate::number::missing;
 use crate::outcome::{severity_name, severity_words};

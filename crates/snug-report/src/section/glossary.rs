@@ -1,3 +1,5 @@
+//! Explains what the page calls things, and what T and θ stand for on a rig that is no nutrunner.
+
 use super::Section;
 use maud::{Markup, html};
 use snug_campaign::CampaignResult;

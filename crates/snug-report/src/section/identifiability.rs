@@ -1,3 +1,5 @@
+//! Whether data or constraints decided the estimates: how fits ended, interval widths, correlations, noise sources.
+
 use super::{Section, nothing};
 use crate::number::{fixed, missing, percent, share, short, significant};
 use crate::outcome::{STATUSES, status_meaning, status_name};

@@ -1,3 +1,5 @@
+//! Every model of the ladder with its error in fitted and in held-out data, and the share of tightenings it can use.
+
 use super::DiagnosisSection;
 use crate::effect_name::{called_in, unit_text};
 use crate::figure::{Axis, Bar, Dot, Figure, Mark, Segment, captioned, legend};

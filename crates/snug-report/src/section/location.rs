@@ -1,3 +1,5 @@
+//! Brings every view of the misfit into one section, with the drift that a missing effect leaves in fitted values.
+
 mod aspects;
 mod force;
 mod force_map;

@@ -1,3 +1,5 @@
+//! The page's opening: the outcome in one sentence, key numbers, and a warning where data were left out or changed.
+
 use super::{Section, counted, fitted};
 use crate::number::{fixed, missing, percent, percent_interval, plain, rounded, share, short};
 use crate::quantity::{self, capitalised};

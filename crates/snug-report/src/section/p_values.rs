@@ -1,3 +1,5 @@
+//! The tests as tables. Methods that respect participants come first: the others give p-values that are too small.
+
 use super::{Section, nothing};
 use crate::number::{fixed, measured, missing, p_value, plain};
 use crate::quantity;

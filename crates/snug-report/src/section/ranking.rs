@@ -1,3 +1,5 @@
+//! Every candidate with size, gain and chance; terms in no catalogue are folded away unless they lead or are chosen.
+
 use super::DiagnosisSection;
 use crate::effect_name::{called, names_in};
 use crate::effect_words::{

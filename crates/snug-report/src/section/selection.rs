@@ -1,3 +1,5 @@
+//! Why tightenings were rejected, under both presets side by side, and on which of them the presets differ.
+
 use super::{Section, nothing};
 use crate::number::{percent, share};
 use crate::outcome::{REJECTIONS, outcome_words, rejection_meaning, rejection_words};

@@ -1,3 +1,5 @@
+//! Prints the study into the report, so that a page alone says how to get its numbers again.
+
 use super::{Section, nothing};
 use maud::{Markup, html};
 use snug_campaign::CampaignResult;

@@ -1,3 +1,5 @@
+//! Data for the page's interactive viewer of curves, and a still picture of the first tightening where no script runs.
+
 use super::{Section, nothing};
 use crate::figure::{Axis, Bar, Figure, Mark, captioned, legend, linear_range};
 use crate::number::{rounded, short, significant};

@@ -1,3 +1,5 @@
+//! The table to look single tightenings up in; the page's script sorts and filters it by its `data-` attributes.
+
 use super::{Section, nothing};
 use crate::number::{measured, missing, plain, short};
 use crate::outcome::outcome_words;

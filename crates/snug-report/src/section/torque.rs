@@ -1,3 +1,5 @@
+//! Shows which tightenings rounding to 5 Nm may have put into the wrong torque group.
+
 use super::{Section, counted, nothing};
 use crate::figure::{Axis, Bar, Dot, Figure, Mark, Segment, captioned, legend, linear_range};
 use crate::number::{short, significant};

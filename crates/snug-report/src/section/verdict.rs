@@ -1,3 +1,5 @@
+//! The diagnosis in words: what is missing or was added, a term to try, the experiment that decides, why it stopped.
+
 use super::{DiagnosisSection, counted};
 use crate::effect_name::{called, effect_name, names_in, unit_text};
 use crate::effect_words::{by_chance, sentence, share_with_error, sizes};

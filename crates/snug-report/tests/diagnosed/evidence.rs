@@ -1,3 +1,5 @@
+//! Invented sizes, gains and chances: candidates of every kind that the page shows differently.
+
 use snug_campaign::{AddedEffect, Detectability, EffectParameter, NegativeControl, RankedEffect};
 
 /// An estimate with its interval, within a plausible range of five times its size.

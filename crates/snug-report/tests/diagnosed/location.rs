@@ -1,3 +1,5 @@
+//! Invented misfit: around the peak and at large targets before, nowhere in particular after; drift; a comparison.
+
 use snug_campaign::{
     Aspect, CampaignResult, Comparison, Drift, ForceCurve, ForceMap, Interval, Location, Misfit,
     Share, TighteningMisfit,

@@ -1,3 +1,5 @@
+//! Signals of an invented tightening: an oscillator under a torque pulse, stepped sample by sample, with seeded noise.
+
 use snug_campaign::{Motion, Rig, TimeBase, Traces};
 
 /// Standard deviation of the invented acceleration noise [rad/s²].

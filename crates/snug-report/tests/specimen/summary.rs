@@ -1,3 +1,5 @@
+//! Tables over the invented tightenings: presets, groups, and p-values among which some tests could not be made.
+
 use snug_campaign::{
     ConditionSummary, EffectSize, Interval, Moments, PresetSummary, QuantitySummary, Rejection,
     RejectionCount, TestRow, TighteningId, TighteningResult,

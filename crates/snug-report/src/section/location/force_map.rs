@@ -1,3 +1,5 @@
+//! Heat map of the missing force; a cell whose 95 % band holds zero is grey, so that noise is not read as a law.
+
 use crate::figure::{Axis, Bar, Figure, Mark, captioned, legend};
 use crate::number::significant;
 use maud::{Markup, html};
