@@ -1,3 +1,5 @@
+//! Every error that ends a study, which of them are the user's to mend, and where in the study file to mend them.
+
 use crate::position;
 use snug_campaign::did_you_mean;
 use snug_diagnose::DiagnoseError;

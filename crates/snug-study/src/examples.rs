@@ -1,3 +1,5 @@
+//! Bounds the memory that drawn signals take, while nobody knows yet how many tightenings the campaign has.
+
 use snug_campaign::Traces;
 
 /// Most tightenings whose signals are kept for the report.

@@ -1,3 +1,5 @@
+//! What whoever watches a run is told; how it is shown is theirs to decide.
+
 /// What a run tells while it works.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ProgressEvent<'a> {

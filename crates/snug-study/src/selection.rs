@@ -1,3 +1,5 @@
+//! Which fitted tightenings count in the statistics: Snug's own rules, and those of the original program in its order.
+
 use crate::StudyError;
 use serde::{Deserialize, Serialize};
 use snug_campaign::{Estimate, FitMeasures, FitStatus, Rejection};

@@ -1,3 +1,5 @@
+//! The study file: the settings of every crate under one roof, read and written as RON, checked before work starts.
+
 use crate::position::Position;
 use crate::{DiagnosisSettings, StudyError, syntax};
 use ron::extensions::Extensions;

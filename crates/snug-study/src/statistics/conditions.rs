@@ -1,3 +1,5 @@
+//! The table of means and spreads per condition, selected and rejected tightenings apart.
+
 use super::factor::Factor;
 use super::quantity;
 use snug_campaign::{

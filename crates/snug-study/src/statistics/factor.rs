@@ -1,3 +1,5 @@
+//! The factors that tables and tests compare, and the groups of tightenings that each of them makes.
+
 use snug_campaign::{SignalUnits, TighteningResult};
 use std::collections::BTreeMap;
 

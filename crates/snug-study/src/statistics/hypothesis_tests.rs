@@ -1,3 +1,5 @@
+//! The table of tests. A new one is an entry in `METHODS`, which also says whether it respects participants.
+
 use super::conditions::interval;
 use super::factor::Factor;
 use super::quantity;

@@ -1,3 +1,5 @@
+//! Which numbers of a tightening tables and tests are about, in which order, and where each is found.
+
 use snug_campaign::TighteningResult;
 
 /// Names of the reported quantities: every free parameter and the natural frequency of the hand–arm.
