@@ -1,3 +1,5 @@
+//! What a simulation gives, and how it is written: the measurement files, and the truth beside their folder, not in it.
+
 use crate::{MatStyle, SyntheticError, SyntheticFile, Truth};
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -1,3 +1,5 @@
+//! Plans that cannot be simulated, and campaigns that cannot be written.
+
 use std::path::PathBuf;
 
 /// Why a campaign could not be simulated or written.

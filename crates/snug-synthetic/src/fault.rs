@@ -1,3 +1,5 @@
+//! Faults of the data that preparation must find: what each does to pulses, channels and the length of a segment.
+
 use crate::{CampaignPlan, Pulse, SyntheticError};
 use serde::{Deserialize, Serialize};
 

@@ -1,3 +1,5 @@
+//! One simulated measurement file: segments back to back, under a clock of events that counts the pauses between them.
+
 use crate::sensing::Channels;
 use crate::{CampaignPlan, FilePlan};
 use snug_campaign::{Conditions, Motion, Recording, Segment, TimeBase};

@@ -1,3 +1,5 @@
+//! Past motion for the stretch reflex, whose delay may lead to any instant between two steps.
+
 /// The angle as it was: what a delayed law looks back on. Cubic Hermite between the steps that were taken.
 #[derive(Debug, Default)]
 pub(crate) struct History {

@@ -1,3 +1,5 @@
+//! Accelerometer noise, white or correlated from sample to sample; the noise of torque and force is always white.
+
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 use serde::{Deserialize, Serialize};

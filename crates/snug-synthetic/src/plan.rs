@@ -1,3 +1,5 @@
+//! The plan of a campaign: conditions of its files, people, sensors, hidden effects, faults; the seed decides the rest.
+
 use crate::fault::PlannedFault;
 use crate::{HiddenEffect, NoiseKind, Population, Sensors, SyntheticError};
 use serde::{Deserialize, Serialize};

@@ -1,3 +1,5 @@
+//! Tool, hand and arm with the hidden laws, as a system of first-order differential equations for `trajectory.rs`.
+
 use crate::effects::{Law, MeasurementLaw, MechanicalLaw};
 use crate::history::History;
 use crate::{HandArm, Pulse};

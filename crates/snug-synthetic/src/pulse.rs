@@ -1,3 +1,5 @@
+//! The torque of a tightening in closed form, to be had at any instant: rundown, snug point, ramp, shut-off.
+
 use crate::{FilePlan, Joint, Strategy};
 use rand::Rng;
 use rand_chacha::ChaCha8Rng;

@@ -1,3 +1,5 @@
+//! Settings of the simulated sensors; what they do to the signals is `sensing.rs`.
+
 use crate::NoiseKind;
 use serde::{Deserialize, Serialize};
 

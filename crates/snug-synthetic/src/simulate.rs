@@ -1,3 +1,5 @@
+//! From plan to campaign: draws people and pulses, integrates each tightening, measures it, and notes the truth.
+
 use crate::effects::{Law, MeasurementLaw};
 use crate::fault::Fault;
 use crate::file::SyntheticFile;

@@ -1,3 +1,5 @@
+//! The true motion, integrated in far finer steps than identification takes, so that its errors are not shared.
+
 use crate::Plant;
 use crate::effects::{Law, MeasurementLaw, MuscularLaw};
 use crate::history::History;

@@ -1,3 +1,5 @@
+//! The truth file: the numbers that identification and diagnosis of a simulated campaign should come to.
+
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
