@@ -1,3 +1,5 @@
+//! Verbs and options of the command line; the comments here are what `--help` prints.
+
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 

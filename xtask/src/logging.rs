@@ -1,3 +1,5 @@
+//! The program's log, apart from its summary on standard output; a log that cannot be written ends no run.
+
 use crate::arguments::{LogFormat, LogOptions};
 use crate::terminal::Printable;
 use tracing_subscriber::filter::Targets;

@@ -1,3 +1,5 @@
+//! Progress on standard error: a bar for people, a plain line every few seconds for files and pipes.
+
 use crate::terminal::complain;
 use indicatif::{ProgressBar, ProgressStyle};
 use snug_study::ProgressEvent;

@@ -1,3 +1,5 @@
+//! What a run prints at its end: presets, means, agreement, findings, and which files were written, kept or left.
+
 use snug_campaign::{
     CampaignResult, Finding, Moments, PresetSummary, Rejection, Severity, TighteningResult,
 };

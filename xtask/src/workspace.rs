@@ -1,3 +1,5 @@
+//! The workspace's folders, and cargo started in them on behalf of a verb.
+
 use crate::exit;
 use crate::terminal::complain;
 use std::path::{Path, PathBuf};

@@ -1,3 +1,5 @@
+//! The ladder for a terminal: a line per model with its error and a bar.
+
 use super::size::significant;
 use super::{Page, called_in, shortened};
 use snug_campaign::{Diagnosis, Rung};

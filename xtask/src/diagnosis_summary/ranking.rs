@@ -1,3 +1,5 @@
+//! The few candidates that are worth a line on the screen.
+
 use super::size::{self, sized};
 use super::{Page, called, names_in, not_yet_added, shortened};
 use snug_campaign::{Diagnosis, Doubt, RankedEffect, Verdict};

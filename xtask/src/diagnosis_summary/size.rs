@@ -1,3 +1,5 @@
+//! Numbers of a diagnosis as text: sizes with interval and unit, shares, chances.
+
 use snug_campaign::EffectParameter;
 
 /// Four significant digits; a power of ten for what is very large or small.

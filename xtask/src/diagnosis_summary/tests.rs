@@ -1,3 +1,4 @@
+//! Made-up diagnoses on the screen: width, digits, bars, and the next command that every verdict leads to.
 #![allow(clippy::unwrap_used)]
 
 use super::{Following, WIDTH, text};

@@ -1,3 +1,5 @@
+//! `cargo xtask bench`: hands over to the benchmark in `tests/benches`.
+
 use crate::workspace;
 use std::process::ExitCode;
 

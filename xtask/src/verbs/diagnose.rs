@@ -1,3 +1,5 @@
+//! `cargo xtask compare`, `diagnose`, `add`, `improve` and `remove`; the last three may rewrite the study file.
+
 use super::run::{carry_out, refused, study};
 use crate::arguments::RunOptions;
 use crate::exit;

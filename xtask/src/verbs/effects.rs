@@ -1,3 +1,5 @@
+//! `cargo xtask effects`: prints what the effects say of themselves, and which are never ranked and why.
+
 use crate::exit;
 use crate::terminal::{complain, say};
 use snug_campaign::{did_you_mean, excerpt};

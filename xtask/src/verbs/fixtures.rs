@@ -1,3 +1,5 @@
+//! `cargo xtask fixtures`: writes the embedded campaigns over those in `fixtures/`.
+
 use crate::terminal::{complain, say};
 use crate::{exit, workspace};
 use std::process::ExitCode;

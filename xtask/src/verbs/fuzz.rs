@@ -1,3 +1,5 @@
+//! `cargo xtask fuzz`: starts the harness in `tests/fuzz`; time and seed reach it as environment variables.
+
 use crate::workspace;
 use std::path::Path;
 use std::process::ExitCode;

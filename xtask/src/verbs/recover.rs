@@ -1,3 +1,5 @@
+//! `cargo xtask recover`: has a cut recording repaired and prints what came of it.
+
 use crate::exit;
 use crate::terminal::say;
 use std::path::Path;

@@ -1,3 +1,5 @@
+//! `cargo xtask run`, and the frame of every verb that evaluates data: study, progress, signals, summary, exit code.
+
 use crate::arguments::{PresetName, RunOptions};
 use crate::diagnosis_summary::Following;
 use crate::progress::Progress;

@@ -1,3 +1,5 @@
+//! `cargo xtask test`: cargo's tests; environment variables switch on what takes long.
+
 use crate::workspace;
 use std::process::ExitCode;
 

@@ -1,3 +1,5 @@
+//! `cargo xtask tidy`: starts `snug-tidy`.
+
 use crate::workspace;
 use std::process::ExitCode;
 
