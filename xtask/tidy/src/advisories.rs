@@ -97,7 +97,7 @@ impl Advisory {
     /// What to do about it.
     fn remedy(&self) -> String {
         let patched: Vec<String> = self.patched.iter().map(VersionReq::to_string).collect();
-        let otherwise = "or give a reason in EXCEPTIONS of xtask/src/tidy/advisories.rs";
+        let otherwise = "or give a reason in EXCEPTIONS of xtask/tidy/src/advisories.rs";
         if patched.is_empty() {
             return format!("no version puts it right: replace the package, {otherwise}");
         }
@@ -134,7 +134,7 @@ fn check_except(snapshot: &Snapshot, lockfile: &Lockfile, exceptions: &[(&str, &
         (problems, accepted) => format!("{} apply, {accepted} accepted", problems + accepted),
     };
     problems.extend(idle.into_iter().map(|id| Problem {
-        file: "xtask/src/tidy/advisories.rs".into(),
+        file: "xtask/tidy/src/advisories.rs".into(),
         what: format!("{id} is excepted and applies to nothing"),
         remedy: "take it out of EXCEPTIONS".into(),
     }));

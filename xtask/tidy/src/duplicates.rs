@@ -75,7 +75,7 @@ fn check_against(versions: &Versions, ceiling: usize) -> Outcome {
         })
     } else if count < ceiling {
         Some(Problem {
-            file: "xtask/src/tidy/duplicates.rs".into(),
+            file: "xtask/tidy/src/duplicates.rs".into(),
             what: format!("{ceiling} packages may be there in more than one version, {count} are"),
             remedy: format!("lower CEILING to {count}, so that none comes back"),
         })

@@ -96,7 +96,7 @@ fn refused(package: &Licensed) -> Option<Problem> {
         Some(Problem {
             file: "Cargo.lock".into(),
             what: format!("{} {what}", package.package),
-            remedy: "leave it out, or allow the licence in xtask/src/tidy/licences.rs".into(),
+            remedy: "leave it out, or allow the licence in xtask/tidy/src/licences.rs".into(),
         })
     };
     let Some(licence) = &package.licence else {
