@@ -1,7 +1,7 @@
 //! What must hold of the workspace as a whole and can be checked without a network: one check, one file.
 
 use crate::lockfile::Lockfile;
-use crate::{advisories, duplicates, licences, unused};
+use crate::{advisories, duplicates, headers, licences, source_files, unused};
 use cargo_metadata::{Metadata, MetadataCommand};
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -79,11 +79,13 @@ pub enum Error {
 pub fn check(root: &Path) -> Result<Vec<Outcome>, Error> {
     let metadata = describe(root)?;
     let lockfile = Lockfile::read(root)?;
+    let files = source_files::all(root)?;
     Ok(vec![
         licences::check(&licences::licensed(root)?, &lockfile),
         advisories::check(&advisories::Snapshot::read(root)?, &lockfile),
         unused::check(&unused::shared(root)?, &unused::members(&metadata)?),
         duplicates::check(&duplicates::built(root)?),
+        headers::check(&files),
     ])
 }
 

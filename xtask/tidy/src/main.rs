@@ -3,8 +3,10 @@
 mod advisories;
 mod check;
 mod duplicates;
+mod headers;
 mod licences;
 mod lockfile;
+mod source_files;
 mod unused;
 
 use check::Outcome;
