@@ -6,6 +6,7 @@ mod duplicates;
 mod headers;
 mod licences;
 mod lockfile;
+mod sizes;
 mod source_files;
 mod unused;
 
