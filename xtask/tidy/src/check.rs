@@ -1,7 +1,7 @@
 //! What must hold of the workspace as a whole and can be checked without a network: one check, one file.
 
 use crate::lockfile::Lockfile;
-use crate::{advisories, duplicates, headers, licences, sizes, source_files, unused};
+use crate::{advisories, duplicates, headers, licences, sizes, source_files, units, unused};
 use cargo_metadata::{Metadata, MetadataCommand};
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -87,6 +87,7 @@ pub fn check(root: &Path) -> Result<Vec<Outcome>, Error> {
         duplicates::check(&duplicates::built(root)?),
         headers::check(&files),
         sizes::check(&files),
+        units::check(&files),
     ])
 }
 

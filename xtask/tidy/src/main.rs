@@ -8,6 +8,7 @@ mod licences;
 mod lockfile;
 mod sizes;
 mod source_files;
+mod units;
 mod unused;
 
 use check::Outcome;
