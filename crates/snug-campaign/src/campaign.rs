@@ -29,7 +29,7 @@ pub struct PresetSummary {
     pub outcomes: Vec<(TighteningId, Vec<Rejection>)>,
 }
 
-/// Count, mean and spread of one quantity in one group.
+/// Count, mean and spread of one quantity in one group, in the quantity's unit.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Moments {
     /// Number of values.
@@ -77,7 +77,7 @@ pub struct ConditionSummary {
 pub struct EffectSize {
     /// For example `hedges_g`, `eta_squared`.
     pub name: String,
-    /// Its value.
+    /// Its value; no unit.
     pub value: f64,
     /// 95 % interval where one is defined.
     pub interval: Option<Interval>,

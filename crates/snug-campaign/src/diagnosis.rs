@@ -78,7 +78,7 @@ pub struct RankedEffect {
     pub expression: Option<String>,
     /// Its size, refitted to all tightenings.
     pub parameters: Vec<EffectParameter>,
-    /// T = Σ s_i / √Σ s_i² over tightenings, before any refit.
+    /// T = Σ s_i / √Σ s_i² over tightenings, before any refit; no unit.
     pub score: f64,
     /// Share of all-effect sign flips whose largest T reaches this one.
     pub p_family: f64,
@@ -136,7 +136,8 @@ pub struct AddedEffect {
     pub p_family: Option<f64>,
     /// Share of the misfit at that rung that it removed in held-out tightenings.
     pub heldout_gain: Option<f64>,
-    /// Loss of fit when it alone is removed from the final model: growth of the pooled squared error over noise.
+    /// Loss of fit when it alone is removed from the final model: growth of the pooled squared error over noise, as a
+    /// share of it.
     pub needed: Option<f64>,
     /// Sentences for a tool engineer.
     pub explanation: Vec<String>,
@@ -214,11 +215,11 @@ pub struct NegativeControl {
     pub campaigns: usize,
     /// Of them those in which the ranking called an effect supported.
     pub false_alarms: usize,
-    /// The rate that was meant.
+    /// The share of campaigns with a false alarm that was meant.
     pub nominal_rate: f64,
-    /// Wilson 95 % interval of the rate reached, low end.
+    /// Wilson 95 % interval of the share reached, low end.
     pub rate_low: f64,
-    /// Wilson 95 % interval of the rate reached, high end.
+    /// Wilson 95 % interval of the share reached, high end.
     pub rate_high: f64,
 }
 
@@ -244,7 +245,7 @@ pub struct Experiment {
     pub conditions: String,
     /// How many of them; `None` when none of the tried conditions separates them.
     pub tightenings: Option<usize>,
-    /// Smallest refitted distance over noise per tightening under these conditions.
+    /// Smallest refitted distance over noise per tightening under these conditions; no unit.
     pub distance_per_tightening: f64,
     /// In words.
     pub statement: String,

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// A closed interval \[low, high\]; 95 % confidence unless said otherwise.
+/// A closed interval \[low, high\], in the unit of what it bounds; 95 % confidence unless said otherwise.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Interval {
     /// Lower end.
@@ -53,7 +53,7 @@ pub struct Identifiability {
     pub rank: usize,
     /// Number of free parameters.
     pub free: usize,
-    /// Condition number of the column-scaled sensitivities.
+    /// Condition number of the column-scaled sensitivities; no unit.
     pub condition: f64,
     /// The most correlated pair of free parameters and its correlation.
     pub strongest_correlation: Option<(String, String, f64)>,
@@ -64,7 +64,8 @@ pub struct Identifiability {
 pub struct Estimate {
     /// Every parameter of the model, in the model's order.
     pub parameters: Vec<ParameterEstimate>,
-    /// Covariance of the free parameters, row-major, free × free, in the model's order.
+    /// Covariance of the free parameters, row-major, free × free, in the model's order; each entry in the product of
+    /// its two parameters' units.
     pub covariance: Vec<f64>,
     /// How it ended.
     pub status: FitStatus,

@@ -8,9 +8,9 @@ use serde::{Deserialize, Serialize};
 pub struct Share {
     /// What part: `rise`, `0.02..0.04 s`, `QS`, …
     pub part: String,
-    /// Lower edge where the part is a range.
+    /// Lower edge where the part is a range, in the unit that the name of its [`Aspect`] ends with.
     pub from: Option<f64>,
-    /// Upper edge where the part is a range.
+    /// Upper edge, likewise in that unit.
     pub to: Option<f64>,
     /// Root-mean-square error there over the noise there (over the measurement's noise-free expectation, where the noise
     /// is not known: over the pooled rms).
@@ -36,7 +36,7 @@ pub struct Aspect {
 /// The missing force over one coordinate, with a bootstrap band over tightenings.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct ForceCurve {
-    /// Bin centres.
+    /// Bin centres, in the coordinate's unit.
     pub at: Vec<f64>,
     /// Mean missing force \[N\].
     pub force_n: Vec<f64>,

@@ -11,7 +11,7 @@ const SAMPLES_PER_ORDER: usize = 10;
 /// n_t + a_1 n_{t−1} + … + a_p n_{t−p} = e_t, where n is the signal less its mean.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Autoregression {
-    /// a_1 … a_p; empty for white noise.
+    /// a_1 … a_p, without unit; empty for white noise.
     pub coefficients: Vec<f64>,
     /// Standard deviation of e_t, in the signal's unit.
     pub innovation_sd: f64,

@@ -1,6 +1,6 @@
 //! Median and quartiles of the numbers a section shows.
 
-/// Order statistics of finite values.
+/// Order statistics of finite values, in their unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Quartiles {
     /// Smallest value.

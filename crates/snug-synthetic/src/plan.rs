@@ -99,7 +99,7 @@ pub struct CampaignPlan {
     pub files: Vec<FilePlan>,
     /// Hidden effects; default none.
     pub effects: Vec<HiddenEffect>,
-    /// How strong they are, 0 to 1; default 0.3.
+    /// How strong they are, 0 to 1, without unit; default 0.3.
     pub strength: f64,
     /// Who holds the tool.
     pub population: Population,

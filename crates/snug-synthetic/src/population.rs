@@ -44,9 +44,9 @@ impl HandArm {
 pub struct Population {
     /// Median person; default m 2.2 kg, c 95 kg/s, k 2350 N/m.
     pub median: HandArm,
-    /// Standard deviation of ln m, ln c, ln k between participants; default 0.32, 0.25, 0.32.
+    /// Standard deviation of ln m, ln c, ln k between participants, without unit; default 0.32, 0.25, 0.32.
     pub between_participants: [f64; 3],
-    /// Standard deviation of ln m, ln c, ln k between one participant's tightenings; default 0.11 each.
+    /// Standard deviation of ln m, ln c, ln k between one participant's tightenings, without unit; default 0.11 each.
     pub within_participant: [f64; 3],
     /// Smallest damping ratio with the tool that is kept; default 0.25.
     pub smallest_damping_ratio: f64,

@@ -38,7 +38,7 @@ pub struct Pulse {
     pub snug_s: f64,
     /// Length of the ramp \[s\].
     pub ramp_s: f64,
-    /// a, curvature of the ramp; positive: steeper towards the end.
+    /// a, curvature of the ramp, without unit; positive: steeper towards the end.
     pub curvature: f64,
     /// The change of speed, if the strategy has one.
     pub dwell: Option<Dwell>,

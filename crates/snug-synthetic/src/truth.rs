@@ -36,7 +36,7 @@ pub struct TighteningTruth {
 pub struct Truth {
     /// Names of the hidden effects; `none` where nothing is hidden.
     pub effects: Vec<String>,
-    /// How strong they are.
+    /// How strong they are, as the plan has it; no unit.
     pub strength: f64,
     /// Seed of everything random.
     pub seed: u64,

@@ -61,7 +61,7 @@ pub struct Field {
     pub values: Vec<Value>,
 }
 
-/// The entries of a sparse matrix, column by column; everything else is zero.
+/// The entries of a sparse matrix, column by column; everything else is zero. The format knows no units.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sparse {
     /// 0-based row of every entry.

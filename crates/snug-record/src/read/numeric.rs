@@ -19,7 +19,7 @@ pub struct NumericChannel {
     pub schema: String,
     /// Log time of each value since [`NumericChannels::start_ns`] \[s\], in file order.
     pub log_time_s: Vec<f64>,
-    /// The values, as the file has them; truth values are 0 and 1.
+    /// The values, as the file has them, in whatever unit it has them; truth values are 0 and 1.
     pub values: Vec<f64>,
 }
 

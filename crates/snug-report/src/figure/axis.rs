@@ -5,7 +5,7 @@ use crate::number::{fixed, short, superscript};
 /// A mark on an axis with its text.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tick {
-    /// Where, in data coordinates.
+    /// Where, in the unit that the axis' label names.
     pub at: f64,
     /// What stands beside it.
     pub text: String,

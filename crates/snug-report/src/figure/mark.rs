@@ -3,7 +3,7 @@
 use super::{Frame, pixel};
 use maud::{Markup, html};
 
-/// A point with the text shown under the pointer.
+/// A point, in the units of the axes, with the text shown under the pointer.
 pub struct Dot {
     /// Horizontal coordinate.
     pub x: f64,
@@ -13,7 +13,7 @@ pub struct Dot {
     pub title: String,
 }
 
-/// A filled rectangle between two corners.
+/// A filled rectangle between two corners, in the units of the axes.
 pub struct Bar {
     /// Left and right end.
     pub x: (f64, f64),
@@ -23,7 +23,7 @@ pub struct Bar {
     pub title: String,
 }
 
-/// A straight line between two points.
+/// A straight line between two points, in the units of the axes.
 pub struct Segment {
     /// Horizontal coordinates of its ends.
     pub x: (f64, f64),
