@@ -123,7 +123,7 @@ pub enum Verb {
         /// Only tests whose name contains this.
         filter: Option<String>,
     },
-    /// Licences, advisories, unused and duplicate dependencies of the workspace; needs no network.
+    /// Licences, advisories, dependencies, sizes and units of the workspace; needs no network.
     Tidy {
         /// Also what fails nothing: accepted advisories, duplicates and who needs them.
         #[arg(long)]
