@@ -13,6 +13,10 @@ const DOMAIN_FREE: &[(&str, &str)] = &[
         "its numbers have the unit of what is put in, or none: statistics, shares, p-values",
     ),
     (
+        "snug-least-squares",
+        "its residuals are weighted, and its parameters have the unit of the problem that is put in",
+    ),
+    (
         "snug-spectrum",
         "its numbers have the unit of the signal that is put in; time counts in samples",
     ),
