@@ -1,10 +1,13 @@
 //! One verb of the diagnosis from tightenings to answer: compare, diagnose, add, improve.
 
-use crate::answer::{Answer, Examination};
-use crate::cases::{Cases, Tally};
-use crate::search::Search;
-use crate::units::Units;
-use crate::{DiagnoseError, DiagnoseSettings, Goal, Question, Watch};
+use crate::data::cases::{Cases, Tally};
+use crate::data::clusters::Units;
+use crate::error::DiagnoseError;
+use crate::question::{Goal, Question};
+use crate::selection::search::Search;
+use crate::settings::DiagnoseSettings;
+use crate::verdict::answer::{Answer, Examination};
+use crate::watch::Watch;
 
 /// Answers a question.
 ///

@@ -1,6 +1,6 @@
 //! What can be asked of the data.
 
-use crate::Case;
+use crate::data::case::Case;
 use snug_model::Effect;
 
 /// What is asked of the data.

@@ -1,4 +1,5 @@
-use crate::fitted::Fitted;
+//! What a user may set about how the missing effect is looked for.
+
 use serde::{Deserialize, Serialize};
 
 /// How the missing effect is looked for.
@@ -33,16 +34,6 @@ impl Default for DiagnoseSettings {
             starts: 8,
             control_campaigns: 200,
             seed: 0,
-        }
-    }
-}
-
-impl DiagnoseSettings {
-    /// Smallest share of the squared residual of `current` that an effect must remove to matter beside it.
-    pub(crate) fn matters_beside(&self, current: &Fitted) -> f64 {
-        match current.is_at_floor() {
-            true => self.smallest_gain_at_noise,
-            false => self.smallest_gain,
         }
     }
 }

@@ -1,4 +1,4 @@
-use crate::DiagnoseError;
+use crate::error::DiagnoseError;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Who watches a diagnosis: hears of each stage as it begins, and may end it.

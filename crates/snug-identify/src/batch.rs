@@ -1,8 +1,8 @@
 //! Fits that go abreast: each is written as if it were alone, and where it needs simulations it waits until every other one
 //! needs some, too. Then all are made side by side, as many at a time as the processor's vector registers hold.
 //!
-//! A fit is a future, and all it ever waits for is a [`Simulator`]. Nothing runs in the background: whoever calls
-//! [`Simulator::finish`] does the work. A simulation has the same bits whatever stands beside it, and so has a fit.
+//! A fit is a future, and all it ever waits for is a [`BatchSimulator`]. Nothing runs in the background: whoever calls
+//! [`BatchSimulator::finish`] does the work. A simulation has the same bits whatever stands beside it, and so has a fit.
 
 use snug_campaign::Quantity;
 use snug_model::{Input, Model, Run, simulate_side_by_side};
@@ -13,7 +13,7 @@ use std::rc::Rc;
 use std::task::{Context, Poll, Waker};
 
 /// A simulation that a fit needs; its room is given along, and comes back filled.
-pub(crate) struct Request<'a> {
+pub(crate) struct SimulationRequest<'a> {
     pub model: &'a Model,
     pub input: &'a Input,
     pub quantity: Quantity,
@@ -29,7 +29,7 @@ pub(crate) struct Request<'a> {
     pub is_done: bool,
 }
 
-impl Request<'_> {
+impl SimulationRequest<'_> {
     /// It is made by whoever asks for this.
     fn run(&mut self) -> Run<'_> {
         self.is_done = true;
@@ -51,8 +51,8 @@ impl Request<'_> {
 
 /// Makes the simulations that fits wait for.
 #[derive(Default)]
-pub(crate) struct Simulator<'a> {
-    waiting: RefCell<Vec<Rc<RefCell<Vec<Request<'a>>>>>>,
+pub(crate) struct BatchSimulator<'a> {
+    waiting: RefCell<Vec<Rc<RefCell<Vec<SimulationRequest<'a>>>>>>,
 }
 
 /// Fits that are under way at a time: four times as many as there are lanes, since not all need the same kind of simulation
@@ -62,9 +62,12 @@ const UNDER_WAY: usize = 4 * WIDEST;
 /// Lanes of the widest vector registers.
 const WIDEST: usize = 8;
 
-impl<'a> Simulator<'a> {
+impl<'a> BatchSimulator<'a> {
     /// What was asked for, once it has been its turn.
-    pub async fn simulate(&self, requests: Vec<Request<'a>>) -> Vec<Request<'a>> {
+    pub async fn simulate(
+        &self,
+        requests: Vec<SimulationRequest<'a>>,
+    ) -> Vec<SimulationRequest<'a>> {
         let requests = Rc::new(RefCell::new(requests));
         self.waiting.borrow_mut().push(Rc::clone(&requests));
         poll_fn(|_| match is_done(&requests.borrow()) {
@@ -104,7 +107,7 @@ impl<'a> Simulator<'a> {
     fn simulate_most(&self) {
         let mut waiting = self.waiting.borrow_mut();
         let mut lists: Vec<RefMut<'_, _>> = waiting.iter().map(|list| list.borrow_mut()).collect();
-        let mut requests: Vec<&mut Request<'a>> = (lists.iter_mut())
+        let mut requests: Vec<&mut SimulationRequest<'a>> = (lists.iter_mut())
             .flat_map(|list| list.iter_mut().filter(|request| !request.is_done))
             .collect();
         requests.sort_by(|one, other| {
@@ -128,7 +131,7 @@ impl<'a> Simulator<'a> {
     }
 }
 
-fn is_done(requests: &[Request<'_>]) -> bool {
+fn is_done(requests: &[SimulationRequest<'_>]) -> bool {
     requests.iter().all(|request| request.is_done)
 }
 
@@ -151,7 +154,7 @@ mod tests {
             .into();
         let request = |number: usize, asked: usize| {
             let input = &inputs[number % 2];
-            Request {
+            SimulationRequest {
                 model: &model,
                 input,
                 quantity: Quantity::Displacement,
@@ -162,11 +165,11 @@ mod tests {
                 is_done: false,
             }
         };
-        let sum = |request: &Request<'_>| -> f64 {
+        let sum = |request: &SimulationRequest<'_>| -> f64 {
             request.output.iter().chain(&request.sensitivity).sum()
         };
         let count = UNDER_WAY + 30;
-        let simulator = Simulator::default();
+        let simulator = BatchSimulator::default();
         let found = simulator.finish((0..count).map(|number| {
             let simulator = &simulator;
             async move {

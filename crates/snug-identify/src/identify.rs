@@ -1,66 +1,26 @@
 //! Tightenings, identified: the glue between model, measurement and solver.
 
 use crate::base_model::fit::BaseFit;
-use crate::base_model::noise::Settled;
+use crate::base_model::noise::FittedInSweeps;
 use crate::base_model::{fit, noise};
-use crate::batch::Simulator;
-use crate::constraint_kind::{ConstraintKind, convex_set};
+use crate::batch::BatchSimulator;
+use crate::constraint_kind::convex_set;
 use crate::error::IdentifyError;
-use crate::multistart::decimated::RoughRecord;
+use crate::multistart::decimated::DecimatedRecord;
 use crate::multistart::integral_start::integral_start;
-use crate::multistart::search::Valleys;
+use crate::multistart::search::MultistartSearch;
 use crate::noise::score_covariance::{OwnedNoise, noise_of};
-use crate::residual::restarts::Simulation;
 use crate::residual::tightening::TighteningResidual;
 use crate::residual::whitening::Whitening;
-use serde::{Deserialize, Serialize};
+use crate::settings::IdentifySettings;
+use crate::subject::Subject;
 use snug_campaign::{
     Estimate, FitStatus, Identifiability, Interval, Parameter, ParameterEstimate, Quantity,
     Tightening,
 };
-use snug_least_squares::{Constraints, Covariance, Fit, Settings, SolveError, Status};
+use snug_least_squares::{Constraints, Covariance, Fit, SolveError, Status};
 use snug_model::{Input, Model, NormalEquations};
 use std::iter::once;
-
-/// How tightenings are identified.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct IdentifySettings {
-    /// Which output is fitted: `Acceleration`, `Velocity` or `Displacement`; default `Acceleration`.
-    pub fitted_output: Quantity,
-    /// What must hold of m, c, k; default `[Positive, LightlyDamped]`.
-    pub constraints: Vec<ConstraintKind>,
-    /// Samples at the window's start that count for nothing; default 0.
-    pub unscored_samples: usize,
-    /// How the model is run beside the measurement: `Automatic`, `FreeRun` or `Restarted(every_s: …)`; default
-    /// `Automatic`.
-    pub simulation: Simulation,
-    /// The solver's own settings; default [`Settings::of_measurement`].
-    pub solver: Settings,
-}
-
-impl Default for IdentifySettings {
-    fn default() -> Self {
-        Self {
-            fitted_output: Quantity::Acceleration,
-            constraints: vec![ConstraintKind::Positive, ConstraintKind::LightlyDamped],
-            unscored_samples: 0,
-            simulation: Simulation::Automatic,
-            solver: Settings::of_measurement(),
-        }
-    }
-}
-
-/// One tightening with the model and the input to identify it with.
-#[derive(Debug, Clone, Copy)]
-pub struct Subject<'a> {
-    /// Its free parameters are identified.
-    pub model: &'a Model,
-    /// The torque.
-    pub input: &'a Input,
-    /// The measurement.
-    pub tightening: &'a Tightening,
-}
 
 /// Identifies the free parameters of `model` from one tightening.
 ///
@@ -106,23 +66,23 @@ pub fn identify_all(
         .zip(&whitenings)
         .map(|(subject, whitening)| Attempt::new(subject, whitening.as_ref(), settings))
         .collect();
-    let roughs: Vec<Option<RoughRecord>> = (attempts.iter().zip(subjects))
-        .map(|(attempt, subject)| attempt.as_ref().ok()?.rough(subject, quantity))
+    let decimated_records: Vec<Option<DecimatedRecord>> = (attempts.iter().zip(subjects))
+        .map(|(attempt, subject)| attempt.as_ref().ok()?.decimated(subject, quantity))
         .collect();
     let mut in_sweeps: Vec<BaseFit<'_, '_>> = (attempts.iter_mut().flatten())
         .filter_map(Attempt::in_sweeps)
         .collect();
     fit::fit_all(&mut in_sweeps, quantity, &settings.solver);
     drop(in_sweeps);
-    let mut settled: Vec<Settled<'_, '_>> = (attempts.iter_mut().zip(subjects))
-        .filter_map(|(attempt, subject)| attempt.as_mut().ok()?.settled(subject))
+    let mut fitted_in_sweeps: Vec<FittedInSweeps<'_, '_>> = (attempts.iter_mut().zip(subjects))
+        .filter_map(|(attempt, subject)| attempt.as_mut().ok()?.fitted_in_sweeps(subject))
         .collect();
-    noise::ask_all(&mut settled, quantity);
-    drop(settled);
-    let simulator = Simulator::default();
-    let estimates = (attempts.into_iter().zip(subjects).zip(&roughs)).map(
-        |((attempt, subject), rough)| async {
-            (attempt?.estimate(subject, rough.as_ref(), settings, &simulator)).await
+    noise::ask_all(&mut fitted_in_sweeps, quantity);
+    drop(fitted_in_sweeps);
+    let simulator = BatchSimulator::default();
+    let estimates = (attempts.into_iter().zip(subjects).zip(&decimated_records)).map(
+        |((attempt, subject), decimated)| async {
+            (attempt?.estimate(subject, decimated.as_ref(), settings, &simulator)).await
         },
     );
     simulator.finish(estimates)
@@ -162,7 +122,7 @@ impl<'a> Attempt<'a> {
         );
         residual.check_length()?;
         let usual = starts(subject.model);
-        let is_rugged = usual.len() > 1 || residual.lets_go();
+        let is_rugged = usual.len() > 1 || residual.has_unilateral_contact();
         let near = integral_start(subject).filter(|_| is_rugged || residual.is_base());
         Ok(Self {
             residual,
@@ -192,13 +152,16 @@ impl<'a> Attempt<'a> {
     }
 
     /// As sweeps ask about its noise: if the last one of the fit was made at the estimate.
-    fn settled<'r>(&'r mut self, subject: &'r Subject<'a>) -> Option<Settled<'r, 'a>> {
+    fn fitted_in_sweeps<'r>(
+        &'r mut self,
+        subject: &'r Subject<'a>,
+    ) -> Option<FittedInSweeps<'r, 'a>> {
         let Some(Ok(fit)) = &self.outcome else {
             return None;
         };
         let (values, found) = self.latest?;
         let is_here = self.residual.all_values(&fit.values).starts_with(&values);
-        is_here.then_some(Settled {
+        is_here.then_some(FittedInSweeps {
             residual: &mut self.residual,
             subject,
             fit,
@@ -208,25 +171,25 @@ impl<'a> Attempt<'a> {
     }
 
     /// On what several starts are tried.
-    fn rough(&self, subject: &Subject<'a>, quantity: Quantity) -> Option<RoughRecord> {
+    fn decimated(&self, subject: &Subject<'a>, quantity: Quantity) -> Option<DecimatedRecord> {
         let is_one = self.starts.len() == 1;
-        (!is_one).then(|| RoughRecord::of(subject, quantity))?
+        (!is_one).then(|| DecimatedRecord::of(subject, quantity))?
     }
 
     /// As it is fitted by itself.
-    fn valleys<'s>(
+    fn multistart_search<'s>(
         &'s self,
         subject: &'s Subject<'a>,
-        rough: Option<&'a RoughRecord>,
+        decimated: Option<&'a DecimatedRecord>,
         settings: &'s IdentifySettings,
-        simulator: &'s Simulator<'a>,
-    ) -> Valleys<'s, 'a> {
-        Valleys {
+        simulator: &'s BatchSimulator<'a>,
+    ) -> MultistartSearch<'s, 'a> {
+        MultistartSearch {
             residual: &self.residual,
             set: &self.set,
             starts: &self.starts,
             distinct_starts: self.distinct_starts,
-            rough,
+            decimated,
             subject,
             settings,
             simulator,
@@ -237,15 +200,16 @@ impl<'a> Attempt<'a> {
     async fn estimate(
         mut self,
         subject: &Subject<'a>,
-        rough: Option<&'a RoughRecord>,
+        decimated: Option<&'a DecimatedRecord>,
         settings: &IdentifySettings,
-        simulator: &Simulator<'a>,
+        simulator: &BatchSimulator<'a>,
     ) -> Result<Estimate, IdentifyError> {
         let fit = match self.outcome.take() {
             Some(outcome) => outcome?,
             None => {
-                let valleys = self.valleys(subject, rough, settings, simulator);
-                valleys.lowest().await?
+                let multistart_search =
+                    self.multistart_search(subject, decimated, settings, simulator);
+                multistart_search.lowest().await?
             }
         };
         let noise = match self.noise {

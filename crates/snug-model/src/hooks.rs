@@ -69,7 +69,7 @@ impl Answers {
 impl Effect {
     /// Whether it lets the grip come and go, as play does: the hand's spring and damper act only on what is left of the
     /// deflection, and the acceleration jumps where contact begins and ends.
-    pub fn lets_go(self) -> bool {
+    pub fn has_unilateral_contact(self) -> bool {
         Answers::of(self).to(Hook::Deflection)
     }
 }

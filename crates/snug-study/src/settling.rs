@@ -4,7 +4,7 @@
 use crate::Study;
 use snug_campaign::Quantity;
 use snug_diagnose::Case;
-use snug_identify::{IdentifySettings, Simulation, identify, motions, widest_reach};
+use snug_identify::{IdentifySettings, Simulation, identify, motions, widest_half_width};
 use snug_model::Scale;
 use snug_preprocess::Window;
 
@@ -92,7 +92,12 @@ impl Sizes {
         for case in cases {
             let measured = displacement(case);
             let apart = (measured.len() / PLACES).max(1);
-            let places = motions(measured, interval_s(case), apart, widest_reach(measured));
+            let places = motions(
+                measured,
+                interval_s(case),
+                apart,
+                widest_half_width(measured),
+            );
             let n = places.len() as f64;
             let mean = places.iter().map(|[angle, _]| angle).sum::<f64>() / n;
             angle += places

@@ -1,16 +1,16 @@
 //! The noise in base-model fits, asked about for as many tightenings side by side as vector registers hold.
 
-use crate::identify::Subject;
 use crate::noise::integrated::{IntegratedNoise, drift, to_source};
-use crate::noise::score_covariance::{Evidence, Inquiry, OwnedNoise, STRETCHES, Source};
+use crate::noise::score_covariance::{OwnedNoise, STRETCHES, ScoreCovariance, ScoreSums, Source};
 use crate::residual::tightening::TighteningResidual;
+use crate::subject::Subject;
 use snug_campaign::Quantity;
 use snug_least_squares::matrix::{entries_at, submatrix_at};
 use snug_least_squares::{Fit, Residual};
 use snug_model::{LaneTask, NormalEquations, Real, ScoredRecord, Sweep, Task, in_lanes};
 
 /// A base-model fit whose noise is asked about.
-pub(crate) struct Settled<'r, 'a> {
+pub(crate) struct FittedInSweeps<'r, 'a> {
     pub residual: &'r mut TighteningResidual<'a>,
     pub subject: &'r Subject<'a>,
     pub fit: &'r Fit,
@@ -20,12 +20,12 @@ pub(crate) struct Settled<'r, 'a> {
 }
 
 /// Answers for all of them.
-pub(crate) fn ask_all(fits: &mut [Settled<'_, '_>], quantity: Quantity) {
-    let values: Vec<[f64; 3]> = fits.iter_mut().map(Settled::values).collect();
-    let inquiries: Vec<Inquiry> = (fits.iter())
-        .map(|fit| Inquiry::new(fit.residual, fit.subject, fit.fit))
+pub(crate) fn ask_all(fits: &mut [FittedInSweeps<'_, '_>], quantity: Quantity) {
+    let values: Vec<[f64; 3]> = fits.iter_mut().map(FittedInSweeps::values).collect();
+    let inquiries: Vec<ScoreCovariance> = (fits.iter())
+        .map(|fit| ScoreCovariance::new(fit.residual, fit.subject, fit.fit))
         .collect();
-    let mut evidence: Vec<Evidence> = fits.iter().map(Settled::at_hand).collect();
+    let mut score_sums: Vec<ScoreSums> = fits.iter().map(FittedInSweeps::at_hand).collect();
     for search in [LevenbergMarquardt::Scores, LevenbergMarquardt::Source] {
         let places: Vec<usize> = (0..fits.len())
             .filter(|&place| search.is_asked_by(&inquiries[place]))
@@ -35,20 +35,20 @@ pub(crate) fn ask_all(fits: &mut [Settled<'_, '_>], quantity: Quantity) {
                 residual: fits[place].residual,
                 acceleration: fits[place].acceleration(),
                 values: values[place],
-                inquiry: &inquiries[place],
+                score_covariance: &inquiries[place],
             })
             .collect();
         for (place, answer) in places.iter().zip(sweep_all(&swept, quantity, search)) {
             let free = fits[*place].residual.free();
-            answer.add_to(&mut evidence[*place], free);
+            answer.add_to(&mut score_sums[*place], free);
         }
     }
-    for ((fit, inquiry), evidence) in fits.iter_mut().zip(&inquiries).zip(&evidence) {
-        *fit.noise = Some(inquiry.conclude(evidence));
+    for ((fit, score_covariance), score_sums) in fits.iter_mut().zip(&inquiries).zip(&score_sums) {
+        *fit.noise = Some(score_covariance.conclude(score_sums));
     }
 }
 
-impl<'a> Settled<'_, 'a> {
+impl<'a> FittedInSweeps<'_, 'a> {
     /// m, c, k of the fit.
     fn values(&mut self) -> [f64; 3] {
         let all = self.residual.all_values(&self.fit.values);
@@ -61,12 +61,12 @@ impl<'a> Settled<'_, 'a> {
     }
 
     /// What the last sweep of the fit tells already.
-    fn at_hand(&self) -> Evidence {
+    fn at_hand(&self) -> ScoreSums {
         let free = self.residual.free();
-        Evidence {
+        ScoreSums {
             matrix: submatrix_at(&self.found.matrix, free),
             sums: entries_at(&self.found.sums, free),
-            ..Evidence::default()
+            ..ScoreSums::default()
         }
     }
 }
@@ -79,10 +79,10 @@ enum LevenbergMarquardt {
 }
 
 impl LevenbergMarquardt {
-    fn is_asked_by(self, inquiry: &Inquiry) -> bool {
+    fn is_asked_by(self, score_covariance: &ScoreCovariance) -> bool {
         match self {
-            Self::Scores => inquiry.asks_scores(),
-            Self::Source => inquiry.integrated().is_some(),
+            Self::Scores => score_covariance.asks_scores(),
+            Self::Source => score_covariance.integrated().is_some(),
         }
     }
 }
@@ -99,18 +99,18 @@ enum Answer {
 }
 
 impl Answer {
-    fn add_to(&self, evidence: &mut Evidence, free: &[usize]) {
+    fn add_to(&self, score_sums: &mut ScoreSums, free: &[usize]) {
         match self {
             Self::Scores(scores) => {
                 let scores = scores.iter().flat_map(|score| entries_at(score, free));
-                evidence.scores = scores.collect();
+                score_sums.scores = scores.collect();
             }
             Self::Source {
                 products,
                 drift,
                 mean_square,
             } => {
-                evidence.source = Source {
+                score_sums.source = Source {
                     products: submatrix_at(products, free),
                     drift: entries_at(drift, free),
                     mean_square: *mean_square,
@@ -125,13 +125,13 @@ struct Swept<'i, 'a> {
     residual: &'i TighteningResidual<'a>,
     acceleration: Option<&'a [f64]>,
     values: [f64; 3],
-    inquiry: &'i Inquiry,
+    score_covariance: &'i ScoreCovariance,
 }
 
 impl<'a> Swept<'_, 'a> {
     /// Sweeps of one kind of input take the same steps; integrals are as many in every lane.
     fn kind(&self) -> (usize, i32) {
-        let noise = self.inquiry.integrated();
+        let noise = self.score_covariance.integrated();
         let integrations = noise.map_or(0, |noise| noise.integrations);
         (self.residual.substeps(), integrations)
     }
@@ -139,7 +139,7 @@ impl<'a> Swept<'_, 'a> {
     /// How long work on it lasts: as long as the noise's colour is deep, and as the record.
     fn size(&self) -> (usize, usize) {
         let order = |noise: &IntegratedNoise| noise.whitening.order();
-        let colour = self.inquiry.integrated().map_or(0, order);
+        let colour = self.score_covariance.integrated().map_or(0, order);
         (colour, self.residual.residual_count())
     }
 
@@ -219,7 +219,7 @@ fn at_source<R: Real>(
     group: &[&Swept<'_, '_>],
 ) -> Vec<Answer> {
     let noises: Vec<_> = (group.iter())
-        .filter_map(|one| one.inquiry.integrated())
+        .filter_map(|one| one.score_covariance.integrated())
         .collect();
     for (lane, one) in group.iter().enumerate() {
         let unscored = one.residual.samples() - one.residual.residual_count();

@@ -225,7 +225,7 @@ fn settings() -> Vec<IdentifySettings> {
 /// Fits that end so close to the optimum that two ways there can be compared.
 fn to_the_end() -> IdentifySettings {
     IdentifySettings {
-        solver: Settings::default(),
+        solver: snug_least_squares::Settings::default(),
         ..IdentifySettings::default()
     }
 }
@@ -241,13 +241,13 @@ fn on_the_general_road(
     if !from_the_same_start {
         attempt.starts = vec![attempt.usual_start.clone()];
     }
-    let simulator = Simulator::default();
+    let simulator = BatchSimulator::default();
     let estimate = attempt.estimate(subject, None, settings, &simulator);
     alone(&simulator, estimate).unwrap()
 }
 
 /// What comes of a fit that has no company.
-fn alone<T>(simulator: &Simulator<'_>, fit: impl Future<Output = T>) -> T {
+fn alone<T>(simulator: &BatchSimulator<'_>, fit: impl Future<Output = T>) -> T {
     simulator.finish([fit]).pop().unwrap()
 }
 

@@ -3,11 +3,12 @@
 //! Which valley a start leads to shows on a record of a few hundred samples as well as on the whole one, for a fraction of
 //! the work. Only the ends of the best rough fits are worth a fit of every sample.
 
-use crate::batch::Simulator;
-use crate::identify::{IdentifySettings, Subject};
-use crate::multistart::early_stopping::{Rules, race};
-use crate::multistart::multiple_shooting::along_motion;
+use crate::batch::BatchSimulator;
+use crate::multistart::early_stopping::{EarlyStopping, fit_starts};
+use crate::residual::restarts::motions_at;
 use crate::residual::tightening::TighteningResidual;
+use crate::settings::IdentifySettings;
+use crate::subject::Subject;
 use snug_campaign::{Intersample, Quantity};
 use snug_least_squares::{Constraints, Fit, Settings, SolveError, Work};
 use snug_model::{Input, Model};
@@ -21,12 +22,12 @@ const ROUGH_TOLERANCE: f64 = 1e-2;
 /// Most steps of any fit that need not go far: what takes longer crawls.
 const MOST_STEPS: usize = 20;
 /// Ends are worth a fit of every sample up to this multiple of the lowest rough cost, and at most so many.
-pub(crate) const WORTH: f64 = 1.2;
+pub(crate) const COST_RATIO_LIMIT: f64 = 1.2;
 const MOST_ENDS: usize = 2;
 /// Of the race between rough fits.
-const RULES: Rules = Rules {
-    heat: 12,
-    worth: WORTH,
+const RULES: EarlyStopping = EarlyStopping {
+    warm_up_steps: 12,
+    cost_ratio_limit: COST_RATIO_LIMIT,
 };
 /// Rough costs that agree to this share are those of one valley.
 const SAME_VALLEY: f64 = 1e-3;
@@ -40,18 +41,18 @@ pub(crate) struct Tried {
 }
 
 /// A tightening with every few samples replaced by their mean.
-pub(crate) struct RoughRecord {
+pub(crate) struct DecimatedRecord {
     /// Samples that became one.
     factor: usize,
     /// The torque.
     input: Input,
     /// The same with restarts from the measured motion, where that is known and restarts do not hide what is fitted: they do
     /// anything but the acceleration.
-    pub guided: Option<Input>,
+    pub restarted: Option<Input>,
     measured: Vec<f64>,
 }
 
-impl RoughRecord {
+impl DecimatedRecord {
     /// Of the tightening's torque and `quantity`; `None` where the record is too short for one, or the simulation is restarted
     /// from the measured motion.
     pub fn of(subject: &Subject<'_>, quantity: Quantity) -> Option<Self> {
@@ -66,7 +67,7 @@ impl RoughRecord {
             (input.grid_nm().iter().step_by(input.substeps()).copied()).collect();
         // Means stand for the middle of what they are taken over.
         let late_s = 0.5 * (factor - 1) as f64 * interval_s;
-        let rough = Input::new(
+        let decimated = Input::new(
             &means(&torque_nm, factor),
             interval_s * factor as f64,
             Intersample::Linear,
@@ -75,16 +76,22 @@ impl RoughRecord {
         .with_rest_before(input.rest_before_s() + late_s)
         .with_zero_at(input.zero_at().map(|sample| sample / factor));
         let means_of = |quantity| Some(means(subject.tightening.motion.get(quantity)?, factor));
-        let guided = || {
+        let restarted = || {
             let angle_rad = means_of(Quantity::Displacement)?;
             let velocity_rad_per_s = means_of(Quantity::Velocity)?;
-            Some(along_motion(rough.clone(), &angle_rad, &velocity_rad_per_s))
+            Some(along_motion(
+                decimated.clone(),
+                &angle_rad,
+                &velocity_rad_per_s,
+            ))
         };
-        let guided = (quantity == Quantity::Acceleration).then(guided).flatten();
+        let restarted = (quantity == Quantity::Acceleration)
+            .then(restarted)
+            .flatten();
         Some(Self {
             factor,
-            input: rough,
-            guided,
+            input: decimated,
+            restarted,
             measured: means(measured, factor),
         })
     }
@@ -108,18 +115,26 @@ impl RoughRecord {
         subject: &Subject<'a>,
         set: &Constraints,
         settings: &IdentifySettings,
-        simulator: &Simulator<'a>,
+        simulator: &BatchSimulator<'a>,
     ) -> Result<Option<Tried>, SolveError> {
         let residual = self.residual(subject.model, &self.input, settings);
-        let solver = rough_solver(settings, ROUGH_TOLERANCE);
-        let (ends, work) = race(&residual, starts, set, &solver, RULES, simulator).await?;
+        let solver = coarse_solver(settings, ROUGH_TOLERANCE);
+        let (ends, work) = fit_starts(&residual, starts, set, &solver, RULES, simulator).await?;
         let starts = apart(ends, MOST_ENDS);
         Ok((!starts.is_empty()).then_some(Tried { starts, work }))
     }
 }
 
+/// Rough samples from one restart to the next, some 3 ms: enough for a law to show in the velocity.
+const APART: usize = 4;
+
+/// A rough record's torque with restarts from the measured motion.
+fn along_motion(input: Input, angle_rad: &[f64], velocity_rad_per_s: &[f64]) -> Input {
+    input.with_restarts(APART, motions_at(angle_rad, velocity_rad_per_s, APART))
+}
+
 /// Settings of a fit that need not go far.
-pub(crate) fn rough_solver(settings: &IdentifySettings, tolerance: f64) -> Settings {
+pub(crate) fn coarse_solver(settings: &IdentifySettings, tolerance: f64) -> Settings {
     Settings {
         gradient_tolerance: tolerance.max(settings.solver.gradient_tolerance),
         max_iterations: MOST_STEPS.min(settings.solver.max_iterations),
@@ -132,7 +147,9 @@ pub(crate) fn apart(mut ends: Vec<Fit>, most: usize) -> Vec<Vec<f64>> {
     ends.retain(|end| end.cost.is_finite());
     ends.dedup_by(|next, kept| (next.cost / kept.cost - 1.0).abs() < SAME_VALLEY);
     let lowest = ends.first().map_or(f64::NAN, |end| end.cost);
-    let worthy = ends.into_iter().filter(|end| end.cost <= WORTH * lowest);
+    let worthy = ends
+        .into_iter()
+        .filter(|end| end.cost <= COST_RATIO_LIMIT * lowest);
     worthy.map(|end| end.values).take(most).collect()
 }
 

@@ -1,43 +1,43 @@
-//! Fits of one tightening from several starts that race.
+//! Fits of one tightening from several starts, of which those without a prospect are stopped early.
 //!
-//! Most starts lead to the same few valleys, and one that is behind after some steps mostly crawls along a valley whose
+//! Most starts lead to the same few minima, and one that is behind after some steps mostly crawls along a valley whose
 //! bottom another has found already: it need not be followed to the end.
 
-use crate::batch::{Request, Simulator};
+use crate::batch::{BatchSimulator, SimulationRequest};
 use crate::residual::tightening::TighteningResidual;
 use snug_least_squares::{
     Constraints, DenseResidual, Fit, LevenbergMarquardt, Query, Residual, Settings, SolveError,
     Work, answer, further_along,
 };
 
-/// How long everyone runs, and who is left behind then.
+/// How long every start is followed, and which are stopped then.
 #[derive(Clone, Copy)]
-pub(crate) struct Rules {
-    /// Steps that every start makes, unless it has no hope before.
-    pub heat: usize,
+pub(crate) struct EarlyStopping {
+    /// Steps that every start makes, unless it has no prospect before.
+    pub warm_up_steps: usize,
     /// How far above the lowest end a search may lie to be followed further: a multiple of that end's cost.
-    pub worth: f64,
+    pub cost_ratio_limit: f64,
 }
 
-/// Every start that has hope makes the heat's steps, then the lowest goes on to its end, and of the others those that are not
-/// left behind by then. The ends that were reached, lowest first, and the work of all starts together.
+/// Every start makes the steps of the warm-up, as long as it has a prospect; then the lowest goes on to its end, and of the
+/// others those that are not stopped by then. The ends that were reached, lowest first, and the work of all starts together.
 ///
 /// # Errors
 /// As [`crate::solve`].
-pub(crate) async fn race<'a>(
+pub(crate) async fn fit_starts<'a>(
     residual: &TighteningResidual<'a>,
     starts: &[Vec<f64>],
     constraints: &Constraints,
     settings: &Settings,
-    rules: Rules,
-    simulator: &Simulator<'a>,
+    rules: EarlyStopping,
+    simulator: &BatchSimulator<'a>,
 ) -> Result<(Vec<Fit>, Work), SolveError> {
     let (n, m) = (residual.parameter_count(), residual.residual_count());
     // Over a contact's edges a second derivative says nothing of what comes next.
-    let is_bent = !residual.lets_go();
-    let entrant = |start: &Vec<f64>| {
+    let is_bent = !residual.has_unilateral_contact();
+    let start_fit = |start: &Vec<f64>| {
         let search = LevenbergMarquardt::new(n, start, constraints, settings)?.to_chance();
-        Ok(Entrant {
+        Ok(StartFit {
             search: if is_bent {
                 search
             } else {
@@ -46,26 +46,30 @@ pub(crate) async fn race<'a>(
             problem: DenseResidual::new(residual.clone()),
         })
     };
-    let mut entrants: Vec<Entrant<'_, 'a>> =
-        starts.iter().map(entrant).collect::<Result<_, _>>()?;
-    run_heat(&mut entrants, rules, simulator).await;
-    entrants.sort_by(|one, other| one.rank().total_cmp(&other.rank()));
-    for index in 0..entrants.len() {
-        let (before, rest) = entrants.split_at_mut(index);
-        let known = || before.iter().filter(|entrant| entrant.search.has_ended());
-        let is_behind = |search: &LevenbergMarquardt<'_>| {
-            known().any(|end| search.cost() > rules.worth * end.search.cost())
+    let mut start_fits: Vec<StartFit<'_, 'a>> =
+        starts.iter().map(start_fit).collect::<Result<_, _>>()?;
+    warm_up(&mut start_fits, rules, simulator).await;
+    start_fits.sort_by(|one, other| one.rank().total_cmp(&other.rank()));
+    for index in 0..start_fits.len() {
+        let (before, rest) = start_fits.split_at_mut(index);
+        let known = || {
+            before
+                .iter()
+                .filter(|start_fit| start_fit.search.has_ended())
         };
-        let entrant = &mut rest[0];
-        if !entrant.search.has_ended() && is_behind(&entrant.search) {
+        let is_behind = |search: &LevenbergMarquardt<'_>| {
+            known().any(|end| search.cost() > rules.cost_ratio_limit * end.search.cost())
+        };
+        let start_fit = &mut rest[0];
+        if !start_fit.search.has_ended() && is_behind(&start_fit.search) {
             continue;
         }
-        while !entrant.search.has_ended() && !known().any(|end| end.foretells(entrant)) {
-            take_turn(&mut [&mut *entrant], simulator).await;
+        while !start_fit.search.has_ended() && !known().any(|end| end.predicts_cost_of(start_fit)) {
+            take_turn(&mut [&mut *start_fit], simulator).await;
         }
     }
     let (mut ends, mut work): (Vec<Fit>, Work) = Default::default();
-    for Entrant { search, .. } in entrants {
+    for StartFit { search, .. } in start_fits {
         work.add(search.work());
         if search.has_ended() {
             ends.push(search.finish(m));
@@ -81,28 +85,32 @@ const ALIKE: f64 = 0.1;
 const RESOLUTION: f64 = 1e-6;
 
 /// One search and the problem that answers it.
-struct Entrant<'s, 'a> {
+struct StartFit<'s, 'a> {
     search: LevenbergMarquardt<'s>,
     problem: DenseResidual<TighteningResidual<'a>>,
 }
 
-/// Multiple of what its derivatives promise that a search may hope for: down the side of a narrow valley, as contacts make,
+/// Multiple of the decrease that its derivatives predict which a fit may still come to: down the side of a narrow valley, as contacts make,
 /// the cost falls up to three times faster than they say.
-const HOPE: f64 = 4.0;
+const OVERACHIEVEMENT: f64 = 4.0;
 
-/// Lets all make the heat's steps, in turns. Those who cannot hope to come as low as is worth it beside the lowest end so far
-/// wait, and are left behind.
-async fn run_heat<'a>(entrants: &mut [Entrant<'_, 'a>], rules: Rules, simulator: &Simulator<'a>) {
+/// Lets all make the steps of the warm-up, in turns. Those that cannot come as low as the limit beside the lowest end so far
+/// wait, and are stopped.
+async fn warm_up<'a>(
+    start_fits: &mut [StartFit<'_, 'a>],
+    rules: EarlyStopping,
+    simulator: &BatchSimulator<'a>,
+) {
     loop {
         let (ended, others): (Vec<_>, Vec<_>) =
-            (entrants.iter_mut()).partition(|entrant| entrant.search.has_ended());
+            (start_fits.iter_mut()).partition(|start_fit| start_fit.search.has_ended());
         let lowest = (ended.iter().map(|end| end.search.cost())).fold(f64::INFINITY, f64::min);
-        let is_running = |entrant: &&mut Entrant<'_, 'a>| {
-            let search = &entrant.search;
-            let hoped_for = search.cost() - HOPE * search.predicted_decrease();
-            let may_run =
-                search.work().iterations <= rules.heat && hoped_for <= rules.worth * lowest;
-            may_run && !ended.iter().any(|end| end.foretells(entrant))
+        let is_running = |start_fit: &&mut StartFit<'_, 'a>| {
+            let search = &start_fit.search;
+            let hoped_for = search.cost() - OVERACHIEVEMENT * search.predicted_decrease();
+            let may_run = search.work().iterations <= rules.warm_up_steps
+                && hoped_for <= rules.cost_ratio_limit * lowest;
+            may_run && !ended.iter().any(|end| end.predicts_cost_of(start_fit))
         };
         let mut running: Vec<_> = others.into_iter().filter(is_running).collect();
         if running.is_empty() {
@@ -113,18 +121,23 @@ async fn run_heat<'a>(entrants: &mut [Entrant<'_, 'a>], rules: Rules, simulator:
 }
 
 /// Each gets the answer to what it asks, and goes on to the next question; none may have ended.
-async fn take_turn<'a>(running: &mut [&mut Entrant<'_, 'a>], simulator: &Simulator<'a>) {
-    let requests = running.iter_mut().filter_map(|entrant| entrant.request());
+async fn take_turn<'a>(running: &mut [&mut StartFit<'_, 'a>], simulator: &BatchSimulator<'a>) {
+    let requests = running
+        .iter_mut()
+        .filter_map(|start_fit| start_fit.request());
     let simulated = simulator.simulate(requests.collect()).await;
-    for (entrant, simulated) in running.iter_mut().zip(simulated) {
-        entrant.problem.residual_function_mut().foresee(simulated);
-        answer(&mut entrant.search, &mut entrant.problem);
+    for (start_fit, simulated) in running.iter_mut().zip(simulated) {
+        start_fit
+            .problem
+            .residual_function_mut()
+            .prefetch(simulated);
+        answer(&mut start_fit.search, &mut start_fit.problem);
     }
 }
 
-impl<'a> Entrant<'_, 'a> {
+impl<'a> StartFit<'_, 'a> {
     /// The simulation that answers what the search asks for next.
-    fn request(&mut self) -> Option<Request<'a>> {
+    fn request(&mut self) -> Option<SimulationRequest<'a>> {
         let (values, with_slopes) = match self.search.query() {
             Query::Linearization { at, .. } => (at.to_vec(), true),
             Query::Cost { at } => (at.to_vec(), false),
@@ -136,10 +149,10 @@ impl<'a> Entrant<'_, 'a> {
     }
 
     /// Whether `other` has come to where this one's end, by its derivatives, foretells its cost: what it would find is known.
-    fn foretells(&self, other: &Self) -> bool {
+    fn predicts_cost_of(&self, other: &Self) -> bool {
         let (here, there) = (self.search.cost(), other.search.cost());
-        let foretold = self.search.predicted_cost(other.search.values());
-        (there - foretold).abs() <= ALIKE * (foretold - here) + RESOLUTION * here
+        let predicted = self.search.predicted_cost(other.search.values());
+        (there - predicted).abs() <= ALIKE * (predicted - here) + RESOLUTION * here
     }
 
     /// Who has ended goes first, so that the others know whom they have to beat.

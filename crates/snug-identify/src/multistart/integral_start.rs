@@ -9,7 +9,7 @@
 //! One regression over the samples is off by a per cent or so, because the noise is in θ on the left as well. A fit from
 //! there takes about half the sweeps of one from anywhere.
 
-use crate::identify::Subject;
+use crate::subject::Subject;
 use snug_campaign::{Parameter, ParameterSource, Quantity};
 use snug_least_squares::Linearization;
 use snug_least_squares::matrix::{entries_at, submatrix_at};

@@ -1,12 +1,15 @@
 //! One tightening's fit where its cost has valley beside valley: an effect with several starts, or one that lets go.
 
-use crate::batch::Simulator;
-use crate::identify::{IdentifySettings, Subject};
-use crate::multistart::decimated::{RoughRecord, Tried, WORTH, apart, rough_solver};
-use crate::multistart::early_stopping::{Rules, race};
-use crate::multistart::multiple_shooting::try_guided;
-use crate::multistart::smoothing::REACHES;
+use crate::batch::BatchSimulator;
+use crate::multistart::decimated::{
+    COST_RATIO_LIMIT, DecimatedRecord, Tried, apart, coarse_solver,
+};
+use crate::multistart::early_stopping::{EarlyStopping, fit_starts};
+use crate::multistart::multiple_shooting::try_multiple_shooting;
+use crate::multistart::smoothing::HALF_WIDTHS;
 use crate::residual::tightening::TighteningResidual;
+use crate::settings::IdentifySettings;
+use crate::subject::Subject;
 use snug_least_squares::{
     Constraints, Fit, ResidualNoise, Settings, SolveError, Status, Work, best,
 };
@@ -14,17 +17,17 @@ use snug_model::BASE_PARAMETERS;
 use std::iter::once;
 
 /// Of the race between fits of every sample.
-const RULES: Rules = Rules {
-    heat: 12,
-    worth: 1.0,
+const RULES: EarlyStopping = EarlyStopping {
+    warm_up_steps: 12,
+    cost_ratio_limit: 1.0,
 };
 
 /// Samples to either side over which the residual is averaged on the way to where it is not: less than a millisecond.
 const NEAR: usize = 8;
 /// Of the race between averaged fits: the same valley may be lower by as much when it is seen as it is.
-const NEAR_RULES: Rules = Rules {
-    heat: 12,
-    worth: WORTH,
+const NEAR_RULES: EarlyStopping = EarlyStopping {
+    warm_up_steps: 12,
+    cost_ratio_limit: COST_RATIO_LIMIT,
 };
 
 /// Mean square of a whitened residual beyond which a fit may have ended in the wrong valley.
@@ -38,7 +41,7 @@ const SURE: f64 = 8.0;
 const NEARER_TOLERANCE: f64 = 1e-2;
 
 /// What is searched, and from where.
-pub(crate) struct Valleys<'s, 'a> {
+pub(crate) struct MultistartSearch<'s, 'a> {
     pub residual: &'s TighteningResidual<'a>,
     pub set: &'s Constraints,
     /// In the order of preference.
@@ -46,13 +49,13 @@ pub(crate) struct Valleys<'s, 'a> {
     /// The first so many differ in the effects' parameters; what follows are the same again with other m, c, k.
     pub distinct_starts: usize,
     /// On which starts are tried, where there is one.
-    pub rough: Option<&'a RoughRecord>,
+    pub decimated: Option<&'a DecimatedRecord>,
     pub subject: &'s Subject<'a>,
     pub settings: &'s IdentifySettings,
-    pub simulator: &'s Simulator<'a>,
+    pub simulator: &'s BatchSimulator<'a>,
 }
 
-impl<'a> Valleys<'_, 'a> {
+impl<'a> MultistartSearch<'_, 'a> {
     /// The lowest end that was found. Where an effect lets go of the hand's spring, many optima lie close together: what
     /// leaves more than noise is begun again from where it ended, and from where it began, seen from ever nearer.
     pub async fn lowest(&self) -> Result<Fit, SolveError> {
@@ -75,16 +78,16 @@ impl<'a> Valleys<'_, 'a> {
 
     /// Whether spikes in the residual hide the way: the measured acceleration jumps where an effect lets go.
     fn is_rugged(&self) -> bool {
-        self.residual.is_whitened() && self.residual.lets_go()
+        self.residual.is_whitened() && self.residual.has_unilateral_contact()
     }
 
     /// Where the residual leads to that is averaged over ever fewer samples.
     async fn ever_nearer(&self, start: &[f64], work: &mut Work) -> Result<Fit, SolveError> {
-        let rough = rough_solver(self.settings, NEARER_TOLERANCE);
+        let decimated = coarse_solver(self.settings, NEARER_TOLERANCE);
         let mut values = start.to_vec();
-        for reach in REACHES {
-            let averaged = self.residual.averaged(reach);
-            let end = self.followed(&averaged, values, &rough, work).await?;
+        for half_width in HALF_WIDTHS {
+            let smoothed = self.residual.smoothed(half_width);
+            let end = self.followed(&smoothed, values, &decimated, work).await?;
             values = end.values;
         }
         self.followed(self.residual, values, &self.settings.solver, work)
@@ -100,7 +103,7 @@ impl<'a> Valleys<'_, 'a> {
         work: &mut Work,
     ) -> Result<Fit, SolveError> {
         let (ends, more) =
-            race(residual, &[start], self.set, solver, RULES, self.simulator).await?;
+            fit_starts(residual, &[start], self.set, solver, RULES, self.simulator).await?;
         work.add(&more);
         best(ends, more)
     }
@@ -111,21 +114,21 @@ impl<'a> Valleys<'_, 'a> {
     async fn searched(&self) -> Result<Fit, SolveError> {
         let (mut ends, mut work): (Vec<Fit>, Work) = Default::default();
         let mut follow = async |starts: &[Vec<f64>], before: &Work| {
-            let (more, on_all) = self.raced(starts).await?;
+            let (more, on_all) = self.fitted_from_starts(starts).await?;
             ends.extend(more);
             work.add(before);
             work.add(&on_all);
             best(ends.clone(), work)
         };
-        if let Some(rough) = self.rough {
-            if let Some(guided) = self.guided(rough).await? {
-                let fit = follow(&guided.starts, &guided.work).await?;
+        if let Some(decimated) = self.decimated {
+            if let Some(restarted) = self.restarted(decimated).await? {
+                let fit = follow(&restarted.starts, &restarted.work).await?;
                 if self.is_beyond_doubt(&fit) {
                     return Ok(fit);
                 }
             }
             let (subject, set, settings) = (self.subject, self.set, self.settings);
-            let tried = rough.try_from(self.starts, subject, set, settings, self.simulator);
+            let tried = decimated.try_from(self.starts, subject, set, settings, self.simulator);
             if let Some(tried) = tried.await? {
                 let fit = follow(&tried.starts, &tried.work).await?;
                 if fit.status.is_converged() && !self.is_far_off(&fit) {
@@ -137,31 +140,38 @@ impl<'a> Valleys<'_, 'a> {
     }
 
     /// The ends that these starts lead to; where spikes hide the way, by way of where the averaged residual leads.
-    pub async fn raced(&self, starts: &[Vec<f64>]) -> Result<(Vec<Fit>, Work), SolveError> {
+    pub async fn fitted_from_starts(
+        &self,
+        starts: &[Vec<f64>],
+    ) -> Result<(Vec<Fit>, Work), SolveError> {
         let (set, simulator, solver) = (self.set, self.simulator, &self.settings.solver);
         if !self.is_rugged() {
-            return race(self.residual, starts, set, solver, RULES, simulator).await;
+            return fit_starts(self.residual, starts, set, solver, RULES, simulator).await;
         }
-        let averaged = self.residual.averaged(NEAR);
-        let rough = rough_solver(self.settings, NEARER_TOLERANCE);
-        let (ends, before) = race(&averaged, starts, set, &rough, NEAR_RULES, simulator).await?;
+        let smoothed = self.residual.smoothed(NEAR);
+        let decimated = coarse_solver(self.settings, NEARER_TOLERANCE);
+        let (ends, before) =
+            fit_starts(&smoothed, starts, set, &decimated, NEAR_RULES, simulator).await?;
         let led = apart(ends, starts.len());
         let starts = if led.is_empty() { starts } else { &led };
-        let raced = race(self.residual, starts, set, solver, RULES, simulator);
-        let (ends, mut work) = raced.await?;
+        let fitted_from_starts = fit_starts(self.residual, starts, set, solver, RULES, simulator);
+        let (ends, mut work) = fitted_from_starts.await?;
         work.add(&before);
         Ok((ends, work))
     }
 
     /// What the starts lead to along the measured motion, which needs no m, c, k from elsewhere; only where the noise is
     /// known, since nothing else says when a fit is good enough.
-    pub async fn guided(&self, rough: &'a RoughRecord) -> Result<Option<Tried>, SolveError> {
+    pub async fn restarted(
+        &self,
+        decimated: &'a DecimatedRecord,
+    ) -> Result<Option<Tried>, SolveError> {
         if !self.residual.is_whitened() {
             return Ok(None);
         }
         let distinct = &self.starts[..self.distinct_starts];
         let (subject, set, settings) = (self.subject, self.set, self.settings);
-        try_guided(rough, subject, distinct, set, settings, self.simulator).await
+        try_multiple_shooting(decimated, subject, distinct, set, settings, self.simulator).await
     }
 
     /// Whether a fit leaves hardly more than noise, inside the constraints, and the effects are surely there: another

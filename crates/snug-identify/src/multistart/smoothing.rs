@@ -5,10 +5,10 @@
 
 /// Samples to either side over which residuals are averaged, one fit after the other: 8 ms at 10 kHz at first. A fit that is
 /// a few samples off sees the jump only when it is spread over as many.
-pub const REACHES: [usize; 5] = [80, 20, 8, 3, 1];
+pub const HALF_WIDTHS: [usize; 5] = [80, 20, 8, 3, 1];
 
-/// Averages over `reach` samples to either side, fewer at the ends.
-pub fn average(signal: &mut [f64], reach: usize) {
+/// Averages over `half_width` samples to either side, fewer at the ends.
+pub fn smooth(signal: &mut [f64], half_width: usize) {
     let last = signal.len();
     let mut sums = vec![0.0; last + 1];
     let mut sum = 0.0;
@@ -17,12 +17,15 @@ pub fn average(signal: &mut [f64], reach: usize) {
         *upto = sum;
     }
     let mean = |from: usize, to: usize| (sums[to] - sums[from]) / (to - from) as f64;
-    let inner = reach.min(last)..last.saturating_sub(reach).max(reach.min(last));
+    let inner = half_width.min(last)..last.saturating_sub(half_width).max(half_width.min(last));
     for index in (0..inner.start).chain(inner.end..last) {
-        signal[index] = mean(index.saturating_sub(reach), (index + reach + 1).min(last));
+        signal[index] = mean(
+            index.saturating_sub(half_width),
+            (index + half_width + 1).min(last),
+        );
     }
     // Where nothing ends, all means are over the same number of samples.
-    let width = 2 * reach + 1;
+    let width = 2 * half_width + 1;
     let pairs = sums.iter().zip(sums.iter().skip(width));
     for (value, (from, to)) in signal[inner].iter_mut().zip(pairs) {
         *value = (to - from) / width as f64;
@@ -37,14 +40,14 @@ mod tests {
     #[test]
     fn a_spike_is_spread_over_as_many_samples_as_are_within_reach() {
         let mut signal = [0.0, 0.0, 0.0, 6.0, 0.0, 0.0, 0.0, 3.0];
-        average(&mut signal, 1);
+        smooth(&mut signal, 1);
         assert_eq!(signal, [0.0, 0.0, 2.0, 2.0, 2.0, 0.0, 1.0, 1.5]);
     }
 
     #[test]
     fn of_a_signal_shorter_than_the_reach_only_the_mean_is_left() {
         let mut signal = [1.0, 2.0, 6.0];
-        average(&mut signal, 80);
+        smooth(&mut signal, 80);
         assert_eq!(signal, [3.0, 3.0, 3.0]);
     }
 }

@@ -1,10 +1,10 @@
 //! What the noise does to an estimate: M = Jᵀ cov(r) J at the optimum, for the sandwich (JᵀJ)⁻¹ M (JᵀJ)⁻¹.
 
-use crate::batch::Simulator;
-use crate::identify::Subject;
+use crate::batch::BatchSimulator;
 use crate::noise::integrated::{IntegratedNoise, drift, to_source};
 use crate::residual::agreement::error_over_noise;
 use crate::residual::tightening::TighteningResidual;
+use crate::subject::Subject;
 use snug_campaign::Tightening;
 use snug_least_squares::matrix::inner_product;
 use snug_least_squares::{Fit, Residual, ResidualNoise, without_high_leverage};
@@ -42,10 +42,10 @@ impl OwnedNoise {
 /// (displacement or velocity fitted, acceleration measured): the measured noise, integrated as the signal was. Unknown
 /// noise: from the scores of the residual itself, summed over stretches so that their correlation in time counts. More
 /// residual than noise: those scores beside the noise, or the integrated noise times the excess.
-pub(crate) struct Inquiry {
+pub(crate) struct ScoreCovariance {
     whitened: bool,
     /// Whether an effect lets go, so that instants of contact say too much.
-    lets_go: bool,
+    has_unilateral_contact: bool,
     /// Whether a whitened residual holds more than noise, beyond chance.
     is_misfit: bool,
     /// Variance of an error that is the same in every sample, weighed as the residual.
@@ -53,9 +53,9 @@ pub(crate) struct Inquiry {
     integrated: Option<IntegratedNoise>,
 }
 
-/// What answers an [`Inquiry`], as far as it asks; J is weighed as the residual.
+/// What answers an [`ScoreCovariance`], as far as it asks; J is weighed as the residual.
 #[derive(Default)]
-pub(crate) struct Evidence {
+pub(crate) struct ScoreSums {
     /// JᵀJ, or what stands for it where single samples say too much; row-major.
     pub matrix: Vec<f64>,
     /// Jᵀ1.
@@ -85,7 +85,7 @@ impl Source {
     }
 }
 
-impl Inquiry {
+impl ScoreCovariance {
     /// About the residual of `fit`.
     pub fn new(residual: &TighteningResidual<'_>, subject: &Subject<'_>, fit: &Fit) -> Self {
         let gain: f64 = residual
@@ -96,7 +96,7 @@ impl Inquiry {
         let (tightening, input) = (subject.tightening, subject.input);
         Self {
             whitened: residual.is_whitened(),
-            lets_go: residual.lets_go(),
+            has_unilateral_contact: residual.has_unilateral_contact(),
             is_misfit: residual.is_whitened() && fit.sum_of_squares() / count > beyond_chance,
             constant_variance: gain * gain * bias_variance(tightening),
             integrated: match residual.is_whitened() {
@@ -108,7 +108,10 @@ impl Inquiry {
 
     /// Whether the answer is known beforehand: white noise of unit variance.
     pub fn is_settled(&self) -> bool {
-        self.whitened && !self.is_misfit && !self.lets_go && self.constant_variance == 0.0
+        self.whitened
+            && !self.is_misfit
+            && !self.has_unilateral_contact
+            && self.constant_variance == 0.0
     }
 
     /// Whether the scores are asked for.
@@ -125,23 +128,23 @@ impl Inquiry {
     }
 
     /// The noise, after the evidence.
-    pub fn conclude(&self, evidence: &Evidence) -> OwnedNoise {
+    pub fn conclude(&self, score_sums: &ScoreSums) -> OwnedNoise {
         if self.is_settled() {
             return OwnedNoise::Unit;
         }
         let mut meat = match &self.integrated {
             // It leaves too few independent stretches to learn from their scores.
             Some(noise) => {
-                let source = &evidence.source;
+                let source = &score_sums.source;
                 let meat = noise.meat(&source.products, &source.drift);
                 meat.iter().map(|value| source.excess() * value).collect()
             }
-            None if !self.whitened => evidence.scored(),
-            None if self.is_misfit => add(evidence.matrix.clone(), &evidence.scored()),
-            None => evidence.matrix.clone(),
+            None if !self.whitened => score_sums.scored(),
+            None if self.is_misfit => add(score_sums.matrix.clone(), &score_sums.scored()),
+            None => score_sums.matrix.clone(),
         };
         if self.constant_variance > 0.0 {
-            let sums = || evidence.sums.iter();
+            let sums = || score_sums.sums.iter();
             let products = sums().flat_map(|a| sums().map(move |b| a * b));
             let bias: Vec<f64> = products.map(|ab| self.constant_variance * ab).collect();
             meat = add(meat, &bias);
@@ -150,7 +153,7 @@ impl Inquiry {
     }
 }
 
-impl Evidence {
+impl ScoreSums {
     /// Σ over stretches of u uᵀ with u their scores, corrected for the parameters that were fitted.
     fn scored(&self) -> Vec<f64> {
         let parameters = self.sums.len();
@@ -174,18 +177,18 @@ pub(crate) async fn noise_of<'a>(
     residual: &mut TighteningResidual<'a>,
     subject: &Subject<'_>,
     fit: &Fit,
-    simulator: &Simulator<'a>,
+    simulator: &BatchSimulator<'a>,
 ) -> OwnedNoise {
-    let inquiry = Inquiry::new(residual, subject, fit);
-    if inquiry.is_settled() {
+    let score_covariance = ScoreCovariance::new(residual, subject, fit);
+    if score_covariance.is_settled() {
         return OwnedNoise::Unit;
     }
     let request = residual.request(&fit.values, true);
     for simulated in simulator.simulate(vec![request]).await {
-        residual.foresee(simulated);
+        residual.prefetch(simulated);
     }
-    match evidence(residual, &inquiry, subject.tightening, fit) {
-        Some(evidence) => inquiry.conclude(&evidence),
+    match score_sums(residual, &score_covariance, subject.tightening, fit) {
+        Some(score_sums) => score_covariance.conclude(&score_sums),
         None => OwnedNoise::Unit,
     }
 }
@@ -203,12 +206,12 @@ fn mean_square_of_known(
 }
 
 /// Everything at once: J is at hand.
-fn evidence(
+fn score_sums(
     residual: &mut TighteningResidual<'_>,
-    inquiry: &Inquiry,
+    score_covariance: &ScoreCovariance,
     tightening: &Tightening,
     fit: &Fit,
-) -> Option<Evidence> {
+) -> Option<ScoreSums> {
     let (count, parameters) = (residual.residual_count(), residual.parameter_count());
     let (mut r, mut jacobian) = (vec![0.0; count], vec![0.0; count * parameters]);
     (residual.evaluate(&fit.values, &mut r, Some(&mut jacobian))).ok()?;
@@ -220,7 +223,7 @@ fn evidence(
         scores
             .extend(columns().map(|column| inner_product(&column[part.clone()], &r[part.clone()])));
     }
-    let source = inquiry.integrated().map(|noise| {
+    let source = score_covariance.integrated().map(|noise| {
         let unscored = residual.samples() - count;
         let (h, integrations) = (noise.interval_s, noise.integrations);
         let mut drifts = Vec::new();
@@ -245,8 +248,9 @@ fn evidence(
         }
     });
     let matrix = products(&jacobian, parameters);
-    let fewer = (inquiry.lets_go).then(|| without_high_leverage(&jacobian, parameters, &matrix));
-    Some(Evidence {
+    let fewer = (score_covariance.has_unilateral_contact)
+        .then(|| without_high_leverage(&jacobian, parameters, &matrix));
+    Some(ScoreSums {
         matrix: fewer.flatten().unwrap_or(matrix),
         sums: columns().map(|column| column.iter().sum()).collect(),
         scores,

@@ -37,21 +37,27 @@ impl Simulation {
         let apart = ((every_s / interval_s).round() as usize).max(FEWEST_APART);
         input.with_restarts(
             apart,
-            motions(measured, interval_s, apart, calmest_reach(measured, apart)),
+            motions(
+                measured,
+                interval_s,
+                apart,
+                calmest_half_width(measured, apart),
+            ),
         )
     }
 }
 
 /// Displacement \[rad\] and velocity \[rad/s\] at every `apart`th sample of a measured displacement: those of the cubic
-/// that fits `reach` samples on either side best.
+/// that fits `half_width` samples on either side best.
 pub fn motions(
     displacement_rad: &[f64],
     interval_s: f64,
     apart: usize,
-    reach: usize,
+    half_width: usize,
 ) -> Vec<[f64; 2]> {
     let places = (0..displacement_rad.len()).step_by(apart.max(1));
-    let local = places.map(|place| Local::fit(displacement_rad, place, reach.max(LEAST_REACH)));
+    let local =
+        places.map(|place| Local::fit(displacement_rad, place, half_width.max(LEAST_HALF_WIDTH)));
     local
         .map(|local| [local.value, local.slope / interval_s])
         .collect()
@@ -59,47 +65,57 @@ pub fn motions(
 
 /// Samples on either side of a restart from which its velocity is most certain: where twice as few say most nearly the
 /// same. With fewer, noise and vibration speak; with more, the motion bends too much for a cubic.
-fn calmest_reach(displacement_rad: &[f64], apart: usize) -> usize {
-    let slopes = |reach: usize| motions(displacement_rad, 1.0, apart, reach);
-    let mut narrow = slopes(LEAST_REACH);
-    let mut best = (f64::INFINITY, LEAST_REACH);
-    let mut reach = 2 * LEAST_REACH;
-    while reach <= apart / 2 {
-        let wide = slopes(reach);
+fn calmest_half_width(displacement_rad: &[f64], apart: usize) -> usize {
+    let slopes = |half_width: usize| motions(displacement_rad, 1.0, apart, half_width);
+    let mut narrow = slopes(LEAST_HALF_WIDTH);
+    let mut best = (f64::INFINITY, LEAST_HALF_WIDTH);
+    let mut half_width = 2 * LEAST_HALF_WIDTH;
+    while half_width <= apart / 2 {
+        let wide = slopes(half_width);
         let pairs = narrow.iter().zip(&wide);
         let change: f64 = pairs.map(|(a, b)| (a[1] - b[1]).powi(2)).sum();
         if change < best.0 {
-            best = (change, reach);
+            best = (change, half_width);
         }
-        (narrow, reach) = (wide, 2 * reach);
+        (narrow, half_width) = (wide, 2 * half_width);
     }
     best.1
 }
 
 /// Samples on either side over which cubics describe a measurement as well as over few: the wider, the less noise in the
 /// velocity.
-pub fn widest_reach(displacement_rad: &[f64]) -> usize {
+pub fn widest_half_width(displacement_rad: &[f64]) -> usize {
     let step = (displacement_rad.len() / PLACES).max(1);
     let places: Vec<usize> = (0..displacement_rad.len()).step_by(step).collect();
-    let spread = |reach: usize| -> f64 {
+    let spread = |half_width: usize| -> f64 {
         let local = places
             .iter()
-            .map(|&at| Local::fit(displacement_rad, at, reach));
+            .map(|&at| Local::fit(displacement_rad, at, half_width));
         local.map(|local| local.variance).sum::<f64>().sqrt()
     };
-    let few = spread(LEAST_REACH);
-    let wider = std::iter::successors(Some(2 * LEAST_REACH), |reach| Some(2 * reach));
+    let few = spread(LEAST_HALF_WIDTH);
+    let wider = std::iter::successors(Some(2 * LEAST_HALF_WIDTH), |half_width| {
+        Some(2 * half_width)
+    });
     wider
-        .take_while(|&reach| 8 * reach <= displacement_rad.len())
-        .take_while(|&reach| spread(reach) <= AS_WELL * few)
+        .take_while(|&half_width| 8 * half_width <= displacement_rad.len())
+        .take_while(|&half_width| spread(half_width) <= AS_WELL * few)
         .last()
-        .unwrap_or(LEAST_REACH)
+        .unwrap_or(LEAST_HALF_WIDTH)
+}
+
+/// Angle \[rad\] and velocity \[rad/s\] at every `apart`th sample, to restart a simulation from.
+pub fn motions_at(angle_rad: &[f64], velocity_rad_per_s: &[f64], apart: usize) -> Vec<[f64; 2]> {
+    let motions = angle_rad.iter().zip(velocity_rad_per_s).step_by(apart);
+    motions
+        .map(|(angle, velocity)| [*angle, *velocity])
+        .collect()
 }
 
 /// Fewest samples from one restart to the next.
 const FEWEST_APART: usize = 8;
 /// Fewest samples on either side that a cubic is fitted to.
-const LEAST_REACH: usize = 2;
+const LEAST_HALF_WIDTH: usize = 2;
 /// Places at which a measurement is looked at.
 const PLACES: usize = 400;
 /// Growth of the residual's spread up to which a wider cubic still describes the measurement as well.
@@ -115,11 +131,11 @@ struct Local {
 }
 
 impl Local {
-    /// Over `reach` samples on either side of `place`, as far as there are.
-    fn fit(measured: &[f64], place: usize, reach: usize) -> Self {
-        let first = place.saturating_sub(reach);
-        let some = &measured[first..(place + reach + 1).min(measured.len())];
-        let unit = reach as f64;
+    /// Over `half_width` samples on either side of `place`, as far as there are.
+    fn fit(measured: &[f64], place: usize, half_width: usize) -> Self {
+        let first = place.saturating_sub(half_width);
+        let some = &measured[first..(place + half_width + 1).min(measured.len())];
+        let unit = half_width as f64;
         let at = |index: usize| (first + index) as f64 / unit - place as f64 / unit;
         // Gram–Schmidt over the samples; each polynomial keeps its value and slope at the place.
         let mut basis: Vec<(Vec<f64>, f64, f64)> = Vec::new();
@@ -187,7 +203,10 @@ mod tests {
                 .map(|(x, noise)| x + 1e-3 * noise)
                 .collect()
         };
-        let (fast, slow) = (widest_reach(&wave(100.0)), widest_reach(&wave(4000.0)));
+        let (fast, slow) = (
+            widest_half_width(&wave(100.0)),
+            widest_half_width(&wave(4000.0)),
+        );
         assert!(
             (64..=512).contains(&slow) && (4..=16).contains(&fast),
             "{slow} {fast}"

@@ -1,6 +1,6 @@
-use crate::batch::Request;
+use crate::batch::SimulationRequest;
 use crate::error::IdentifyError;
-use crate::multistart::smoothing::average;
+use crate::multistart::smoothing::smooth;
 use crate::residual::whitening::Whitening;
 use snug_campaign::Quantity;
 use snug_least_squares::{EvaluationError, Residual};
@@ -16,12 +16,12 @@ pub struct TighteningResidual<'a> {
     whitening: Option<&'a Whitening>,
     unscored: usize,
     /// Samples to either side over which the residual is averaged.
-    reach: usize,
+    half_width: usize,
     free: Vec<usize>,
     values: Vec<f64>,
     output: Vec<f64>,
     sensitivity: Vec<f64>,
-    foreseen: Foreseen,
+    prefetched: Foreseen,
 }
 
 /// A simulation that was made before it was asked for.
@@ -52,19 +52,19 @@ impl<'a> TighteningResidual<'a> {
             quantity,
             whitening,
             unscored: unscored.min(measured.len()),
-            reach: 0,
+            half_width: 0,
             values: model.parameters().iter().map(|p| p.value).collect(),
             output: Vec::new(),
             sensitivity: Vec::new(),
-            foreseen: Foreseen::default(),
+            prefetched: Foreseen::default(),
             free,
         }
     }
 
-    /// The same averaged over `reach` samples to either side, see [`average`].
-    pub(crate) fn averaged(&self, reach: usize) -> Self {
+    /// The same averaged over `half_width` samples to either side, see [`smooth`].
+    pub(crate) fn smoothed(&self, half_width: usize) -> Self {
         Self {
-            reach,
+            half_width,
             ..self.clone()
         }
     }
@@ -98,8 +98,8 @@ impl<'a> TighteningResidual<'a> {
     }
 
     /// Whether one of the model's effects lets go of the hand's spring, at instants between which the residual jumps.
-    pub(crate) fn lets_go(&self) -> bool {
-        self.model.effects().any(Effect::lets_go)
+    pub(crate) fn has_unilateral_contact(&self) -> bool {
+        self.model.effects().any(Effect::has_unilateral_contact)
     }
 
     /// Refuses fewer residuals than free parameters.
@@ -195,12 +195,16 @@ impl<'a> TighteningResidual<'a> {
 
 impl<'a> TighteningResidual<'a> {
     /// The simulation with these free values, which whoever makes it may make beside others.
-    pub(crate) fn request(&mut self, free_values: &[f64], with_slopes: bool) -> Request<'a> {
+    pub(crate) fn request(
+        &mut self,
+        free_values: &[f64],
+        with_slopes: bool,
+    ) -> SimulationRequest<'a> {
         let samples = self.samples();
-        let mut room = std::mem::take(&mut self.foreseen);
+        let mut room = std::mem::take(&mut self.prefetched);
         room.output.resize(samples, 0.0);
         room.sensitivity.resize(samples * self.free.len(), 0.0);
-        Request {
+        SimulationRequest {
             model: self.model,
             input: self.input,
             quantity: self.quantity,
@@ -216,8 +220,8 @@ impl<'a> TighteningResidual<'a> {
     }
 
     /// Keeps a simulation that was [requested](Self::request): if the residual is asked for there next, it is at hand.
-    pub(crate) fn foresee(&mut self, simulated: Request<'a>) {
-        self.foreseen = Foreseen {
+    pub(crate) fn prefetch(&mut self, simulated: SimulationRequest<'a>) {
+        self.prefetched = Foreseen {
             values: simulated.values,
             with_slopes: !simulated.free.is_empty(),
             output: simulated.output,
@@ -229,8 +233,8 @@ impl<'a> TighteningResidual<'a> {
 impl TighteningResidual<'_> {
     fn weigh_and_average(&self, signal: &[f64], scored: &mut [f64]) {
         self.weigh(signal, scored);
-        if self.reach > 0 {
-            average(scored, self.reach);
+        if self.half_width > 0 {
+            smooth(scored, self.half_width);
         }
     }
 
@@ -265,15 +269,15 @@ impl TighteningResidual<'_> {
 
     /// Measured − simulated of every sample and, where asked, its Jacobian (column-major, samples × free).
     fn subtract(&self, residual: &mut [f64], jacobian: Option<&mut [f64]>) {
-        let foreseen = &self.foreseen;
+        let prefetched = &self.prefetched;
         let is_foreseen =
-            foreseen.values == self.values && foreseen.with_slopes == jacobian.is_some();
+            prefetched.values == self.values && prefetched.with_slopes == jacobian.is_some();
         if is_foreseen {
-            residual.copy_from_slice(&foreseen.output);
+            residual.copy_from_slice(&prefetched.output);
         }
         match jacobian {
             Some(jacobian) if is_foreseen => {
-                for (slope, simulated) in jacobian.iter_mut().zip(&foreseen.sensitivity) {
+                for (slope, simulated) in jacobian.iter_mut().zip(&prefetched.sensitivity) {
                     *slope = -simulated;
                 }
             }
@@ -318,7 +322,7 @@ impl Residual for TighteningResidual<'_> {
         jacobian: Option<&mut [f64]>,
     ) -> Result<(), EvaluationError> {
         self.all_values(parameters);
-        if self.whitening.is_none() && self.unscored == 0 && self.reach == 0 {
+        if self.whitening.is_none() && self.unscored == 0 && self.half_width == 0 {
             // Every sample counts, and counts the same: straight into the solver's buffers.
             self.subtract(residual, jacobian);
             return Ok(());

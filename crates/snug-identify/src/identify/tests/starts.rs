@@ -1,7 +1,7 @@
 //! Fits of one tightening from several starts.
 
 use super::*;
-use crate::multistart::decimated::RoughRecord;
+use crate::multistart::decimated::DecimatedRecord;
 use snug_least_squares::{DenseResidual, Residual, ResidualNoise, best, solve_from_starts};
 
 /// Where an effect has several starts, trying them on a rough record leads to the optimum that all of them together find.
@@ -24,10 +24,11 @@ fn rough_starts_lead_to_the_best_optimum_of_all() {
         let whitening = Whitening::of(subject.tightening, settings.fitted_output);
         let mut attempt = Attempt::new(&subject, whitening.as_ref(), &settings).unwrap();
         assert!(attempt.starts.len() > 1);
-        let record = attempt.rough(&subject, settings.fitted_output);
-        let simulator = Simulator::default();
-        let valleys = attempt.valleys(&subject, record.as_ref(), &settings, &simulator);
-        let rough = alone(&simulator, valleys.lowest()).unwrap();
+        let record = attempt.decimated(&subject, settings.fitted_output);
+        let simulator = BatchSimulator::default();
+        let multistart_search =
+            attempt.multistart_search(&subject, record.as_ref(), &settings, &simulator);
+        let decimated = alone(&simulator, multistart_search.lowest()).unwrap();
         let mut problem = DenseResidual::new(&mut attempt.residual);
         let all = solve_from_starts(
             &mut problem,
@@ -36,9 +37,12 @@ fn rough_starts_lead_to_the_best_optimum_of_all() {
             &settings.solver,
         );
         let all = all.unwrap();
-        assert!(rough.status.is_converged() && rough.cost <= all.cost * (1.0 + 1e-9));
-        for (found, expected) in rough.values.iter().zip(&all.values) {
-            assert!((found / expected - 1.0).abs() < 1e-7, "{rough:?} {all:?}");
+        assert!(decimated.status.is_converged() && decimated.cost <= all.cost * (1.0 + 1e-9));
+        for (found, expected) in decimated.values.iter().zip(&all.values) {
+            assert!(
+                (found / expected - 1.0).abs() < 1e-7,
+                "{decimated:?} {all:?}"
+            );
         }
     }
 }
@@ -54,19 +58,25 @@ fn starts_led_along_the_motion_end_at_an_effect_that_is_there() {
         let subject = one.subject();
         let whitening = Whitening::of(subject.tightening, settings.fitted_output);
         let attempt = Attempt::new(&subject, whitening.as_ref(), &settings).unwrap();
-        let rough = RoughRecord::of(&subject, settings.fitted_output).unwrap();
-        let simulator = Simulator::default();
-        let valleys = attempt.valleys(&subject, Some(&rough), &settings, &simulator);
-        let guided = alone(&simulator, valleys.guided(&rough)).unwrap().unwrap();
-        let ends = alone(&simulator, valleys.raced(&guided.starts));
-        let fit = best(ends.unwrap().0, guided.work).unwrap();
+        let decimated = DecimatedRecord::of(&subject, settings.fitted_output).unwrap();
+        let simulator = BatchSimulator::default();
+        let multistart_search =
+            attempt.multistart_search(&subject, Some(&decimated), &settings, &simulator);
+        let restarted = alone(&simulator, multistart_search.restarted(&decimated))
+            .unwrap()
+            .unwrap();
+        let ends = alone(
+            &simulator,
+            multistart_search.fitted_from_starts(&restarted.starts),
+        );
+        let fit = best(ends.unwrap().0, restarted.work).unwrap();
         let is_there = force_n != 0.0;
         assert_eq!(
-            valleys.is_beyond_doubt(&fit),
+            multistart_search.is_beyond_doubt(&fit),
             is_there,
             "{force_n}: {fit:?}"
         );
-        let answer = alone(&simulator, valleys.lowest()).unwrap();
+        let answer = alone(&simulator, multistart_search.lowest()).unwrap();
         assert!(answer.cost <= fit.cost);
         if is_there {
             assert_eq!(answer.values, fit.values);
@@ -116,10 +126,10 @@ fn what_is_simulated_beforehand_has_the_same_bits() {
         let requests = (prepared.iter_mut().zip(&attempt.starts))
             .map(|(residual, start)| residual.request(start, with_slopes))
             .collect();
-        let simulator = Simulator::default();
+        let simulator = BatchSimulator::default();
         let simulated = alone(&simulator, simulator.simulate(requests));
         for (residual, simulated) in prepared.iter_mut().zip(simulated) {
-            residual.foresee(simulated);
+            residual.prefetch(simulated);
         }
         assert!(prepared.len() > 2);
         for (residual, start) in prepared.into_iter().zip(&attempt.starts) {

@@ -1,0 +1,101 @@
+//! The tightenings of a question together with the count of what is done with them.
+
+use crate::data::case::Case;
+use snug_campaign::{Estimate, WorkDone};
+use snug_least_squares::Work;
+use std::ops::Deref;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// Tightenings, and where the work done with them is counted.
+#[derive(Clone, Copy)]
+pub(crate) struct Cases<'a> {
+    all: &'a [Case],
+    tally: &'a Tally,
+}
+
+impl<'a> Cases<'a> {
+    pub fn new(all: &'a [Case], tally: &'a Tally) -> Self {
+        Self { all, tally }
+    }
+
+    /// Other tightenings, the work counted with that of these.
+    pub fn others<'b>(self, all: &'b [Case]) -> Cases<'b>
+    where
+        'a: 'b,
+    {
+        let tally = self.tally;
+        Cases { all, tally }
+    }
+
+    /// Some of them.
+    pub fn some(self, members: &[usize]) -> Vec<Case> {
+        members
+            .iter()
+            .map(|&member| self.all[member].clone())
+            .collect()
+    }
+
+    pub fn tally(self) -> &'a Tally {
+        self.tally
+    }
+}
+
+impl Deref for Cases<'_> {
+    type Target = [Case];
+
+    fn deref(&self) -> &[Case] {
+        self.all
+    }
+}
+
+/// Counts that grow from any thread. Sums do not depend on who adds first, so the totals are the same for any number of
+/// threads as long as what is done is.
+#[derive(Default)]
+pub(crate) struct Tally {
+    rankings: AtomicUsize,
+    signatures: AtomicUsize,
+    pooled_fits: AtomicUsize,
+    steps: AtomicUsize,
+    linearizations: AtomicUsize,
+    conic_solves: AtomicUsize,
+}
+
+impl Tally {
+    pub fn ranking(&self) {
+        add(&self.rankings, 1);
+    }
+
+    pub fn signatures(&self, count: usize) {
+        add(&self.signatures, count);
+    }
+
+    pub fn pooled_fit(&self, work: &Work) {
+        add(&self.pooled_fits, 1);
+        add(&self.steps, work.iterations);
+        add(&self.linearizations, work.linearizations);
+        add(&self.conic_solves, work.conic_solves);
+    }
+
+    pub fn fit_alone(&self, estimate: &Estimate) {
+        add(&self.steps, estimate.iterations);
+        add(&self.linearizations, estimate.evaluations);
+        add(&self.conic_solves, estimate.conic_solves);
+    }
+
+    /// What has been counted so far.
+    pub fn done(&self) -> WorkDone {
+        let of = |count: &AtomicUsize| count.load(Ordering::Relaxed);
+        WorkDone {
+            rankings: of(&self.rankings),
+            signatures: of(&self.signatures),
+            pooled_fits: of(&self.pooled_fits),
+            steps: of(&self.steps),
+            linearizations: of(&self.linearizations),
+            conic_solves: of(&self.conic_solves),
+        }
+    }
+}
+
+fn add(count: &AtomicUsize, more: usize) {
+    count.fetch_add(more, Ordering::Relaxed);
+}

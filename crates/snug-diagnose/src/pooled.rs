@@ -1,0 +1,9 @@
+//! One set of effects as a statement about all tightenings, fitted to them together.
+
+pub(crate) mod fit;
+pub(crate) mod fitted;
+pub(crate) mod long_record;
+pub(crate) mod model;
+pub(crate) mod sizes;
+pub(crate) mod together;
+pub(crate) mod torque_noise;

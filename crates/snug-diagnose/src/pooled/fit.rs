@@ -1,0 +1,45 @@
+//! Given effects fitted to all tightenings, or asked of some of them.
+
+use crate::data::cases::Cases;
+use crate::data::clusters::Units;
+use crate::error::DiagnoseError;
+use crate::pooled::fitted::Fitted;
+use crate::pooled::long_record;
+use crate::pooled::model::{Hypothesis, Start};
+use snug_least_squares::PooledSettings;
+use snug_model::Effect;
+
+/// Fits exactly these effects, from where `from` ended where it is given.
+pub(crate) fn fit_effects(
+    cases: Cases<'_>,
+    effects: &[Effect],
+    from: Option<&Fitted>,
+    units: Units,
+) -> Result<Fitted, DiagnoseError> {
+    let mut hypothesis = Hypothesis::new(cases, effects)?;
+    let start = match from {
+        Some(fitted) => fitted.start(&hypothesis),
+        None => hypothesis.usual_start(),
+    };
+    let end = match units.are_whole() {
+        true => hypothesis.fit(&start, &PooledSettings::default())?,
+        false => long_record::to_the_end(&mut hypothesis, &start)?,
+    };
+    Ok(Fitted::new(&hypothesis, end, &units))
+}
+
+/// What `fitted` says of the tightenings `members`, which are `cases`, when they are asked alone.
+pub(crate) fn fit_part(
+    cases: Cases<'_>,
+    members: &[usize],
+    fitted: &Fitted,
+    units: Units,
+) -> Result<Fitted, DiagnoseError> {
+    let mut hypothesis = Hypothesis::new(cases, &fitted.effects)?;
+    let start = Start {
+        own: fitted.own.clone(),
+        shared: fitted.shared.clone(),
+    };
+    let end = hypothesis.fit(&start.of_members(members), &PooledSettings::default())?;
+    Ok(Fitted::new(&hypothesis, end, &units))
+}

@@ -1,0 +1,390 @@
+//! A hypothesis after its fit: sizes, errors, and what it is worth in data that took no part.
+
+use crate::data::clusters::Units;
+use crate::pooled::model::{Hypothesis, Room, Start, first_parameter};
+use crate::pooled::torque_noise::passed_on;
+use crate::settings::DiagnoseSettings;
+use snug_least_squares::PooledFit;
+use snug_least_squares::matrix::{SymmetricMatrix, inner_product as dot};
+use snug_model::{BASE_PARAMETERS, Effect};
+use snug_statistics::descriptive::median;
+use std::collections::BTreeMap;
+
+/// What a unit says about the parameters around the optimum: squared residual, gradient and curvature.
+#[derive(Debug, Clone)]
+pub(crate) struct Block {
+    /// Σ r² over the unit.
+    pub squares: f64,
+    /// Number of residuals.
+    pub count: usize,
+    /// Jᵀr; over the shared parameters where the unit is a whole tightening, else over own and shared.
+    gradient: Vec<f64>,
+    /// JᵀJ likewise.
+    curvature: SymmetricMatrix,
+}
+
+/// A fitted hypothesis.
+#[derive(Debug, Clone)]
+pub(crate) struct Fitted {
+    pub effects: Vec<Effect>,
+    own_names: Vec<String>,
+    shared_names: Vec<String>,
+    /// Which of the model's parameters these are.
+    shared_indices: Vec<usize>,
+    pub own: Vec<Vec<f64>>,
+    pub shared: Vec<f64>,
+    pub converged: bool,
+    /// Unit by unit, tightening by tightening.
+    pub blocks: Vec<Block>,
+    /// Which tightening a unit belongs to.
+    pub members: Vec<usize>,
+    /// Σ r² of each unit that the noise of the logged torque alone makes.
+    torque_noise: Vec<f64>,
+    units: Units,
+    /// Whether residuals are in units of a measured noise.
+    pub is_weighted: bool,
+    /// Per tightening curvature over own and shared (only where units are stretches).
+    member_curvature: Vec<SymmetricMatrix>,
+    /// Per tightening projected curvature and gradient over the shared parameters.
+    profiles: Vec<(SymmetricMatrix, Vec<f64>)>,
+    /// Parameters that every tightening has of its own, beyond the base model's.
+    pub own_effect_count: usize,
+}
+
+impl Fitted {
+    /// A fit with what follows from it.
+    pub fn new(hypothesis: &Hypothesis<'_>, fit: PooledFit, units: &Units) -> Self {
+        let p = hypothesis.shared.len();
+        let profiles = fit
+            .profiles
+            .iter()
+            .map(|profile| {
+                (
+                    SymmetricMatrix::new(p, profile.curvature.clone()),
+                    profile.gradient.clone(),
+                )
+            })
+            .collect();
+        let mut fitted = Self {
+            effects: hypothesis.effects.clone(),
+            own_names: hypothesis.names(&hypothesis.own),
+            shared_names: hypothesis.names(&hypothesis.shared),
+            shared_indices: hypothesis.shared.clone(),
+            converged: fit.converged,
+            blocks: Vec::new(),
+            members: Vec::new(),
+            torque_noise: Vec::new(),
+            units: *units,
+            is_weighted: hypothesis.is_weighted(),
+            member_curvature: Vec::new(),
+            profiles,
+            own_effect_count: hypothesis
+                .own
+                .iter()
+                .filter(|&&index| index >= BASE_PARAMETERS.len())
+                .count(),
+            own: fit.own,
+            shared: fit.shared,
+        };
+        fitted.work_out_blocks(hypothesis, &fit.profiles);
+        fitted
+    }
+
+    /// Where this fit ended as a start for `hypothesis`, which may hold other effects; those begin as usual.
+    pub fn start(&self, hypothesis: &Hypothesis<'_>) -> Start {
+        let mut start = hypothesis.usual_start();
+        let take = |indices: &[usize], values: &mut [f64], from: &[(String, f64)]| {
+            for (name, value) in hypothesis.names(indices).iter().zip(values) {
+                if let Some((_, found)) = from.iter().find(|(known, _)| known == name) {
+                    *value = *found;
+                }
+            }
+        };
+        for (member, values) in start.own.iter_mut().enumerate() {
+            take(&hypothesis.own, values, &self.own_named(member));
+        }
+        take(&hypothesis.shared, &mut start.shared, &self.shared_named());
+        start
+    }
+
+    fn work_out_blocks(
+        &mut self,
+        hypothesis: &Hypothesis<'_>,
+        profiles: &[snug_least_squares::Profile],
+    ) {
+        let order: Vec<usize> = match self.units.are_whole() {
+            true => Vec::new(),
+            false => [hypothesis.own.as_slice(), &hypothesis.shared].concat(),
+        };
+        let mut room = Room::default();
+        let values: Vec<Vec<f64>> = (self.own.iter().enumerate())
+            .map(|(member, own)| hypothesis.values(member, own, &self.shared))
+            .collect();
+        self.torque_noise = passed_on(hypothesis, &values, &self.units);
+        for (member, profile) in profiles.iter().enumerate() {
+            let values = &values[member];
+            if self.units.are_whole() {
+                let (curvature, gradient) = self.profiles[member].clone();
+                self.blocks.push(Block {
+                    squares: 2.0 * profile.cost,
+                    count: hypothesis.residual_count(member),
+                    gradient,
+                    curvature,
+                });
+                self.members.push(member);
+                continue;
+            }
+            let (residual, jacobian) = hypothesis.weighted(member, values, &order, &mut room);
+            let count = residual.len();
+            let mut whole = SymmetricMatrix::zero(order.len());
+            for range in self.units.ranges(count) {
+                let r = &residual[range.clone()];
+                let column = |index: usize| &jacobian[index * count..][range.clone()];
+                let mut curvature = SymmetricMatrix::zero(order.len());
+                for i in 0..order.len() {
+                    for j in 0..order.len() {
+                        curvature.set(i, j, dot(column(i), column(j)));
+                    }
+                }
+                whole.add(&curvature);
+                self.blocks.push(Block {
+                    squares: dot(r, r),
+                    count: r.len(),
+                    gradient: (0..order.len()).map(|i| dot(column(i), r)).collect(),
+                    curvature,
+                });
+                self.members.push(member);
+            }
+            self.member_curvature.push(whole);
+        }
+    }
+
+    /// At most `most` tightenings that differ in how badly they fit, the worst among them.
+    pub fn spread(&self, most: usize) -> Vec<usize> {
+        let mut order: Vec<usize> = (0..self.own.len()).collect();
+        let squares = |member: usize| -> f64 {
+            let units = self.members.iter().zip(&self.blocks);
+            units
+                .filter(|(m, _)| **m == member)
+                .map(|(_, b)| b.squares)
+                .sum()
+        };
+        order.sort_by(|&a, &b| squares(b).total_cmp(&squares(a)));
+        let step = order.len().div_ceil(most).max(1);
+        order.into_iter().step_by(step).collect()
+    }
+
+    /// Σ r² over everything.
+    pub fn squares(&self) -> f64 {
+        self.blocks.iter().map(|block| block.squares).sum()
+    }
+
+    /// Mean squared weighted residual: 1 where only noise is left.
+    pub fn scale(&self) -> f64 {
+        self.squares() / self.count().max(1) as f64
+    }
+
+    /// Number of residuals.
+    pub fn count(&self) -> usize {
+        self.blocks.iter().map(|block| block.count).sum()
+    }
+
+    /// Root mean square of the weighted residual, parameters of each tightening accounted for.
+    pub fn error(&self) -> f64 {
+        let lost = self.own.len() * self.own_names.len() + self.shared.len();
+        (self.squares() / (self.count() - lost.min(self.count() - 1)) as f64).sqrt()
+    }
+
+    /// Whether what it leaves is the noise.
+    pub fn is_at_floor(&self) -> bool {
+        self.is_weighted && self.error() < AT_FLOOR
+    }
+
+    /// Smallest share of the squared residual that an effect must remove to matter beside this model.
+    pub fn smallest_gain(&self, settings: &DiagnoseSettings) -> f64 {
+        match self.is_at_floor() {
+            true => settings.smallest_gain_at_noise,
+            false => settings.smallest_gain,
+        }
+    }
+
+    /// Whether it leaves more than the noise, as far as that is known.
+    pub fn is_beyond_noise(&self) -> bool {
+        self.is_weighted && !self.is_at_floor()
+    }
+
+    pub fn own_named(&self, member: usize) -> Vec<(String, f64)> {
+        self.own_names
+            .iter()
+            .cloned()
+            .zip(self.own[member].iter().copied())
+            .collect()
+    }
+
+    pub fn shared_named(&self) -> Vec<(String, f64)> {
+        self.shared_names
+            .iter()
+            .cloned()
+            .zip(self.shared.iter().copied())
+            .collect()
+    }
+
+    /// How many parameters of the base model have hardly anything left to do beside this fit's effects, where beside those
+    /// of one of `others` they have.
+    pub fn makes_superfluous(&self, others: &[&Self]) -> usize {
+        let size = |fitted: &Self, column: usize| {
+            let sizes: Vec<f64> = fitted.own.iter().map(|own| own[column].abs()).collect();
+            median(&sizes).unwrap_or(0.0)
+        };
+        let is_superfluous = |&column: &usize| {
+            let sizes = others.iter().map(|other| size(other, column));
+            size(self, column) < HARDLY * sizes.fold(0.0, f64::max)
+        };
+        (0..self.free_base_count()).filter(is_superfluous).count()
+    }
+
+    /// How many of each tightening's own parameters, the first of them, are the base model's.
+    fn free_base_count(&self) -> usize {
+        self.own_names.len() - self.own_effect_count
+    }
+
+    /// Free parameters of the base model, the mean over records; none where there are many tightenings.
+    pub fn base(&self) -> Vec<(String, f64)> {
+        if self.units.are_whole() {
+            return Vec::new();
+        }
+        let count = self.own.len() as f64;
+        let mean = |column: usize| self.own.iter().map(|own| own[column]).sum::<f64>() / count;
+        let names = self.own_names[..self.free_base_count()].iter().enumerate();
+        names
+            .map(|(column, name)| (name.clone(), mean(column)))
+            .collect()
+    }
+
+    /// The first number of one of its effects, which is what its other numbers shape; 0 where it is held or each
+    /// tightening has its own.
+    pub fn size(&self, effect: Effect) -> f64 {
+        let index = first_parameter(&self.effects, effect);
+        let column = self.shared_indices.iter().position(|&known| known == index);
+        column.map_or(0.0, |column| self.shared[column])
+    }
+
+    /// Names of the shared parameters.
+    pub fn shared_names(&self) -> &[String] {
+        &self.shared_names
+    }
+
+    /// Names of each tightening's own parameters.
+    pub fn own_names(&self) -> &[String] {
+        &self.own_names
+    }
+
+    /// Projected curvature over the shared parameters, all tightenings together.
+    pub fn shared_curvature(&self) -> SymmetricMatrix {
+        let mut sum = SymmetricMatrix::zero(self.shared.len());
+        for (curvature, _) in &self.profiles {
+            sum.add(curvature);
+        }
+        sum
+    }
+
+    /// Curvature and the gradient of each unit, whose last entries belong to the shared parameters. Stretches of one
+    /// tightening speak of its own parameters, too.
+    pub fn shared_evidence(&self) -> (SymmetricMatrix, Vec<Vec<f64>>) {
+        let gradients = |scale: &dyn Fn(usize) -> bool| -> Vec<Vec<f64>> {
+            let units = (0..self.blocks.len()).filter(|&unit| scale(unit));
+            units
+                .map(|unit| self.blocks[unit].gradient.clone())
+                .collect()
+        };
+        match self.member_curvature.first() {
+            Some(whole) if self.own.len() == 1 => (whole.clone(), gradients(&|_| true)),
+            _ if self.units.are_whole() => (self.shared_curvature(), gradients(&|_| true)),
+            _ => {
+                let profiles = self.profiles.iter().map(|(_, gradient)| gradient.clone());
+                (self.shared_curvature(), profiles.collect())
+            }
+        }
+    }
+
+    /// Projected curvature and gradient of each tightening over the shared parameters.
+    pub fn profiles(&self) -> &[(SymmetricMatrix, Vec<f64>)] {
+        &self.profiles
+    }
+
+    /// The same without what torque noise alone makes of each unit: what models are compared by.
+    pub fn heldout_beyond_torque_noise(&self) -> Vec<f64> {
+        let squares = self.heldout(&|unit| unit).into_iter();
+        squares
+            .zip(&self.torque_noise)
+            .map(|(squares, noise)| squares - noise)
+            .collect()
+    }
+
+    /// Σ r² of each unit as predicted for sizes that were fixed without its group: δ = (S − S_g)⁻¹ g_g, then
+    /// r² + 2 gᵀδ + δᵀSδ. `group_of` names the group of a unit; each tightening's own parameters follow, and pay for it.
+    pub fn heldout(&self, group_of: &dyn Fn(usize) -> usize) -> Vec<f64> {
+        let scale = self.scale();
+        let mut groups: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+        for unit in 0..self.blocks.len() {
+            groups.entry(group_of(unit)).or_default().push(unit);
+        }
+        let mut squares: Vec<f64> = vec![0.0; self.blocks.len()];
+        let all = self.shared_curvature();
+        for units in groups.values() {
+            if self.units.are_whole() {
+                self.hold_out(units, all.clone(), &mut squares);
+            } else {
+                self.hold_out_stretches(units, &mut squares);
+            }
+        }
+        if self.units.are_whole() {
+            let pays = 2.0 * self.own_effect_count as f64 * scale;
+            squares.iter_mut().for_each(|value| *value += pays);
+        }
+        squares
+    }
+
+    fn hold_out(&self, units: &[usize], total: SymmetricMatrix, squares: &mut [f64]) {
+        let mut rest = total;
+        let mut gradient = vec![0.0; rest.size()];
+        for &unit in units {
+            rest.subtract(&self.blocks[unit].curvature);
+            for (sum, g) in gradient.iter_mut().zip(&self.blocks[unit].gradient) {
+                *sum += g;
+            }
+        }
+        let shift = rest.solve_scaled(&gradient);
+        for &unit in units {
+            let block = &self.blocks[unit];
+            squares[unit] = block.squares
+                + shift.as_ref().map_or(0.0, |shift| {
+                    2.0 * dot(&block.gradient, shift) + block.curvature.quadratic(shift)
+                });
+        }
+    }
+
+    /// Own parameters are fixed by the other stretches of the same tightening, the shared ones by everything else.
+    fn hold_out_stretches(&self, units: &[usize], squares: &mut [f64]) {
+        let mut by_member: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+        for &unit in units {
+            by_member.entry(self.members[unit]).or_default().push(unit);
+        }
+        for (member, own_units) in by_member {
+            let mut total = self.member_curvature[member].clone();
+            let first_shared = total.size() - self.shared.len();
+            for (other, (curvature, _)) in self.profiles.iter().enumerate() {
+                if other != member {
+                    total.add_at(first_shared, curvature);
+                }
+            }
+            self.hold_out(&own_units, total, squares);
+        }
+    }
+}
+
+/// Share of a parameter that is hardly anything.
+const HARDLY: f64 = 0.1;
+
+/// Error over noise below which nothing but noise is left to look for.
+pub(crate) const AT_FLOOR: f64 = 1.02;

@@ -1,0 +1,139 @@
+//! A candidate's refit to a few long records, where mass, damping and stiffness are no matter of each tightening.
+
+use crate::data::case::Case;
+use crate::error::DiagnoseError;
+use crate::pooled::model::{Hypothesis, Start};
+use snug_identify::{TighteningResidual, convex_set};
+use snug_least_squares::{DenseResidual, PooledFit, PooledSettings, Settings, solve};
+
+/// Samples of all records together up to which they are soon simulated.
+const SOON: usize = 30_000;
+
+/// Share of a record's squared output that its beginning holds, where records take long to simulate.
+const BEGINNING: f64 = 0.125;
+
+/// When the trial of one start stops.
+const ROUGH: PooledSettings = PooledSettings {
+    max_iterations: 15,
+    cost_tolerance: 1e-3,
+};
+
+/// Fits from each of `starts`, and with their sizes from where the study's own mass, damping and stiffness begin; the
+/// lowest cost goes on to the end. Where the records take long to simulate, all but the last of that is done on their
+/// beginnings.
+///
+/// A model without the effect may have been led far off by what it lacks, to where no step leads back.
+pub(crate) fn best_of(
+    hypothesis: &mut Hypothesis<'_>,
+    starts: &[Start],
+    settings: &PooledSettings,
+) -> Result<PooledFit, DiagnoseError> {
+    let samples: usize = (hypothesis.cases.iter())
+        .map(|case| case.measured().len())
+        .sum();
+    if samples <= SOON {
+        return lowest(hypothesis, starts, settings);
+    }
+    let beginnings: Vec<Case> = hypothesis.cases.iter().map(beginning).collect();
+    let mut there = Hypothesis::new(hypothesis.cases.others(&beginnings), &hypothesis.effects)?;
+    let start = Start::at(&lowest(&mut there, starts, settings)?);
+    hypothesis.fit(&start, settings)
+}
+
+/// What comes first and holds enough of the motion.
+fn beginning(record: &Case) -> Case {
+    let measured = record.measured();
+    let squares = |samples: &[f64]| samples.iter().map(|y| y * y).sum::<f64>();
+    let enough = BEGINNING * squares(&measured[record.unscored..]);
+    let mut sum = 0.0;
+    let more = measured[record.unscored..].iter().take_while(|&&y| {
+        sum += y * y;
+        sum < enough
+    });
+    record.beginning(record.unscored + more.count().max(SHORTEST))
+}
+
+/// Fewest scored samples of a beginning.
+const SHORTEST: usize = 1000;
+
+fn lowest(
+    hypothesis: &mut Hypothesis<'_>,
+    starts: &[Start],
+    settings: &PooledSettings,
+) -> Result<PooledFit, DiagnoseError> {
+    let own = hypothesis.usual_start().own;
+    let afresh = |start: &Start| Start {
+        own: own.clone(),
+        shared: start.shared.clone(),
+    };
+    let mut best: Option<PooledFit> = None;
+    let mut refused = None;
+    for start in starts
+        .iter()
+        .flat_map(|start| [start.clone(), afresh(start)])
+    {
+        match hypothesis.fit(&start, &ROUGH) {
+            Ok(end) if best.as_ref().is_none_or(|b| end.cost() < b.cost()) => best = Some(end),
+            Ok(_) => {}
+            Err(error) => refused = Some(error),
+        }
+    }
+    let Some(best) = best else {
+        let none = || snug_least_squares::SolveError::NoStart.into();
+        return Err(refused.unwrap_or_else(none));
+    };
+    hypothesis.fit(&Start::at(&best), settings)
+}
+
+/// Fits from one start until nothing more is to be had: with little noise the way along a valley is long. One record
+/// alone is a problem of few parameters, which the solver for single tightenings follows further.
+pub(crate) fn to_the_end(
+    hypothesis: &mut Hypothesis<'_>,
+    start: &Start,
+) -> Result<PooledFit, DiagnoseError> {
+    let end = hypothesis.fit(start, &PooledSettings::default())?;
+    let Some(further) = further(hypothesis, &Start::at(&end)) else {
+        return Ok(end);
+    };
+    match hypothesis.fit(&further, &PooledSettings::default()) {
+        Ok(other) if other.cost() < end.cost() => Ok(other),
+        _ => Ok(end),
+    }
+}
+
+/// Where the solver for single tightenings ends; nothing where there are several records.
+fn further(hypothesis: &Hypothesis<'_>, from: &Start) -> Option<Start> {
+    let ([case], [model]) = (&*hypothesis.cases, hypothesis.models.as_slice()) else {
+        return None;
+    };
+    let values = hypothesis.values(0, &from.own[0], &from.shared);
+    let free = model.free();
+    let whitening = case.whitening();
+    let mut problem = DenseResidual::new(TighteningResidual::new(
+        model,
+        &case.input,
+        case.measured(),
+        case.quantity,
+        whitening.as_ref(),
+        case.unscored,
+    ));
+    let start: Vec<f64> = free.iter().map(|&index| values[index]).collect();
+    let set = convex_set(model, &case.constraints);
+    let settings = Settings {
+        max_iterations: 300,
+        gradient_tolerance: 1e-6,
+        ..Settings::default()
+    };
+    let found = solve(&mut problem, &start, &set, &settings).ok()?;
+    let pick = |indices: &[usize]| -> Option<Vec<f64>> {
+        let places = indices.iter();
+        places
+            .map(|index| free.iter().position(|at| at == index))
+            .map(|column| Some(found.values[column?]))
+            .collect()
+    };
+    Some(Start {
+        own: vec![pick(&hypothesis.own)?],
+        shared: pick(&hypothesis.shared)?,
+    })
+}

@@ -1,0 +1,409 @@
+//! A set of effects as one statement about all tightenings: each its own m, c, k, the effects' sizes shared.
+
+use crate::data::case::Case;
+use crate::data::cases::Cases;
+use crate::data::simulation::{Asked, Simulated, simulate};
+use crate::error::DiagnoseError;
+use snug_identify::{Subject, Whitening, convex_set, identify_all, smooth};
+use snug_least_squares::{
+    Constraints, EvaluationError, PooledFit, PooledResidual, PooledSettings, Trial, solve_pooled,
+};
+use snug_model::{BASE_PARAMETERS, Effect, Law, Model, Scope};
+
+/// A set of effects, ready to be fitted to all tightenings together.
+pub(crate) struct Hypothesis<'a> {
+    pub cases: Cases<'a>,
+    pub effects: Vec<Effect>,
+    pub models: Vec<Model>,
+    whitenings: Vec<Option<Whitening>>,
+    /// Indices (into the model's parameters) of what every tightening has of its own.
+    pub own: Vec<usize>,
+    /// Indices of what all share.
+    pub shared: Vec<usize>,
+    own_sets: Vec<Constraints>,
+    shared_set: Constraints,
+    room: Room,
+    /// Samples to either side over which residuals are averaged, see [`Hypothesis::fit_averaged`].
+    reach: usize,
+}
+
+/// Buffers of one evaluation.
+#[derive(Default)]
+pub(crate) struct Room {
+    simulated: Vec<Simulated>,
+    residual: Vec<f64>,
+    jacobian: Vec<f64>,
+}
+
+/// Where a pooled fit begins.
+#[derive(Debug, Clone)]
+pub(crate) struct Start {
+    pub own: Vec<Vec<f64>>,
+    pub shared: Vec<f64>,
+}
+
+impl Start {
+    /// Where `fit` ended.
+    pub fn at(fit: &PooledFit) -> Self {
+        Self {
+            own: fit.own.clone(),
+            shared: fit.shared.clone(),
+        }
+    }
+
+    /// The same for some of the members only.
+    pub fn of_members(&self, members: &[usize]) -> Self {
+        Self {
+            own: pick(&self.own, members),
+            shared: self.shared.clone(),
+        }
+    }
+}
+
+/// What some members have of their own.
+pub(crate) fn pick(own: &[Vec<f64>], members: &[usize]) -> Vec<Vec<f64>> {
+    members.iter().map(|&member| own[member].clone()).collect()
+}
+
+impl<'a> Hypothesis<'a> {
+    /// The study's base model with exactly these effects.
+    pub fn new(cases: Cases<'a>, effects: &[Effect]) -> Result<Self, DiagnoseError> {
+        let models = cases
+            .iter()
+            .map(|case| case.model_with(effects))
+            .collect::<Result<Vec<_>, _>>()?;
+        let first = &models[0];
+        let mut own: Vec<usize> = (0..BASE_PARAMETERS.len()).collect();
+        let mut shared = Vec::new();
+        let mut index = BASE_PARAMETERS.len();
+        for effect in effects {
+            for spec in effect.description().parameters {
+                match spec.scope {
+                    Scope::Shared => shared.push(index),
+                    Scope::PerTightening => own.push(index),
+                }
+                index += 1;
+            }
+        }
+        own.retain(|&index| !first.parameters()[index].fixed);
+        shared.retain(|&index| !first.parameters()[index].fixed);
+        let mut shared_set = Constraints::new(shared.len());
+        for (column, &index) in shared.iter().enumerate() {
+            let parameter = &first.parameters()[index];
+            shared_set.bound(
+                column,
+                parameter.minimum,
+                parameter.maximum,
+                &parameter.name,
+            );
+        }
+        let own_sets = models
+            .iter()
+            .zip(cases.iter())
+            .map(|(model, case)| {
+                let mut alone = model.clone();
+                for &index in &shared {
+                    alone.parameters_mut()[index].fixed = true;
+                }
+                convex_set(&alone, &case.constraints)
+            })
+            .collect();
+        Ok(Self {
+            whitenings: cases.iter().map(Case::whitening).collect(),
+            cases,
+            effects: effects.to_vec(),
+            models,
+            own,
+            shared,
+            own_sets,
+            shared_set,
+            room: Room::default(),
+            reach: 0,
+        })
+    }
+
+    /// Whether all residuals are in units of a measured noise.
+    pub fn is_weighted(&self) -> bool {
+        self.whitenings.iter().all(Option::is_some)
+    }
+
+    /// Where the parameters begin by themselves: the study's values, the effects' usual starts.
+    pub fn usual_start(&self) -> Start {
+        let pick = |model: &Model, indices: &[usize]| -> Vec<f64> {
+            indices
+                .iter()
+                .map(|&index| model.parameters()[index].value)
+                .collect()
+        };
+        Start {
+            own: self.models.iter().map(|m| pick(m, &self.own)).collect(),
+            shared: pick(&self.models[0], &self.shared),
+        }
+    }
+
+    /// Names of parameters by index.
+    pub fn names(&self, indices: &[usize]) -> Vec<String> {
+        let parameters = self.models[0].parameters();
+        indices
+            .iter()
+            .map(|&index| parameters[index].name.clone())
+            .collect()
+    }
+
+    /// All parameters of one member's model.
+    pub fn values(&self, member: usize, own: &[f64], shared: &[f64]) -> Vec<f64> {
+        let mut values: Vec<f64> = self.models[member]
+            .parameters()
+            .iter()
+            .map(|parameter| parameter.value)
+            .collect();
+        for (&index, &value) in self.own.iter().zip(own) {
+            values[index] = value;
+        }
+        for (&index, &value) in self.shared.iter().zip(shared) {
+            values[index] = value;
+        }
+        values
+    }
+
+    /// Fits from one start.
+    pub fn fit(
+        &mut self,
+        start: &Start,
+        settings: &PooledSettings,
+    ) -> Result<PooledFit, DiagnoseError> {
+        let (own_sets, shared_set) = (self.own_sets.clone(), self.shared_set.clone());
+        let fit = solve_pooled(
+            self,
+            &start.own,
+            &own_sets,
+            &start.shared,
+            &shared_set,
+            settings,
+        )?;
+        self.cases.tally().pooled_fit(&fit.work);
+        Ok(fit)
+    }
+
+    /// Fits what is left of the residual once it is averaged over `reach` samples to either side, see [`smooth`].
+    pub fn fit_averaged(
+        &mut self,
+        start: &Start,
+        settings: &PooledSettings,
+        reach: usize,
+    ) -> Result<PooledFit, DiagnoseError> {
+        self.reach = reach;
+        let end = self.fit(start, settings);
+        self.reach = 0;
+        end
+    }
+
+    /// Members fitted each by itself with the shared parameters held, from its `own` start: its own parameters and ½‖r‖², or
+    /// nothing where it could not be fitted.
+    pub fn fit_alone(
+        &self,
+        members: &[usize],
+        own: &[Vec<f64>],
+        shared: &[f64],
+    ) -> Vec<Option<(Vec<f64>, f64)>> {
+        let models: Vec<Model> = (members.iter().zip(own))
+            .map(|(&member, own)| self.held(member, own, shared))
+            .collect();
+        let pairs: Vec<(usize, &Model)> = members.iter().copied().zip(&models).collect();
+        let settings = |member: usize| self.cases[member].settings();
+        let alike = pairs.chunk_by(|(one, _), (next, _)| settings(*one) == settings(*next));
+        alike.flat_map(|some| self.identify_alone(some)).collect()
+    }
+
+    /// Members that are identified with the same settings, each with its own model.
+    fn identify_alone(&self, some: &[(usize, &Model)]) -> Vec<Option<(Vec<f64>, f64)>> {
+        let subjects: Vec<Subject<'_>> = (some.iter())
+            .map(|&(member, model)| Subject {
+                model,
+                input: &self.cases[member].input,
+                tightening: &self.cases[member].tightening,
+            })
+            .collect();
+        let estimates = identify_all(&subjects, &self.cases[some[0].0].settings());
+        let mut room = Room::default();
+        let ends = estimates
+            .into_iter()
+            .zip(some)
+            .map(|(estimate, &(member, _))| {
+                let estimate = estimate.ok()?;
+                self.cases.tally().fit_alone(&estimate);
+                let found: Vec<f64> = estimate.parameters.iter().map(|p| p.value).collect();
+                let (residual, _) = self.weighted(member, &found, &[], &mut room);
+                let cost = 0.5 * residual.iter().map(|r| r * r).sum::<f64>();
+                Some((self.own.iter().map(|&index| found[index]).collect(), cost))
+            });
+        ends.collect()
+    }
+
+    /// One member's model, everything at these values and what all share held there.
+    fn held(&self, member: usize, own: &[f64], shared: &[f64]) -> Model {
+        let mut model = self.models[member].clone();
+        let values = self.values(member, own, shared);
+        for (parameter, value) in model.parameters_mut().iter_mut().zip(values) {
+            parameter.value = value;
+        }
+        for &index in &self.shared {
+            model.parameters_mut()[index].fixed = true;
+        }
+        model
+    }
+
+    /// The compared output of every tightening that is `asked` for.
+    pub fn outputs(&self, asked: &[Asked<'_>]) -> Vec<Vec<f64>> {
+        let mut simulated = Vec::new();
+        simulate(&self.cases, &self.models, asked, &[], &mut simulated);
+        simulated.into_iter().map(|one| one.output).collect()
+    }
+
+    /// Its derivatives to one parameter.
+    pub fn derivatives(&self, asked: &[Asked<'_>], parameter: usize) -> Vec<Vec<f64>> {
+        let mut simulated = Vec::new();
+        let order = [parameter];
+        simulate(&self.cases, &self.models, asked, &order, &mut simulated);
+        simulated.into_iter().map(|one| one.sensitivity).collect()
+    }
+
+    /// Weighted residual and, for the parameters in `order`, weighted Jacobian (column-major) of one member.
+    pub fn weighted<'r>(
+        &self,
+        member: usize,
+        values: &[f64],
+        order: &[usize],
+        room: &'r mut Room,
+    ) -> (&'r mut [f64], &'r mut [f64]) {
+        let input = &self.cases[member].input;
+        let asked = [Asked {
+            member,
+            input,
+            values,
+        }];
+        let simulated = &mut room.simulated;
+        simulate(&self.cases, &self.models, &asked, order, simulated);
+        self.weigh_simulated(member, order.len(), 0, room)
+    }
+
+    /// Weighted residual and Jacobian of `member`, whose simulation is number `index` of those in `room`.
+    fn weigh_simulated<'r>(
+        &self,
+        member: usize,
+        columns: usize,
+        index: usize,
+        room: &'r mut Room,
+    ) -> (&'r mut [f64], &'r mut [f64]) {
+        let case = &self.cases[member];
+        let whitening = self.whitenings[member].as_ref();
+        let scored = scored(case, whitening);
+        let Room {
+            simulated,
+            residual,
+            jacobian,
+        } = room;
+        let simulated = &mut simulated[index];
+        for (simulated, measured) in simulated.output.iter_mut().zip(case.measured()) {
+            *simulated = measured - *simulated;
+        }
+        residual.resize(scored, 0.0);
+        jacobian.resize(scored * columns, 0.0);
+        weigh(whitening, &simulated.output[case.unscored..], residual);
+        let samples = simulated.output.len();
+        for (column, weighted) in (simulated.sensitivity)
+            .chunks_exact(samples)
+            .zip(jacobian.chunks_exact_mut(scored))
+        {
+            weigh(whitening, &column[case.unscored..], weighted);
+            for value in weighted {
+                *value = -*value;
+            }
+        }
+        (residual, jacobian)
+    }
+
+    /// Number of weighted residuals of one member.
+    pub fn residual_count(&self, member: usize) -> usize {
+        scored(&self.cases[member], self.whitenings[member].as_ref())
+    }
+
+    /// Whitens a signal of one member's length.
+    pub fn weigh_signal(&self, member: usize, signal: &[f64]) -> Vec<f64> {
+        let case = &self.cases[member];
+        let whitening = self.whitenings[member].as_ref();
+        let mut weighted = vec![0.0; scored(case, whitening)];
+        weigh(whitening, &signal[case.unscored..], &mut weighted);
+        weighted
+    }
+}
+
+/// Number of weighted residuals of a case.
+fn scored(case: &Case, whitening: Option<&Whitening>) -> usize {
+    let lost = whitening.map_or(0, Whitening::order);
+    (case.measured().len() - case.unscored).saturating_sub(lost)
+}
+
+fn weigh(whitening: Option<&Whitening>, signal: &[f64], weighted: &mut [f64]) {
+    match whitening {
+        Some(whitening) => whitening.apply(signal, weighted),
+        None => weighted.copy_from_slice(signal),
+    }
+}
+
+/// Index of an effect's first parameter in a model that has `effects`.
+pub(crate) fn first_parameter(effects: &[Effect], effect: Effect) -> usize {
+    let before = effects.iter().take_while(|known| **known != effect);
+    BASE_PARAMETERS.len()
+        + before
+            .map(|known| known.description().parameters.len())
+            .sum::<usize>()
+}
+
+impl PooledResidual for Hypothesis<'_> {
+    fn member_count(&self) -> usize {
+        self.cases.len()
+    }
+
+    fn own_count(&self) -> usize {
+        self.own.len()
+    }
+
+    fn shared_count(&self) -> usize {
+        self.shared.len()
+    }
+
+    fn linearize(&mut self, trials: &mut [Trial<'_>]) -> Result<(), EvaluationError> {
+        let order = [self.own.as_slice(), &self.shared].concat();
+        let mut room = std::mem::take(&mut self.room);
+        let values: Vec<Vec<f64>> = (trials.iter())
+            .map(|trial| {
+                let (own, shared) = trial.parameters.split_at(self.own.len());
+                self.values(trial.member, own, shared)
+            })
+            .collect();
+        let asked: Vec<Asked<'_>> = (trials.iter().zip(&values))
+            .map(|(trial, values)| Asked {
+                member: trial.member,
+                input: &self.cases[trial.member].input,
+                values,
+            })
+            .collect();
+        let simulated = &mut room.simulated;
+        simulate(&self.cases, &self.models, &asked, &order, simulated);
+        let mut outcome = Ok(());
+        for (index, trial) in trials.iter_mut().enumerate() {
+            let (residual, jacobian) =
+                self.weigh_simulated(trial.member, order.len(), index, &mut room);
+            if self.reach > 0 {
+                smooth(residual, self.reach);
+                for column in jacobian.chunks_exact_mut(residual.len()) {
+                    smooth(column, self.reach);
+                }
+            }
+            outcome = outcome.and(trial.linearization.set_jacobian(residual, jacobian));
+        }
+        self.room = room;
+        outcome
+    }
+}

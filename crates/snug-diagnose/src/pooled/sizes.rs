@@ -1,0 +1,134 @@
+//! The sizes of a fitted hypothesis' effects, with intervals that survive coloured noise and a little misfit.
+
+use crate::data::case::Case;
+use crate::pooled::fitted::Fitted;
+use crate::pooled::model::first_parameter;
+use snug_campaign::EffectParameter;
+use snug_least_squares::matrix::inner_product as dot;
+use snug_model::{Effect, Law, Model, ParameterSpec, Scope};
+use statrs::distribution::{ContinuousCDF, StudentsT};
+
+/// Every parameter of one of the model's effects.
+///
+/// Shared: variance S⁻¹ of unit noise, or, where larger, S⁻¹ (Σ g gᵀ) S⁻¹ over units (sandwich), Student's t over units.
+/// Of each tightening's own: mean, its interval over tightenings, and the spread between them.
+pub(crate) fn parameters(cases: &[Case], fitted: &Fitted, effect: Effect) -> Vec<EffectParameter> {
+    let Ok(model) = cases[0].model_with(&fitted.effects) else {
+        return Vec::new();
+    };
+    let errors = fitted.shared_errors();
+    let first = first_parameter(&fitted.effects, effect);
+    let specs = effect.description().parameters.iter();
+    (specs.zip(model.ranges(effect)).enumerate())
+        .map(|(offset, (spec, range))| {
+            let parameter = &model.parameters()[first + offset];
+            let limits = (parameter.minimum, parameter.maximum);
+            let mut size = EffectParameter {
+                name: parameter.name.clone(),
+                value: parameter.value,
+                minimum: range.minimum.max(limits.0),
+                maximum: range.maximum.min(limits.1),
+                ..described(spec)
+            };
+            if let Some(column) = fitted.shared_names().iter().position(|n| *n == size.name) {
+                size.value = fitted.shared[column];
+                let inside = size.value > limits.0 && size.value < limits.1;
+                size.standard_error = errors.as_ref().map(|e| e[column]).filter(|_| inside);
+                let quantile = student(fitted.blocks.len());
+                size.widen(quantile, limits);
+            } else if let Some(column) = fitted.own_names().iter().position(|n| *n == size.name) {
+                let values: Vec<f64> = fitted.own.iter().map(|own| own[column]).collect();
+                size.summarise(&values, limits);
+            }
+            size
+        })
+        .collect()
+}
+
+/// A parameter as its effect describes it, at its usual start and without an interval.
+pub(crate) fn described(spec: &ParameterSpec) -> EffectParameter {
+    EffectParameter {
+        name: spec.name.to_owned(),
+        meaning: spec.meaning.to_owned(),
+        unit: spec.unit.to_owned(),
+        value: spec.starts[0],
+        low: None,
+        high: None,
+        standard_error: None,
+        per_tightening: spec.scope == Scope::PerTightening,
+        spread: None,
+        minimum: spec.minimum,
+        maximum: spec.maximum,
+    }
+}
+
+/// 97.5 % quantile of Student's t with one degree of freedom less than there are units.
+fn student(units: usize) -> f64 {
+    let freedom = units.saturating_sub(1).max(1) as f64;
+    StudentsT::new(0.0, 1.0, freedom).map_or(1.96, |t| t.inverse_cdf(0.975))
+}
+
+trait Summary {
+    fn widen(&mut self, quantile: f64, limits: (f64, f64));
+    fn summarise(&mut self, values: &[f64], limits: (f64, f64));
+}
+
+impl Summary for EffectParameter {
+    fn widen(&mut self, quantile: f64, limits: (f64, f64)) {
+        if let Some(error) = self.standard_error {
+            self.low = Some((self.value - quantile * error).max(limits.0));
+            self.high = Some((self.value + quantile * error).min(limits.1));
+        }
+    }
+
+    fn summarise(&mut self, values: &[f64], limits: (f64, f64)) {
+        let n = values.len() as f64;
+        self.value = values.iter().sum::<f64>() / n;
+        if n < 2.0 {
+            return;
+        }
+        let squares: f64 = values.iter().map(|x| (x - self.value).powi(2)).sum();
+        let spread = (squares / (n - 1.0)).sqrt();
+        self.spread = Some(spread);
+        self.standard_error = Some(spread / n.sqrt());
+        self.widen(student(values.len()), limits);
+    }
+}
+
+impl Fitted {
+    /// Standard errors of the shared parameters.
+    pub fn shared_errors(&self) -> Option<Vec<f64>> {
+        let p = self.shared.len();
+        let (curvature, gradients) = self.shared_evidence();
+        let inverse = curvature.inverse()?;
+        let units = gradients.len() as f64;
+        let correction = units / (units - p as f64).max(1.0);
+        let floor = if self.is_weighted { 1.0 } else { 0.0 };
+        let skipped = curvature.size() - p;
+        Some(
+            (skipped..curvature.size())
+                .map(|column| {
+                    let row: Vec<f64> = (0..curvature.size())
+                        .map(|j| inverse.at(column, j))
+                        .collect();
+                    let sandwich: f64 = gradients.iter().map(|g| dot(&row, g).powi(2)).sum();
+                    (floor * inverse.at(column, column))
+                        .max(correction * sandwich)
+                        .sqrt()
+                })
+                .collect(),
+        )
+    }
+}
+
+/// The model of one case with everything but its own parameters held, known as well as `errors` say.
+pub(crate) fn held(case: &Case, fitted: &Fitted, errors: Option<&[f64]>) -> Option<Model> {
+    let mut model = case.model_with(&fitted.effects).ok()?;
+    for (column, (name, value)) in fitted.shared_named().into_iter().enumerate() {
+        let parameter = model.parameters_mut().iter_mut().find(|p| p.name == name)?;
+        parameter.value = value;
+        parameter.fixed = true;
+        parameter.standard_error = errors.map(|errors| errors[column]);
+    }
+    Some(model)
+}

@@ -1,0 +1,50 @@
+//! Effects fitted to many tightenings together, nothing judged: what a person sees who tries an effect by hand.
+
+use crate::data::case::Case;
+use crate::data::cases::{Cases, Tally};
+use crate::data::clusters::Units;
+use crate::error::DiagnoseError;
+use crate::pooled::fit::fit_effects;
+use snug_campaign::WorkDone;
+use snug_model::Effect;
+
+/// Where a fit of all tightenings together ended.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Together {
+    /// What all tightenings share: names with unit suffix and values.
+    pub shared: Vec<(String, f64)>,
+    /// What every tightening has of its own, in the order of the cases: m, c, k first.
+    pub own: Vec<Vec<(String, f64)>>,
+    /// Root mean square of the residual: over noise, where that is known of every tightening.
+    pub error: f64,
+    /// Whether no step promised more.
+    pub converged: bool,
+    /// What it took.
+    pub work: WorkDone,
+}
+
+/// Fits the study's base model with exactly these effects to all tightenings together.
+///
+/// Every tightening keeps its own m, c, k; the sizes of the effects are shared unless the effect says otherwise.
+///
+/// # Errors
+/// [`DiagnoseError::NothingToCompare`] without tightenings, otherwise what the model or the fit refuses.
+pub fn fit_together(cases: &[Case], effects: &[Effect]) -> Result<Together, DiagnoseError> {
+    if cases.is_empty() {
+        return Err(DiagnoseError::NothingToCompare {
+            tightenings: 0,
+            reason: "there is none to fit",
+        });
+    }
+    let tally = Tally::default();
+    let fitted = fit_effects(Cases::new(cases, &tally), effects, None, Units::of(cases))?;
+    Ok(Together {
+        shared: fitted.shared_named(),
+        own: (0..cases.len())
+            .map(|member| fitted.own_named(member))
+            .collect(),
+        error: fitted.error(),
+        converged: fitted.converged,
+        work: tally.done(),
+    })
+}

@@ -1,0 +1,109 @@
+//! Family-wise p: how often the largest statistic of all candidates reaches as far when whole units flip their sign
+//! (Westfall and Young's max-T).
+
+use crate::ranking::sensitivity::Column;
+use rand::{RngCore, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use snug_model::Effect;
+
+/// Sign flips of the units, the same for all columns.
+pub(crate) struct Family {
+    /// Largest statistic over all columns of each flip, ascending.
+    largest: Vec<f64>,
+    columns: usize,
+}
+
+impl Family {
+    pub fn new(columns: &[Column], flips: usize, seed: u64) -> Self {
+        let units = columns.first().map_or(0, |column| column.scores.len());
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        let mut signs = vec![1.0; units];
+        let mut largest = vec![0.0_f64; flips];
+        let shared: Vec<&Column> = columns.iter().filter(|column| !column.is_own()).collect();
+        for largest in &mut largest {
+            for chunk in signs.chunks_mut(64) {
+                let bits = random.next_u64();
+                for (index, sign) in chunk.iter_mut().enumerate() {
+                    *sign = if bits >> index & 1 == 1 { 1.0 } else { -1.0 };
+                }
+            }
+            for column in &shared {
+                *largest = largest.max(column.flipped_statistic(&signs));
+            }
+        }
+        largest.sort_by(f64::total_cmp);
+        Self {
+            largest,
+            columns: columns.len(),
+        }
+    }
+
+    /// The p of one effect: its best column against the largest of the family.
+    pub fn p(&self, columns: &[Column], effect: Effect) -> f64 {
+        let own = columns.iter().filter(|column| column.effect == effect);
+        own.map(|column| match column.chance_p() {
+            // Sizes of their own have no common sign to flip: their energy against the noise, every column counted.
+            Some(p) => (p * self.columns as f64).min(1.0),
+            None => {
+                let statistic = column.statistic();
+                let below = self.largest.partition_point(|largest| *largest < statistic);
+                (self.largest.len() - below + 1) as f64 / (self.largest.len() + 1) as f64
+            }
+        })
+        .fold(1.0, f64::min)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rand_distr::{Distribution, StandardNormal};
+
+    const EFFECTS: [Effect; 3] = [
+        Effect::CubicStiffness,
+        Effect::QuadraticStiffness,
+        Effect::TorqueDelay,
+    ];
+
+    fn columns(random: &mut ChaCha8Rng, shift: f64) -> Vec<Column> {
+        // Some tightenings are far louder than others; the effects' scores go together.
+        let common: Vec<f64> = (0..24).map(|_| StandardNormal.sample(random)).collect();
+        EFFECTS
+            .iter()
+            .map(|&effect| {
+                let scores = common.iter().enumerate().map(|(unit, common)| {
+                    let own: f64 = StandardNormal.sample(random);
+                    let loud = if unit % 6 == 0 { 8.0 } else { 1.0 };
+                    loud * (0.8 * common + 0.6 * own + shift)
+                });
+                Column::with_scores(effect, scores.collect())
+            })
+            .collect()
+    }
+
+    /// Without any effect, at most the level of campaigns has a candidate at or below it, however loud single units are.
+    #[test]
+    fn false_alarms_stay_at_the_level() {
+        let mut random = ChaCha8Rng::seed_from_u64(5);
+        let campaigns = 400;
+        let alarms = (0..campaigns)
+            .filter(|&campaign| {
+                let columns = columns(&mut random, 0.0);
+                let family = Family::new(&columns, 199, campaign);
+                EFFECTS
+                    .iter()
+                    .any(|&effect| family.p(&columns, effect) <= 0.05)
+            })
+            .count();
+        // 5 % of 400 is 20, its standard deviation 4.4.
+        assert!((7..=33).contains(&alarms), "{alarms}");
+    }
+
+    #[test]
+    fn what_all_tightenings_agree_on_is_found() {
+        let mut random = ChaCha8Rng::seed_from_u64(6);
+        let columns = columns(&mut random, 1.5);
+        let family = Family::new(&columns, 999, 1);
+        assert!(family.p(&columns, Effect::CubicStiffness) < 0.01);
+    }
+}

@@ -1,0 +1,208 @@
+//! Every candidate scored, refitted and held out; best first.
+
+use crate::data::cases::Cases;
+use crate::data::clusters::Units;
+use crate::error::DiagnoseError;
+use crate::pooled::fit::fit_effects;
+use crate::pooled::fitted::Fitted;
+use crate::pooled::model::Hypothesis;
+use crate::ranking::max_t::Family;
+use crate::ranking::paired_gain::{chance, clearness, spread_of_sum};
+use crate::ranking::refit::refit;
+use crate::ranking::score_test::{Control, Scored, Scorer};
+use crate::ranking::sensitivity::Column;
+use crate::settings::DiagnoseSettings;
+use crate::watch::Watch;
+use rayon::prelude::*;
+use snug_model::Effect;
+
+/// A candidate after its refit.
+#[derive(Debug, Clone)]
+pub(crate) struct Candidate {
+    pub effect: Effect,
+    /// T of its best column.
+    pub score: f64,
+    pub p_family: f64,
+    pub fitted: Fitted,
+    /// Decrease of the squared residual of each unit with sizes that were fixed without it.
+    pub gains: Vec<f64>,
+}
+
+impl Candidate {
+    /// Σ of the held-out decreases.
+    pub fn gain(&self) -> f64 {
+        self.gains.iter().sum()
+    }
+
+    /// Follows the fit to its end; `heldout` is what the units leave without the effect.
+    fn settle(
+        &mut self,
+        cases: Cases<'_>,
+        units: Units,
+        heldout: &[f64],
+    ) -> Result<(), DiagnoseError> {
+        let from = Some(&self.fitted);
+        self.fitted = fit_effects(cases, &self.fitted.effects, from, units)?;
+        self.gains = gains(heldout, &self.fitted);
+        Ok(())
+    }
+
+    /// Standard deviations by which that sum exceeds 0.
+    pub fn clearness(&self) -> f64 {
+        clearness(&self.gains, self.fitted.scale())
+    }
+
+    /// Standard deviations by which it explains more than `other`.
+    pub fn ahead_of(&self, other: &Self) -> f64 {
+        clearness(&self.beyond(other), self.fitted.scale())
+    }
+
+    /// By how much it explains more than `other` of each unit.
+    pub fn beyond(&self, other: &Self) -> Vec<f64> {
+        let pairs = self.gains.iter().zip(&other.gains);
+        pairs.map(|(own, other)| own - other).collect()
+    }
+
+    /// Chance of so clear a gain in held-out units, among `family` candidates (Bonferroni): for effects that push
+    /// elsewhere once the model follows them, so that no score against the model without them sees them.
+    fn p_of_gain(&self, family: usize) -> f64 {
+        (chance(&self.gains, self.fitted.scale()) * family as f64).min(1.0)
+    }
+
+    /// Standard error over units of the share of `misfit` (per unit) that it removes: that of the ratio of two sums.
+    pub fn share_error(&self, misfit: &[f64]) -> f64 {
+        let whole: f64 = misfit.iter().sum();
+        let share = self.gain() / whole;
+        let pairs = self.gains.iter().zip(misfit);
+        let rest: Vec<f64> = pairs.map(|(gain, misfit)| gain - share * misfit).collect();
+        spread_of_sum(&rest) / whole.abs()
+    }
+}
+
+/// The candidates, best first.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Ranking {
+    pub candidates: Vec<Candidate>,
+    /// Effects whose starts this rig cannot be simulated with.
+    pub impossible: Vec<Effect>,
+    /// What every candidate was scored with.
+    pub columns: Vec<Column>,
+    /// Campaigns of nothing but noise, and in how many of them something was called supported.
+    pub control: (usize, usize),
+}
+
+/// How many times stricter the chance of a gain is judged, so that the score remains what decides as a rule.
+const STRICTER: usize = 10;
+
+/// Candidates that are followed to the end: one of them is what is missing, if anything is.
+const BEST: usize = 3;
+
+/// Sign flips behind a p in the negative control.
+const CONTROL_FLIPS: usize = 199;
+
+/// Scores and refits every effect of `candidates` beside those of `current`.
+pub(crate) fn rank(
+    cases: Cases<'_>,
+    current: &Fitted,
+    candidates: &[Effect],
+    units: Units,
+    settings: &DiagnoseSettings,
+    control_campaigns: usize,
+    watch: &Watch<'_>,
+) -> Result<Ranking, DiagnoseError> {
+    cases.tally().ranking();
+    let hypothesis = Hypothesis::new(cases, &current.effects)?;
+    let control = Control {
+        campaigns: control_campaigns,
+        seed: settings.seed,
+    };
+    let scorer = Scorer::new(&hypothesis, current, units, control);
+    let scored = scorer.score(candidates)?;
+    let control = negative_control(&scorer, &scored, candidates, settings);
+    let columns = scored.columns;
+    cases.tally().signatures(cases.len() * columns.len());
+    let family = Family::new(&columns, settings.sign_flips, settings.seed);
+    let heldout = current.heldout_beyond_torque_noise();
+    let refitted: Vec<Result<Option<Candidate>, DiagnoseError>> = candidates
+        .par_iter()
+        .map(|&effect| {
+            watch.go_on()?;
+            let fitted = refit(cases, current, effect, &columns, units, settings);
+            let Some(fitted) = possible(fitted)? else {
+                return Ok(None);
+            };
+            let gains = gains(&heldout, &fitted);
+            let own = columns.iter().filter(|column| column.effect == effect);
+            Ok(Some(Candidate {
+                effect,
+                score: own.map(Column::statistic).fold(0.0, f64::max),
+                p_family: family.p(&columns, effect),
+                fitted,
+                gains,
+            }))
+        })
+        .collect();
+    let refitted = refitted.into_iter().collect::<Result<Vec<_>, _>>()?;
+    let outcomes = candidates.iter().zip(&refitted);
+    let impossible = outcomes.filter(|(_, outcome)| outcome.is_none());
+    let impossible = impossible.map(|(&effect, _)| effect).collect();
+    let mut candidates: Vec<Candidate> = refitted.into_iter().flatten().collect();
+    sort(&mut candidates);
+    if units.are_whole() && !current.is_at_floor() {
+        let best = candidates.par_iter_mut().take(BEST);
+        best.try_for_each(|candidate| candidate.settle(cases, units, &heldout))?;
+    }
+    let family_size = candidates.len() * STRICTER;
+    for candidate in &mut candidates {
+        candidate.p_family = candidate.p_family.min(candidate.p_of_gain(family_size));
+    }
+    sort(&mut candidates);
+    Ok(Ranking {
+        candidates,
+        impossible,
+        columns,
+        control,
+    })
+}
+
+/// Campaigns of nothing but noise, and in how many of them one of the candidates would be called supported.
+fn negative_control(
+    scorer: &Scorer<'_, '_>,
+    scored: &Scored,
+    candidates: &[Effect],
+    settings: &DiagnoseSettings,
+) -> (usize, usize) {
+    let campaigns = scorer.control_campaigns();
+    let is_false_alarm = |&campaign: &usize| {
+        let columns = scorer.of_noise(scored, campaign);
+        let family = Family::new(&columns, CONTROL_FLIPS, settings.seed);
+        let mut ps = candidates.iter().map(|&effect| family.p(&columns, effect));
+        ps.any(|p| p <= settings.level)
+    };
+    let alarms = (0..campaigns).into_par_iter().filter(is_false_alarm);
+    (campaigns, alarms.count())
+}
+
+/// Those first that explain most.
+fn sort(candidates: &mut [Candidate]) {
+    candidates.sort_by(|a, b| b.gain().total_cmp(&a.gain()));
+}
+
+/// A refit, or nothing where this rig cannot be simulated with the effect's starts: they are meant for a hand on a tool.
+fn possible(refitted: Result<Fitted, DiagnoseError>) -> Result<Option<Fitted>, DiagnoseError> {
+    match refitted {
+        Ok(fitted) if fitted.squares().is_finite() => Ok(Some(fitted)),
+        Ok(_) | Err(DiagnoseError::Identify(_)) => Ok(None),
+        Err(other) => Err(other),
+    }
+}
+
+/// What held-out units lose in squared residual.
+pub(crate) fn gains(heldout: &[f64], fitted: &Fitted) -> Vec<f64> {
+    let with = fitted.heldout_beyond_torque_noise();
+    heldout
+        .iter()
+        .zip(with)
+        .map(|(before, after)| before - after)
+        .collect()
+}

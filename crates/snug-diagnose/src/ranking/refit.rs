@@ -1,0 +1,297 @@
+//! A candidate's refit: from its most promising starts, found on a few tightenings, to all of them.
+
+use crate::data::case::Case;
+use crate::data::cases::Cases;
+use crate::data::clusters::Units;
+use crate::error::DiagnoseError;
+use crate::library::is_unlisted;
+use crate::pooled::fit::fit_effects;
+use crate::pooled::fitted::Fitted;
+use crate::pooled::long_record;
+use crate::pooled::model::{Hypothesis, Start, first_parameter, pick};
+use crate::ranking::sensitivity::Column;
+use crate::settings::DiagnoseSettings;
+use snug_identify::{HALF_WIDTHS, SIDE_BY_SIDE};
+use snug_least_squares::{PooledFit, PooledSettings, SolveError};
+use snug_model::{BASE_PARAMETERS, Effect, Law, Scope};
+use snug_statistics::descriptive::median;
+
+/// When the refit of a candidate stops: its gain is then known to a fraction of what chance does. An effect that is not
+/// there leaves its timing undetermined, and a strict fit would follow that for long.
+const CANDIDATE: PooledSettings = PooledSettings {
+    max_iterations: 40,
+    cost_tolerance: 1e-6,
+};
+
+/// When a fit to a few tightenings stops.
+const ROUGH: PooledSettings = PooledSettings {
+    max_iterations: 20,
+    cost_tolerance: 1e-4,
+};
+
+/// Tightenings on which starts are tried.
+const FEW: usize = 8;
+
+/// Starts, the most promising, that are tried freely, whatever the measured motion says.
+const FREELY: usize = 2;
+
+/// When a fit along the measured motion stops: a place to go on from is all it has to be.
+const LED: PooledSettings = PooledSettings {
+    max_iterations: 12,
+    cost_tolerance: 1e-3,
+};
+
+/// Samples to either side over which residuals are averaged where starts are led along the measured motion.
+const LED_REACH: usize = 8;
+
+/// Root mean square of a tightening's residual, and what it kept of it, over the median of all from which it is left behind:
+/// it ended in a minimum of its own, where the others found theirs.
+const LEFT_BEHIND: f64 = 1.15;
+
+/// Share of the cost that is not worth fetching them for: a wrong model leaves behind whom it explains worst.
+const LITTLE: f64 = 1e-3;
+
+/// Times that those who were left behind are fetched: with them the shared sizes move, and others may see the way.
+const MOST_ROUNDS: usize = 3;
+
+/// Refits one effect from its most promising starts, first roughly on a few tightenings; the lowest cost wins.
+pub(crate) fn refit(
+    cases: Cases<'_>,
+    current: &Fitted,
+    effect: Effect,
+    columns: &[Column],
+    units: Units,
+    settings: &DiagnoseSettings,
+) -> Result<Fitted, DiagnoseError> {
+    let mut effects = current.effects.clone();
+    effects.push(effect);
+    // A term describes; which of its starts promises most is near enough to begin with.
+    let most = if is_unlisted(effect) {
+        1
+    } else {
+        settings.starts
+    };
+    let starts = promising(effect, columns, most);
+    let mut hypothesis = Hypothesis::new(cases, &effects)?;
+    let starts: Vec<Start> = (starts.iter())
+        .map(|values| with_effect(&hypothesis, current, effect, values))
+        .collect();
+    let end = match starts.as_slice() {
+        [] => return fit_effects(cases, &effects, Some(current), units),
+        starts if !units.are_whole() => long_record::best_of(&mut hypothesis, starts, &CANDIDATE)?,
+        // Beside an effect that lets go, what another one changes moves every instant of contact.
+        [only]
+            if !current.is_at_floor()
+                && current
+                    .effects
+                    .iter()
+                    .any(|one| one.has_unilateral_contact()) =>
+        {
+            let end = from_afar(&mut hypothesis, only, &CANDIDATE)?;
+            catch_up(&mut hypothesis, current, end)?
+        }
+        [only] => hypothesis.fit(only, &CANDIDATE)?,
+        several => {
+            let start = rough(&hypothesis, current, several)?;
+            let end = from_afar(&mut hypothesis, &start, &CANDIDATE)?;
+            catch_up(&mut hypothesis, current, end)?
+        }
+    };
+    Ok(Fitted::new(&hypothesis, end, &units))
+}
+
+/// At most `most` different starts of an effect, those whose columns promise most.
+fn promising(effect: Effect, columns: &[Column], most: usize) -> Vec<&[f64]> {
+    let own = columns.iter().filter(|column| column.effect == effect);
+    let mut own: Vec<&Column> = own.collect();
+    own.sort_by(|a, b| b.predicted_gain().total_cmp(&a.predicted_gain()));
+    let mut starts: Vec<&[f64]> = Vec::new();
+    for column in own {
+        if !starts.contains(&column.start.as_slice()) && starts.len() < most {
+            starts.push(&column.start);
+        }
+    }
+    starts
+}
+
+/// Fits what is seen from afar, then as it is; by way of ever nearer where the acceleration jumps as an effect lets go. What is
+/// only a place to go on from is fitted roughly.
+fn from_afar(
+    hypothesis: &mut Hypothesis<'_>,
+    start: &Start,
+    settings: &PooledSettings,
+) -> Result<PooledFit, DiagnoseError> {
+    let mut start = start.clone();
+    let jumps = hypothesis
+        .effects
+        .iter()
+        .any(|effect| effect.has_unilateral_contact());
+    let reaches = if jumps {
+        &HALF_WIDTHS[..]
+    } else {
+        &HALF_WIDTHS[..1]
+    };
+    for &reach in reaches {
+        start = Start::at(&hypothesis.fit_averaged(&start, &ROUGH, reach)?);
+    }
+    hypothesis.fit(&start, settings)
+}
+
+/// The start that leads lowest on a few tightenings, as seen from afar: their shared sizes, and every tightening's own
+/// parameters corrected by what the few had to correct theirs. Where only noise is left to find, nothing is led astray.
+fn rough(
+    hypothesis: &Hypothesis<'_>,
+    current: &Fitted,
+    starts: &[Start],
+) -> Result<Start, DiagnoseError> {
+    let few = current.spread(FEW);
+    let some = hypothesis.cases.some(&few);
+    let mut there = Hypothesis::new(hypothesis.cases.others(&some), &hypothesis.effects)?;
+    let of_few: Vec<Start> = starts.iter().map(|start| start.of_members(&few)).collect();
+    let led = match current.is_at_floor() {
+        true => None,
+        false => led_along_motion(&there, &of_few)?,
+    };
+    let ends = of_few.iter().take(FREELY).chain(&led).filter_map(|start| {
+        let end = there.fit_averaged(start, &ROUGH, HALF_WIDTHS[0]);
+        end.ok()
+    });
+    let lowest = ends.min_by(|a, b| a.cost().total_cmp(&b.cost()));
+    let end = lowest.ok_or(SolveError::NoStart)?;
+    let factors = astray(hypothesis, &end.own, &of_few[0].own);
+    let mut start = starts[0].clone();
+    start.own.iter_mut().for_each(|own| times(own, &factors));
+    start.shared = end.shared;
+    Ok(start)
+}
+
+/// Where the starts lead to along the measured motion, if that can be said: the lowest.
+///
+/// A model without the effect may have been led astray by what it lacks, and in the cost of a free run valley lies beside
+/// valley. Where the simulation takes up the measured motion every few milliseconds, no error grows beyond the next
+/// restart, and most starts lead to the same place.
+fn led_along_motion(
+    hypothesis: &Hypothesis<'_>,
+    starts: &[Start],
+) -> Result<Option<Start>, DiagnoseError> {
+    let led: Option<Vec<Case>> = hypothesis.cases.iter().map(Case::along_motion).collect();
+    let Some(led) = led else {
+        return Ok(None);
+    };
+    let mut there = Hypothesis::new(hypothesis.cases.others(&led), &hypothesis.effects)?;
+    let ends = starts
+        .iter()
+        .filter_map(|start| there.fit_averaged(start, &LED, LED_REACH).ok());
+    let lowest = ends.min_by(|a, b| a.cost().total_cmp(&b.cost()));
+    Ok(lowest.map(|end| Start::at(&end)))
+}
+
+/// The tightenings that were left behind, each fitted by itself with what all share where the others put it and, where that
+/// is lower, all on from there; again while others are left behind then.
+fn catch_up(
+    hypothesis: &mut Hypothesis<'_>,
+    current: &Fitted,
+    mut end: PooledFit,
+) -> Result<PooledFit, DiagnoseError> {
+    let begun = current.start(hypothesis).own;
+    for _ in 0..MOST_ROUNDS {
+        let (behind, ahead) = left_behind(hypothesis, current, &end);
+        let little = LITTLE * end.cost();
+        let (with, without) = (pick(&end.own, &ahead), pick(&begun, &ahead));
+        let factors = astray(hypothesis, &with, &without);
+        let mut start = Start::at(&end);
+        let mut lowered = 0.0;
+        for some in behind.chunks(SIDE_BY_SIDE) {
+            let before = lowered;
+            let mut again = pick(&begun, some);
+            again.iter_mut().for_each(|own| times(own, &factors));
+            let alone = hypothesis.fit_alone(some, &again, &end.shared);
+            for (&member, found) in some.iter().zip(alone) {
+                if let Some((own, cost)) = found
+                    && cost < end.profiles[member].cost
+                {
+                    lowered += end.profiles[member].cost - cost;
+                    start.own[member] = own;
+                }
+            }
+            // Nobody of these was left behind, it is their model that is wrong; and so it is for the others.
+            if lowered - before <= little {
+                break;
+            }
+        }
+        if lowered <= little {
+            return Ok(end);
+        }
+        end = hypothesis.fit(&start, &CANDIDATE)?;
+    }
+    Ok(end)
+}
+
+/// The tightenings that were left behind, which keep more of their error than the others and have more, and the others.
+fn left_behind(
+    hypothesis: &Hypothesis<'_>,
+    current: &Fitted,
+    end: &PooledFit,
+) -> (Vec<usize>, Vec<usize>) {
+    let squares = || end.profiles.iter().map(|one| 2.0 * one.cost).enumerate();
+    let errors: Vec<f64> = squares()
+        .map(|(member, squares)| (squares / hypothesis.residual_count(member) as f64).sqrt())
+        .collect();
+    let kept: Vec<f64> = squares()
+        .map(|(member, squares)| (squares / current.blocks[member].squares).sqrt())
+        .collect();
+    let is_far =
+        |of: &[f64], member: usize| median(of).is_ok_and(|usual| of[member] > LEFT_BEHIND * usual);
+    (0..errors.len()).partition(|&member| is_far(&errors, member) && is_far(&kept, member))
+}
+
+/// By how much m, c and k are larger in `with` than in `without`, the median over tightenings; 1 for other parameters.
+fn astray(hypothesis: &Hypothesis<'_>, with: &[Vec<f64>], without: &[Vec<f64>]) -> Vec<f64> {
+    let columns = hypothesis.own.iter().enumerate();
+    columns
+        .map(|(column, &index)| match index < BASE_PARAMETERS.len() {
+            true => {
+                let pairs = with.iter().zip(without);
+                let factors: Vec<f64> = pairs.map(|(a, b)| a[column] / b[column]).collect();
+                median(&factors).unwrap_or(1.0)
+            }
+            false => 1.0,
+        })
+        .collect()
+}
+
+fn times(own: &mut [f64], factors: &[f64]) {
+    let pairs = own.iter_mut().zip(factors);
+    pairs.for_each(|(own, factor)| *own *= factor);
+}
+
+/// The current fit with one effect's parameters at `values`.
+fn with_effect(
+    hypothesis: &Hypothesis<'_>,
+    current: &Fitted,
+    effect: Effect,
+    values: &[f64],
+) -> Start {
+    let mut start = current.start(hypothesis);
+    let first = first_parameter(&hypothesis.effects, effect);
+    for (offset, (&value, spec)) in values
+        .iter()
+        .zip(effect.description().parameters)
+        .enumerate()
+    {
+        let index = first + offset;
+        match spec.scope {
+            Scope::Shared => {
+                if let Some(column) = hypothesis.shared.iter().position(|&i| i == index) {
+                    start.shared[column] = value;
+                }
+            }
+            Scope::PerTightening => {
+                if let Some(column) = hypothesis.own.iter().position(|&i| i == index) {
+                    start.own.iter_mut().for_each(|own| own[column] = value);
+                }
+            }
+        }
+    }
+    start
+}

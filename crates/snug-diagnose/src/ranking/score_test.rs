@@ -1,0 +1,314 @@
+//! Score before refit: how much of the residual points where an effect would push the simulation.
+//!
+//! With J_i the sensitivities of the fitted model, z_ij the effect's signature and everything weighted,
+//! z̃ = z − J (JᵀJ)⁻¹ Jᵀ z, s_ij = z̃ᵀ r_i, I_ij = z̃ᵀ z̃; predicted size Σ s / Σ I.
+
+use crate::data::clusters::Units;
+use crate::data::simulation::Asked;
+use crate::error::DiagnoseError;
+use crate::pooled::fitted::Fitted;
+use crate::pooled::model::{Hypothesis, Room};
+use crate::ranking::nuisance::{Nuisance, coordinates};
+use crate::ranking::sensitivity::{Column, directions};
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use rand_distr::{Distribution, StandardNormal};
+use rayon::prelude::*;
+use snug_identify::smooth;
+use snug_least_squares::matrix::inner_product as dot;
+use snug_model::{Effect, Input};
+
+/// The fitted model against which effects are scored.
+pub(crate) struct Scorer<'a, 'h> {
+    hypothesis: &'h Hypothesis<'a>,
+    fitted: &'h Fitted,
+    units: Units,
+    /// Campaigns of nothing but noise that are scored beside the measured one.
+    control: Control,
+}
+
+/// Samples on either side over which the torque is averaged for the signatures.
+const NOISE_REACH: usize = 5;
+
+/// Samples on either side over which the signatures themselves are averaged. A model without a gap in the grip knows the
+/// instant at which the grip crosses it to a millisecond only, and there the acceleration jumps.
+const INSTANT_REACH: usize = 10;
+
+/// Tightenings that are simulated side by side. They come one group after the other, and threads share out each, which bounds
+/// the memory: a thread that waits in one group would begin another.
+const TOGETHER: usize = 8;
+
+/// How many campaigns of nothing but noise are drawn, and from which seed.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Control {
+    pub campaigns: usize,
+    pub seed: u64,
+}
+
+/// Columns of the measured campaign, and what campaigns that hold nothing but noise are made of.
+pub(crate) struct Scored {
+    pub columns: Vec<Column>,
+    /// Tightening by tightening, campaign by campaign: s of each column, then the gradient over the shared parameters.
+    draws: Vec<Vec<Vec<f64>>>,
+}
+
+/// What one tightening adds to every column.
+struct Contribution {
+    /// Column by column: s of each unit.
+    scores: Vec<Vec<f64>>,
+    variances: Vec<Vec<f64>>,
+    information: Vec<f64>,
+    cross: Vec<Vec<f64>>,
+    /// Campaign by campaign: s of each column, then the gradient over the shared parameters.
+    control: Vec<Vec<f64>>,
+}
+
+impl<'a, 'h> Scorer<'a, 'h> {
+    pub fn new(
+        hypothesis: &'h Hypothesis<'a>,
+        fitted: &'h Fitted,
+        units: Units,
+        control: Control,
+    ) -> Self {
+        let campaigns = if units.are_whole() && fitted.is_weighted {
+            control.campaigns
+        } else {
+            0
+        };
+        Self {
+            hypothesis,
+            fitted,
+            units,
+            control: Control {
+                campaigns,
+                ..control
+            },
+        }
+    }
+
+    /// All columns of `effects`.
+    pub fn score(&self, effects: &[Effect]) -> Result<Scored, DiagnoseError> {
+        let whole = self.units.are_whole();
+        let model = &self.hypothesis.cases[0].model;
+        let mut columns: Vec<Column> = effects
+            .iter()
+            .flat_map(|&effect| directions(effect, &model.ranges(effect), whole))
+            .collect();
+        let mut others = Vec::new();
+        for &effect in effects {
+            let mut with = self.fitted.effects.clone();
+            with.push(effect);
+            others.push((effect, Hypothesis::new(self.hypothesis.cases, &with)?));
+        }
+        let members: Vec<usize> = (0..self.hypothesis.cases.len()).collect();
+        let contributions: Vec<Contribution> = (members.chunks(TOGETHER))
+            .flat_map(|some| self.contributions(some, &columns, &others))
+            .collect();
+        for contribution in &contributions {
+            for (index, column) in columns.iter_mut().enumerate() {
+                column.scores.extend(&contribution.scores[index]);
+                column.variances.extend(&contribution.variances[index]);
+                column.information += contribution.information[index];
+                let cross = &contribution.cross[index];
+                column.cross.resize(cross.len(), 0.0);
+                for (sum, more) in column.cross.iter_mut().zip(cross) {
+                    *sum += more;
+                }
+            }
+        }
+        let profiles = self.fitted.profiles();
+        let gradients: Vec<&[f64]> = profiles.iter().map(|(_, g)| g.as_slice()).collect();
+        self.project_shared(&mut columns, &gradients);
+        let draws = contributions.into_iter().map(|of_one| of_one.control);
+        Ok(Scored {
+            columns,
+            draws: draws.collect(),
+        })
+    }
+
+    /// How many campaigns of nothing but noise there are.
+    pub fn control_campaigns(&self) -> usize {
+        self.control.campaigns
+    }
+
+    /// The columns of one of them.
+    pub fn of_noise(&self, scored: &Scored, campaign: usize) -> Vec<Column> {
+        let draws = || scored.draws.iter().map(|of_one| &of_one[campaign]);
+        let mut columns = scored.columns.clone();
+        for (index, column) in columns.iter_mut().enumerate() {
+            column.scores = draws().map(|draw| draw[index]).collect();
+        }
+        let gradients: Vec<&[f64]> = draws().map(|draw| &draw[columns.len()..]).collect();
+        self.project_shared(&mut columns, &gradients);
+        columns
+    }
+
+    /// What some tightenings, simulated side by side, add.
+    fn contributions(
+        &self,
+        members: &[usize],
+        columns: &[Column],
+        others: &[(Effect, Hypothesis<'_>)],
+    ) -> Vec<Contribution> {
+        let hypothesis = self.hypothesis;
+        // What an effect does is worked out from a torque without the noise that the residual has from it: a delay or a
+        // lag would otherwise be seen to remove that noise.
+        let smoothed: Vec<(Input, Vec<f64>)> = (members.iter())
+            .map(|&member| {
+                let input = hypothesis.cases[member].input.smoothed(NOISE_REACH);
+                (input, self.values(member))
+            })
+            .collect();
+        let asked: Vec<Asked<'_>> = (members.iter().zip(&smoothed))
+            .map(|(&member, (input, values))| Asked {
+                member,
+                input,
+                values,
+            })
+            .collect();
+        let plain = hypothesis.outputs(&asked);
+        let of_columns: Vec<Vec<Vec<f64>>> = (columns.par_iter())
+            .map(|column| {
+                let other = others.iter().find(|(effect, _)| *effect == column.effect);
+                let mut signatures = other.map_or_else(
+                    || plain.iter().map(|plain| vec![0.0; plain.len()]).collect(),
+                    |(_, other)| column.signatures(other, &asked, &plain),
+                );
+                for signature in &mut signatures {
+                    smooth(signature, INSTANT_REACH);
+                }
+                signatures
+            })
+            .collect();
+        (members.par_iter().enumerate())
+            .map(|(index, &member)| {
+                let own: Vec<&[f64]> = of_columns.iter().map(|of| of[index].as_slice()).collect();
+                self.contribution(member, &own)
+            })
+            .collect()
+    }
+
+    /// All parameters of one tightening's model as fitted.
+    fn values(&self, member: usize) -> Vec<f64> {
+        let fitted = self.fitted;
+        self.hypothesis
+            .values(member, &fitted.own[member], &fitted.shared)
+    }
+
+    /// What one tightening adds, given every column's signature in it.
+    fn contribution(&self, member: usize, of_columns: &[&[f64]]) -> Contribution {
+        let hypothesis = self.hypothesis;
+        // Stretches of one tightening share everything with each other.
+        let own_count = match self.units.are_whole() {
+            true => hypothesis.own.len(),
+            false => hypothesis.own.len() + hypothesis.shared.len(),
+        };
+        let order = [hypothesis.own.as_slice(), &hypothesis.shared].concat();
+        let values = self.values(member);
+        let mut room = Room::default();
+        let (residual, jacobian) = hypothesis.weighted(member, &values, &order, &mut room);
+        let count = residual.len();
+        let nuisance = Nuisance::new(jacobian, count, own_count);
+        // Sensitivities to the shared parameters, as far as the own ones cannot imitate them.
+        let (_, shared) = jacobian.split_at_mut(own_count * count);
+        for column in shared.chunks_exact_mut(count) {
+            nuisance.project(column);
+        }
+        let bias = self.bias_signature(member, &nuisance);
+        let mut contribution = Contribution {
+            scores: Vec::new(),
+            variances: Vec::new(),
+            information: Vec::new(),
+            cross: Vec::new(),
+            control: Vec::new(),
+        };
+        let mut signatures: Vec<Vec<f64>> = Vec::new();
+        let mut along_bias = Vec::new();
+        for signature in of_columns {
+            let mut z = hypothesis.weigh_signal(member, signature);
+            nuisance.project(&mut z);
+            let (mut scores, mut variances) = (Vec::new(), Vec::new());
+            let mut information = 0.0;
+            for range in self.units.ranges(count) {
+                let (z, r) = (&z[range.clone()], &residual[range.clone()]);
+                let along = bias
+                    .as_ref()
+                    .map_or(0.0, |bias| dot(z, &bias[range.clone()]));
+                let squares = dot(z, z);
+                scores.push(dot(z, r));
+                variances.push(squares + along * along);
+                information += squares;
+            }
+            // The Jacobian is that of the residual: minus the output's.
+            let cross = shared.chunks_exact(count).map(|shared| -dot(shared, &z));
+            contribution.cross.push(cross.collect());
+            contribution.scores.push(scores);
+            contribution.variances.push(variances);
+            contribution.information.push(information);
+            if self.control.campaigns > 0 {
+                along_bias.push(bias.as_ref().map_or(0.0, |bias| dot(&z, bias)));
+                signatures.push(z);
+            }
+        }
+        if self.control.campaigns > 0 {
+            for column in shared.chunks_exact(count) {
+                along_bias.push(bias.as_ref().map_or(0.0, |bias| dot(column, bias)));
+                signatures.push(column.to_vec());
+            }
+            contribution.control = self.draw(member, &signatures, &along_bias);
+        }
+        contribution
+    }
+
+    /// Scores of campaigns that hold nothing but noise: white noise, seen through what the signatures span.
+    fn draw(&self, member: usize, signatures: &[Vec<f64>], along_bias: &[f64]) -> Vec<Vec<f64>> {
+        let coordinates = coordinates(signatures);
+        let mut random = ChaCha8Rng::seed_from_u64(self.control.seed);
+        // Stream 0 flips signs.
+        random.set_stream(1 + member as u64);
+        (0..self.control.campaigns)
+            .map(|_| {
+                let noise: Vec<f64> = (0..coordinates.len())
+                    .map(|_| StandardNormal.sample(&mut random))
+                    .collect();
+                let bias: f64 = StandardNormal.sample(&mut random);
+                (coordinates.iter().zip(along_bias))
+                    .map(|(own, along)| dot(own, &noise[..own.len()]) + bias * along)
+                    .collect()
+            })
+            .collect()
+    }
+
+    /// What one standard error of the bias taken out in the quiet part does to the weighted output.
+    fn bias_signature(&self, member: usize, nuisance: &Nuisance) -> Option<Vec<f64>> {
+        let case = &self.hypothesis.cases[member];
+        let corrections = &case.tightening.corrections;
+        let bias = corrections
+            .iter()
+            .find(|c| c.effect == "acceleration_bias")?;
+        if case.quantity != snug_campaign::Quantity::Acceleration || bias.standard_error <= 0.0 {
+            return None;
+        }
+        let constant = vec![bias.standard_error; case.measured().len()];
+        let mut weighted = self.hypothesis.weigh_signal(member, &constant);
+        nuisance.project(&mut weighted);
+        Some(weighted)
+    }
+
+    /// Takes out of every column what the shared parameters of the model can imitate over all tightenings together.
+    fn project_shared(&self, columns: &mut [Column], gradients: &[&[f64]]) {
+        if !self.fitted.shared.is_empty() && self.units.are_whole() {
+            let curvature = self.fitted.shared_curvature();
+            for column in columns.iter_mut() {
+                let Some(b) = curvature.solve_scaled(&column.cross) else {
+                    continue;
+                };
+                column.information -= dot(&b, &column.cross);
+                for (score, gradient) in column.scores.iter_mut().zip(gradients) {
+                    *score += dot(&b, gradient);
+                }
+            }
+        }
+        columns.iter_mut().for_each(Column::bound);
+    }
+}

@@ -1,0 +1,6 @@
+//! Which effects to add, one after the other, and which of them are still needed.
+
+pub(crate) mod backward_elimination;
+pub(crate) mod forward_selection;
+pub(crate) mod path;
+pub(crate) mod search;

@@ -1,0 +1,236 @@
+//! What a climb leaves: its rungs, what was added and why, what is still missing and why it stopped.
+
+use crate::data::clusters::Units;
+use crate::error::DiagnoseError;
+use crate::library::is_unlisted;
+use crate::pooled::fitted::Fitted;
+use crate::ranking::paired_gain::agreement;
+use crate::ranking::rank::{Candidate, Ranking};
+use crate::settings::DiagnoseSettings;
+use snug_model::Effect;
+
+/// An effect that was added, with what spoke for it then.
+#[derive(Debug, Clone)]
+pub(crate) struct Addition {
+    pub effect: Effect,
+    pub p_family: f64,
+    /// Share of the misfit at that rung.
+    pub heldout_gain: f64,
+    pub twins: Vec<Effect>,
+}
+
+/// What became of an attempt to do without a term.
+#[derive(Debug, Clone)]
+pub(crate) struct Attempt {
+    pub effect: Effect,
+    pub removed: bool,
+    /// Growth of the squared residual without it.
+    pub loss: f64,
+    /// The same as a share of the squared residual.
+    pub growth: f64,
+}
+
+/// How far the climb went.
+pub(crate) struct Climb {
+    /// The models in order, the study's own first.
+    pub rungs: Vec<Fitted>,
+    pub additions: Vec<Addition>,
+    pub attempts: Vec<Attempt>,
+    /// The ranking against the last model; empty where nothing was ranked against it.
+    pub ranking: Ranking,
+    /// The ranking's candidate that is supported and matters, where the climb ends without adding it.
+    pub chosen: Option<usize>,
+    /// Why nothing more was added; `None` where nobody tried.
+    pub stopped: Option<Stop>,
+}
+
+impl Climb {
+    /// A model that is not to be changed and nothing ranked beside it.
+    pub fn only(fitted: Fitted) -> Self {
+        Self {
+            rungs: vec![fitted],
+            additions: Vec::new(),
+            attempts: Vec::new(),
+            ranking: Ranking::default(),
+            chosen: None,
+            stopped: None,
+        }
+    }
+
+    /// One rung up.
+    pub fn add(&mut self, addition: Addition, fitted: Fitted) {
+        self.additions.push(addition);
+        self.stand_on(fitted);
+    }
+
+    /// Another last model, against which nothing is ranked yet.
+    pub fn stand_on(&mut self, fitted: Fitted) {
+        self.rungs.push(fitted);
+        self.ranking = Ranking::default();
+    }
+
+    /// What was reached by `ended`, the end of the way; also where whoever watches ended it.
+    pub fn until_interrupted(
+        mut self,
+        ended: Result<(), DiagnoseError>,
+    ) -> Result<Self, DiagnoseError> {
+        match ended {
+            Err(DiagnoseError::Interrupted) => self.stopped = Some(Stop::Interrupted),
+            ended => ended?,
+        }
+        Ok(self)
+    }
+
+    /// Whether whoever watches ended it on the way.
+    pub fn is_interrupted(&self) -> bool {
+        self.stopped == Some(Stop::Interrupted)
+    }
+
+    /// The last model.
+    pub fn last(&self) -> &Fitted {
+        self.rungs.last().expect("a climb begins with a rung")
+    }
+
+    /// A candidate that is not supported, but might be with more tightenings: chance seldom does as much, or it explains a
+    /// good part of an error that is beyond the noise.
+    pub fn is_promising(&self, settings: &DiagnoseSettings) -> Option<&Candidate> {
+        let last = self.last();
+        self.ranking.candidates.iter().find(|candidate| {
+            let is_seldom = candidate.p_family < PROMISING_P;
+            let explains = last.is_beyond_noise() && candidate.gain() > GOOD_PART * misfit(last);
+            candidate.p_family > settings.level
+                && (is_seldom || explains)
+                && candidate.gain() > 2.0 * settings.smallest_gain * last.squares()
+                && candidate.clearness() > 1.0
+        })
+    }
+}
+
+/// Family-wise p below which a large but unsupported candidate leaves the verdict open.
+const PROMISING_P: f64 = 0.3;
+/// Share of the misfit beyond the noise from which an unsupported candidate does so, too.
+const GOOD_PART: f64 = 0.2;
+
+/// Why the climb stopped.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Stop {
+    /// No candidate reaches the level.
+    NothingSupported { best_p: f64 },
+    /// The best supported candidate lowers the error by too little to matter.
+    TooSmall { effect: Effect, share: f64 },
+    /// The model cannot carry more.
+    Full,
+    /// Whoever watches ended it; what it reached by then holds, what it would have reached is not known.
+    Interrupted,
+}
+
+impl Candidate {
+    /// Whether the data support it: beyond chance over the family, and a gain in held-out tightenings.
+    pub fn is_supported(&self, settings: &DiagnoseSettings) -> bool {
+        self.p_family <= settings.level && self.gains_clearly()
+    }
+
+    /// Whether of a long record it plainly leaves more than `other`.
+    pub fn falls_short_of(&self, other: &Self, units: &Units) -> bool {
+        leaves_more(&self.fitted, &other.fitted, &other.beyond(self), units)
+    }
+
+    /// Whether it explains hardly less than `best`.
+    pub fn keeps_up_with(&self, best: &Self, units: &Units) -> bool {
+        self.gain() > AS_MUCH * best.gain()
+            && best.ahead_of(self) < EQUAL
+            && !self.falls_short_of(best, units)
+    }
+
+    /// Whether held-out tightenings gain, and by more than one would expect of their scatter.
+    fn gains_clearly(&self) -> bool {
+        self.gain() > 0.0 && self.clearness() > 1.0
+    }
+}
+
+/// The first supported candidate that removes enough to matter, or why there is none.
+pub(crate) fn justified(
+    ranking: &Ranking,
+    current: &Fitted,
+    settings: &DiagnoseSettings,
+) -> Result<usize, Stop> {
+    let supported = |candidate: &Candidate| candidate.is_supported(settings);
+    match ranking.candidates.iter().position(supported) {
+        Some(index) => {
+            let candidate = &ranking.candidates[index];
+            let share = candidate.gain() / current.squares();
+            match share >= current.smallest_gain(settings) {
+                true => Ok(index),
+                false => Err(Stop::TooSmall {
+                    effect: candidate.effect,
+                    share,
+                }),
+            }
+        }
+        None => {
+            let all = ranking.candidates.iter();
+            let gaining = all.filter(|candidate| candidate.gains_clearly());
+            Err(Stop::NothingSupported {
+                best_p: gaining.map(|one| one.p_family).fold(1.0, f64::min),
+            })
+        }
+    }
+}
+
+/// Squared residual beyond the noise of each unit; where the noise is not known, all of it.
+pub(crate) fn misfits(fitted: &Fitted) -> Vec<f64> {
+    let blocks = fitted.blocks.iter();
+    blocks
+        .map(|block| block.squares - noise(fitted, block.count))
+        .collect()
+}
+
+/// Squared residual beyond the noise; where the noise is not known, all of it.
+pub(crate) fn misfit(fitted: &Fitted) -> f64 {
+    let squares = fitted.squares();
+    (squares - noise(fitted, fitted.count())).max(squares * 1e-3)
+}
+
+/// What noise alone leaves of `count` squared residuals; nothing is known of it where the noise is not.
+fn noise(fitted: &Fitted, count: usize) -> f64 {
+    if fitted.is_weighted {
+        count as f64
+    } else {
+        0.0
+    }
+}
+
+/// Standard deviations within which two candidates explain equally much.
+pub(crate) const EQUAL: f64 = 2.0;
+
+/// Share of what a candidate explains that another must explain, too, to keep up with it.
+const AS_MUCH: f64 = 0.5;
+
+/// Growth of the squared residual of a long record that is no matter of chance.
+const PLAINLY_MORE: f64 = 1.3;
+
+/// Whether `one` plainly leaves more than `other` of a long record, by `lost` in each stretch: its few stretches hardly
+/// make a statistic of their sum, and what wins one of them by much and loses most is another effect.
+pub(crate) fn leaves_more(one: &Fitted, other: &Fitted, lost: &[f64], units: &Units) -> bool {
+    !units.are_whole()
+        && (one.squares() > PLAINLY_MORE * other.squares()
+            || agreement(lost, other.scale()) > EQUAL)
+}
+
+/// Candidates that these data cannot tell from the one at `index`. A term in no catalogue is no twin of an effect: of
+/// equals the effect that is known is named.
+pub(crate) fn twins(ranking: &Ranking, index: usize, units: &Units) -> Vec<Effect> {
+    let chosen = &ranking.candidates[index];
+    ranking
+        .candidates
+        .iter()
+        .filter(|other| {
+            other.effect != chosen.effect
+                && (is_unlisted(chosen.effect) || !is_unlisted(other.effect))
+                && other.gains_clearly()
+                && chosen.ahead_of(other) > -EQUAL
+                && other.keeps_up_with(chosen, units)
+        })
+        .map(|other| other.effect)
+        .collect()
+}

@@ -1,0 +1,357 @@
+//! What is looked for beside a model: the ranking of all candidates, and which of them to add.
+
+use crate::data::cases::Cases;
+use crate::data::clusters::Units;
+use crate::error::DiagnoseError;
+use crate::library::is_unlisted;
+use crate::pooled::fit::{fit_effects, fit_part};
+use crate::pooled::fitted::Fitted;
+use crate::ranking::applicability::candidates;
+use crate::ranking::rank::{Candidate, Ranking, gains, rank};
+use crate::selection::path::{Addition, Climb, EQUAL, justified, misfit, twins};
+use crate::settings::DiagnoseSettings;
+use crate::watch::Watch;
+use snug_model::Effect;
+
+/// What stays the same while effects are looked for.
+pub(crate) struct Search<'a> {
+    pub cases: Cases<'a>,
+    /// Effects of the study's own model.
+    pub own: &'a [Effect],
+    /// Effects that the study declares but does not use: candidates, too.
+    pub custom: &'a [Effect],
+    pub units: Units,
+    pub settings: &'a DiagnoseSettings,
+    pub watch: &'a Watch<'a>,
+}
+
+/// Effects a model can be extended by before the climb is called off.
+pub(crate) const MOST_EFFECTS: usize = 5;
+
+impl Search<'_> {
+    /// The study's own model, nothing ranked beside it.
+    pub fn compare(&self) -> Result<Climb, DiagnoseError> {
+        let fitted = fit_effects(self.cases, self.own, None, self.units)?;
+        Ok(Climb::only(fitted))
+    }
+
+    /// The study's own model and what could be missing beside it; nothing is added. Whoever watches may end it.
+    pub fn diagnose(&self) -> Result<Climb, DiagnoseError> {
+        let mut climb = self.compare()?;
+        let ended = self.name_the_first(&mut climb);
+        climb.until_interrupted(ended)
+    }
+
+    fn name_the_first(&self, climb: &mut Climb) -> Result<(), DiagnoseError> {
+        climb.ranking = self.rank(climb.last(), self.settings.control_campaigns)?;
+        match justified(&climb.ranking, climb.last(), self.settings) {
+            Ok(best) => {
+                let steps = self.choose(climb.last(), &climb.ranking, best, MOST_EFFECTS)?;
+                let first = steps.first().map(|(addition, _)| addition.effect);
+                let all = &climb.ranking.candidates;
+                climb.chosen = all
+                    .iter()
+                    .position(|candidate| Some(candidate.effect) == first);
+            }
+            Err(stop) => climb.stopped = Some(stop),
+        }
+        Ok(())
+    }
+
+    /// The study's own model with `effects` added one after the other, and what is missing then, or as many of them as
+    /// were added before whoever watches ended it.
+    pub fn add(&self, effects: &[Effect]) -> Result<Climb, DiagnoseError> {
+        let mut climb = self.compare()?;
+        let ended = self.put_in(effects, &mut climb);
+        climb.until_interrupted(ended)
+    }
+
+    fn put_in(&self, effects: &[Effect], climb: &mut Climb) -> Result<(), DiagnoseError> {
+        for &effect in effects {
+            let ranking = self.rank_these(climb.last(), effect)?;
+            let index = ranking.candidates.iter().position(|c| c.effect == effect);
+            let Some(index) = index else { continue };
+            let (addition, fitted) = self.step(&ranking, index, climb.last());
+            climb.add(addition, self.settled(&fitted)?);
+        }
+        climb.ranking = self.rank(climb.last(), self.settings.control_campaigns)?;
+        match justified(&climb.ranking, climb.last(), self.settings) {
+            Ok(best) => climb.chosen = Some(self.single(&climb.ranking, best)),
+            Err(stop) => climb.stopped = Some(stop),
+        }
+        Ok(())
+    }
+
+    pub fn rank(
+        &self,
+        current: &Fitted,
+        control_campaigns: usize,
+    ) -> Result<Ranking, DiagnoseError> {
+        self.watch.begin(&format!(
+            "ranking what is missing beside {}",
+            list(&current.effects)
+        ))?;
+        let all = candidates(&self.cases, current, self.custom)?;
+        rank(
+            self.cases,
+            current,
+            &all,
+            self.units,
+            self.settings,
+            control_campaigns,
+            self.watch,
+        )
+    }
+
+    /// The same effects, fitted from there to the end.
+    pub fn settled(&self, fitted: &Fitted) -> Result<Fitted, DiagnoseError> {
+        fit_effects(self.cases, &fitted.effects, Some(fitted), self.units)
+    }
+
+    /// The ranking, with `effect` among the candidates whatever it is.
+    fn rank_these(&self, current: &Fitted, effect: Effect) -> Result<Ranking, DiagnoseError> {
+        let mut all = candidates(&self.cases, current, self.custom)?;
+        if !all.contains(&effect) {
+            all.push(effect);
+        }
+        self.watch.begin(&format!("adding {}", effect.name()))?;
+        rank(
+            self.cases,
+            current,
+            &all,
+            self.units,
+            self.settings,
+            0,
+            self.watch,
+        )
+    }
+
+    /// The best candidate, or a supported one that is as good and the likelier story: an effect of the catalogue, else the
+    /// term that makes most of the base model superfluous.
+    fn single(&self, ranking: &Ranking, best: usize) -> usize {
+        let all = &ranking.candidates;
+        let is_equal = |other: usize| all[other].keeps_up_with(&all[best], &self.units);
+        if let Some(listed) = self.listed(ranking).filter(|&listed| is_equal(listed)) {
+            return listed;
+        }
+        let equals: Vec<usize> = (best..all.len())
+            .filter(|&other| all[other].is_supported(self.settings) && is_equal(other))
+            .collect();
+        let fits: Vec<&Fitted> = equals.iter().map(|&one| &all[one].fitted).collect();
+        // Of several the first, which is the last that is asked.
+        let likeliest = equals
+            .into_iter()
+            .rev()
+            .max_by_key(|&one| all[one].fitted.makes_superfluous(&fits));
+        likeliest.unwrap_or(best)
+    }
+
+    /// The first supported effect of the catalogue.
+    fn listed(&self, ranking: &Ranking) -> Option<usize> {
+        let all = &ranking.candidates;
+        all.iter()
+            .position(|c| !is_unlisted(c.effect) && c.is_supported(self.settings))
+    }
+
+    /// What to add: one effect, or, where one leaves much, the two that together leave least. Of equals a catalogue
+    /// effect comes before an unlisted term.
+    pub fn choose(
+        &self,
+        current: &Fitted,
+        ranking: &Ranking,
+        best: usize,
+        room: usize,
+    ) -> Result<Vec<Step>, DiagnoseError> {
+        let winner = &ranking.candidates[best];
+        let single = self.single(ranking, best);
+        let leaves_much = self.leaves_much(&ranking.candidates[single].fitted, current);
+        let half = |listed: usize| ranking.candidates[listed].gain() > 0.5 * winner.gain();
+        let challenged = is_unlisted(winner.effect) && self.listed(ranking).is_some_and(half);
+        let alone = vec![self.step(ranking, single, current)];
+        // In stretches of one long record the next rung shows as much, for a third of the work.
+        let pays = room > 1 && self.units.are_whole();
+        if !pays || !(challenged || leaves_much) {
+            return Ok(alone);
+        }
+        let Some((seed, together, second)) = self.best_pair(current, ranking)? else {
+            return Ok(alone);
+        };
+        let one = &ranking.candidates[single];
+        let better = together.gain() > one.gain() && together.ahead_of(one) > EQUAL;
+        // Two catalogue effects that leave as little as one unlisted term are the likelier story.
+        let as_good = is_unlisted(one.effect) && together.keeps_up_with(one, &self.units);
+        Ok(match better || as_good {
+            true => self.larger_first(current, ranking, seed, second),
+            false => alone,
+        })
+    }
+
+    /// A pair as two steps, the one that explains more by itself, and is supported by itself, first.
+    fn larger_first(
+        &self,
+        current: &Fitted,
+        ranking: &Ranking,
+        seed: usize,
+        second: Step,
+    ) -> Vec<Step> {
+        let (addition, both) = second;
+        let mut before = ranking.candidates.iter().take(seed);
+        let is_it = |c: &Candidate| c.effect == addition.effect && c.is_supported(self.settings);
+        match before.position(is_it) {
+            Some(larger) => {
+                let (smaller, _) = self.step(ranking, seed, current);
+                vec![self.step(ranking, larger, current), (smaller, both)]
+            }
+            None => vec![self.step(ranking, seed, current), (addition, both)],
+        }
+    }
+
+    /// Whether `left` is far from the noise for a model that should explain what `current` misses.
+    fn leaves_much(&self, left: &Fitted, current: &Fitted) -> bool {
+        misfit(left) > MUCH_LEFT * misfit(current) && !is_noise(left)
+    }
+
+    /// Whether `left` is next to nothing of what `current` misses, so that no others could be far ahead.
+    fn completes(&self, left: &Fitted, current: &Fitted) -> bool {
+        misfit(left) < LITTLE_LEFT * misfit(current) && is_noise(left)
+    }
+
+    /// The two catalogue effects that together explain most: where the first stands in the ranking, both, the second.
+    ///
+    /// Looked for from the best few until two are found that leave next to nothing; as long as they leave much, from the
+    /// second of them, too: one that explains little by itself may be what the best beside it stood in for.
+    fn best_pair(
+        &self,
+        current: &Fitted,
+        ranking: &Ranking,
+    ) -> Result<Option<(usize, Candidate, Step)>, DiagnoseError> {
+        let heldout = current.heldout_beyond_torque_noise();
+        let mut pair: Option<(usize, Candidate, Step)> = None;
+        let all = ranking.candidates.iter().enumerate();
+        let supported =
+            all.filter(|(_, c)| !is_unlisted(c.effect) && c.is_supported(self.settings));
+        let mut seeds: Vec<usize> = supported.map(|(seed, _)| seed).take(SEEDS).collect();
+        let mut next = 0;
+        let is_complete = |pair: &Option<(usize, Candidate, Step)>| {
+            (pair.as_ref()).is_some_and(|(_, both, _)| self.completes(&both.fitted, current))
+        };
+        while let Some(&seed) = seeds.get(next)
+            && !is_complete(&pair)
+        {
+            next += 1;
+            if let Some((together, second)) = self.beside(ranking, seed, &heldout)?
+                && (pair.as_ref()).is_none_or(|(_, known, _)| together.gain() > known.gain())
+            {
+                pair = Some((seed, together, second));
+            }
+            if let Some((_, together, (second, _))) = &pair
+                && next == seeds.len()
+                && self.leaves_much(&together.fitted, current)
+            {
+                let mut all = ranking.candidates.iter();
+                let place = all.position(|c| c.effect == second.effect);
+                seeds.extend(place.filter(|place| !seeds.contains(place)));
+            }
+        }
+        Ok(pair)
+    }
+
+    /// What explains most beside the candidate at `seed`, judged by `heldout`, what was left without either.
+    fn beside(
+        &self,
+        ranking: &Ranking,
+        seed: usize,
+        heldout: &[f64],
+    ) -> Result<Option<(Candidate, Step)>, DiagnoseError> {
+        let first = &ranking.candidates[seed].fitted;
+        self.watch
+            .begin(&format!("looking ahead from {}", list(&first.effects)))?;
+        let mut seconds = candidates(&self.cases, first, self.custom)?;
+        seconds.retain(|&effect| !is_unlisted(effect));
+        let mut found = match self.cases.len() > ENOUGH_AHEAD {
+            true => self.second_of_part(first, &seconds)?,
+            false => self.second_of(self.cases, first, &seconds)?,
+        };
+        if let Some((together, _)) = &mut found {
+            together.gains = gains(heldout, &together.fitted);
+        }
+        Ok(found)
+    }
+
+    /// What of `seconds` is justified beside `first`, a fit of `cases`.
+    fn second_of(
+        &self,
+        cases: Cases<'_>,
+        first: &Fitted,
+        seconds: &[Effect],
+    ) -> Result<Option<(Candidate, Step)>, DiagnoseError> {
+        let (units, settings) = (self.units, self.settings);
+        let next = rank(cases, first, seconds, units, settings, 0, self.watch)?;
+        let second = justified(&next, first, settings).ok();
+        Ok(second.map(|index| {
+            let together = next.candidates[index].clone();
+            (together, self.step(&next, index, first))
+        }))
+    }
+
+    /// The same of many tightenings: the second is found on a part of them, since two are looked for only where much is
+    /// left, then fitted to all. The chance and the twins are those of the part.
+    fn second_of_part(
+        &self,
+        first: &Fitted,
+        seconds: &[Effect],
+    ) -> Result<Option<(Candidate, Step)>, DiagnoseError> {
+        let members = first.spread(ENOUGH_AHEAD);
+        let part = self.cases.some(&members);
+        let cases = self.cases.others(&part);
+        let of_part = fit_part(cases, &members, first, self.units)?;
+        let Some((_, (ahead, _))) = self.second_of(cases, &of_part, seconds)? else {
+            return Ok(None);
+        };
+        let found = self.second_of(self.cases, first, &[ahead.effect])?;
+        Ok(found.map(|(together, (mut addition, fitted))| {
+            (addition.p_family, addition.twins) = (ahead.p_family, ahead.twins);
+            (together, (addition, fitted))
+        }))
+    }
+
+    fn step(&self, ranking: &Ranking, index: usize, current: &Fitted) -> Step {
+        let candidate = &ranking.candidates[index];
+        let addition = Addition {
+            effect: candidate.effect,
+            p_family: candidate.p_family,
+            heldout_gain: candidate.gain() / misfit(current),
+            twins: twins(ranking, index, &self.units),
+        };
+        (addition, candidate.fitted.clone())
+    }
+}
+
+type Step = (Addition, Fitted);
+
+/// Whether `left` leaves no more than the noise and a little.
+fn is_noise(left: &Fitted) -> bool {
+    left.is_weighted && left.scale() < NOISE_AND_A_LITTLE
+}
+
+/// In units of the noise's variance.
+const NOISE_AND_A_LITTLE: f64 = 1.02;
+/// Share of the misfit left by one effect beyond which two are tried together.
+const MUCH_LEFT: f64 = 0.02;
+/// Share of the misfit left by two effects below which no other two are looked for.
+const LITTLE_LEFT: f64 = 0.05;
+/// Tightenings that are enough to find the second of two effects.
+const ENOUGH_AHEAD: usize = 80;
+/// Effects from which a second is looked for.
+const SEEDS: usize = 3;
+
+fn list(effects: &[Effect]) -> String {
+    match effects {
+        [] => "the base model".to_owned(),
+        some => some
+            .iter()
+            .map(|effect| effect.name())
+            .collect::<Vec<_>>()
+            .join(" + "),
+    }
+}

@@ -1,0 +1,10 @@
+//! What was found, as the answer to a question.
+
+pub(crate) mod answer;
+pub(crate) mod detectability;
+pub(crate) mod experiment;
+pub(crate) mod ladder;
+pub(crate) mod preparation;
+pub(crate) mod tightening_fits;
+pub(crate) mod trend;
+pub(crate) mod wording;

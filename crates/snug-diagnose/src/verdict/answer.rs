@@ -1,0 +1,399 @@
+//! What the data answer: the climb told as a diagnosis.
+
+use crate::data::case::Case;
+use crate::data::cases::Cases;
+use crate::data::clusters::Units;
+use crate::error::DiagnoseError;
+use crate::library::{declaration, is_unlisted};
+use crate::locate::{compare, drifts, locate};
+use crate::pooled::fitted::{AT_FLOOR, Fitted};
+use crate::pooled::sizes::parameters;
+use crate::question::Question;
+use crate::ranking::rank::{Candidate, Ranking};
+use crate::selection::path::{Addition, Attempt, Climb, misfit, misfits, twins};
+use crate::settings::DiagnoseSettings;
+use crate::verdict::experiment::separating_experiment;
+use crate::verdict::tightening_fits::Sight;
+use crate::verdict::trend::trends;
+use crate::verdict::wording::Situation;
+use crate::verdict::{detectability, ladder, preparation, wording};
+use crate::watch::Watch;
+use snug_campaign::{
+    AddedEffect, Comparison, CorrectedEffect, Diagnosis, Drift, EffectParameter, Experiment,
+    Location, NegativeControl, RankedEffect, Removal, UnlistedTerm, Verdict,
+};
+use snug_model::{CustomEffectSettings, Effect, Law};
+
+/// The model of one rung.
+#[derive(Debug, Clone)]
+pub struct RungModel {
+    /// Its effects.
+    pub effects: Vec<String>,
+    /// Declarations of those effects that the study does not know yet.
+    pub declarations: Vec<CustomEffectSettings>,
+    /// Mass, damping and stiffness that go with them, as a place to begin; only where few long records were fitted.
+    pub base: Vec<(String, f64)>,
+    /// Sizes of the effects, shared ones and each tightening's own.
+    pub parameters: Vec<EffectParameter>,
+}
+
+/// What the data answer.
+#[derive(Debug, Clone)]
+pub struct Answer {
+    /// Everything but what only a whole run of the study can tell of each rung.
+    pub diagnosis: Diagnosis,
+    /// The model of each rung of the ladder.
+    pub models: Vec<RungModel>,
+}
+
+/// A question, and the climb that it led to.
+pub(crate) struct Examination<'a> {
+    pub question: &'a Question<'a>,
+    pub cases: Cases<'a>,
+    pub settings: &'a DiagnoseSettings,
+    pub climb: Climb,
+    pub watch: Watch<'a>,
+}
+
+/// Where the models at both ends of the climb fail.
+struct Places {
+    comparison: Comparison,
+    location: Location,
+    /// `None` where the last model is the first.
+    final_location: Option<Location>,
+    drift: Vec<Drift>,
+}
+
+impl Places {
+    fn last(&self) -> &Location {
+        self.final_location.as_ref().unwrap_or(&self.location)
+    }
+}
+
+impl Examination<'_> {
+    /// Everything that is told of the climb.
+    pub fn answer(self) -> Result<Answer, DiagnoseError> {
+        self.watch.begin("looking where the model fails")?;
+        let cases = self.question.cases;
+        let last = self.climb.last();
+        let places = self.places()?;
+        let verdict = self.verdict(places.last().repeatable_share);
+        let ranking = self.ranking(&places.drift);
+        let corrected = preparation::corrected(cases);
+        let situation = self.situation(verdict, &ranking, &corrected);
+        let experiment = self.experiment(&situation)?;
+        let (headline, reasons, stopped) = (
+            wording::headline(&situation),
+            wording::reasons(&situation),
+            wording::stopped(&situation),
+        );
+        let rungs = self.climb.rungs.iter();
+        let diagnosis = Diagnosis {
+            verb: self.question.goal.verb().to_owned(),
+            verdict,
+            headline,
+            reasons,
+            stopped,
+            interrupted: self.climb.is_interrupted(),
+            tightenings: cases.len(),
+            noise: preparation::noise(cases),
+            compared_output: cases[0].quantity.name().to_owned(),
+            added: self.added(),
+            corrected,
+            ladder: rungs.clone().map(|one| ladder::rung(cases, one)).collect(),
+            ranking,
+            removals: self.climb.attempts.iter().map(removal).collect(),
+            comparison: places.comparison,
+            drift: places.drift,
+            location: places.location,
+            final_location: places.final_location,
+            detectability: detectability::cards(&self.climb.ranking, last, self.settings),
+            control: self.control(),
+            unlisted: self.unlisted(),
+            experiment,
+            showcase: None,
+            work: self.cases.tally().done(),
+        };
+        Ok(Answer {
+            diagnosis,
+            models: rungs.map(|rung| rung_model(cases, rung)).collect(),
+        })
+    }
+
+    /// Where the first model fails, and where the last, if it is another.
+    fn places(&self) -> Result<Places, DiagnoseError> {
+        let (first, last) = (&self.climb.rungs[0], self.climb.last());
+        let (cases, seed) = (self.question.cases, self.settings.seed);
+        let sight = Sight::of(cases, first)?;
+        let base = sight.seen();
+        let final_location = match last.effects == first.effects {
+            true => None,
+            false => Some(locate(&Sight::of(cases, last)?.seen(), seed)),
+        };
+        Ok(Places {
+            comparison: compare(&base),
+            location: locate(&base, seed),
+            final_location,
+            drift: drifts(&base),
+        })
+    }
+
+    /// What the words are about.
+    fn situation<'s>(
+        &'s self,
+        verdict: Verdict,
+        ranking: &'s [RankedEffect],
+        corrected: &'s [CorrectedEffect],
+    ) -> Situation<'s> {
+        let climb = &self.climb;
+        let units = Units::of(self.question.cases);
+        Situation {
+            verb: self.question.goal.verb(),
+            verdict,
+            tightenings: self.question.cases.len(),
+            units,
+            before: &climb.rungs[0],
+            after: climb.last(),
+            additions: &climb.additions,
+            chosen: climb.chosen.map(|index| &climb.ranking.candidates[index]),
+            twins: (climb.chosen)
+                .map_or_else(Vec::new, |index| twins(&climb.ranking, index, &units)),
+            ranking,
+            stopped: climb.stopped,
+            impossible: &climb.ranking.impossible,
+            corrected,
+            settings: self.settings,
+        }
+    }
+
+    /// The experiment that tells the effect last named from its twin; who ended the climb does not wait for it.
+    fn experiment(&self, situation: &Situation<'_>) -> Result<Option<Experiment>, DiagnoseError> {
+        let Some((first, second)) = situation.twin_pair() else {
+            return Ok(None);
+        };
+        if self.climb.is_interrupted() {
+            return Ok(None);
+        }
+        self.watch
+            .begin("looking for the experiment that tells the twins apart")?;
+        Ok(separating_experiment(self.cases, first, second))
+    }
+
+    fn verdict(&self, repeatable: Option<f64>) -> Verdict {
+        let last = self.climb.last();
+        let added_unlisted = self
+            .climb
+            .additions
+            .iter()
+            .any(|one| is_unlisted(one.effect));
+        if self.climb.is_interrupted() {
+            return Verdict::Undecided;
+        }
+        if self.climb.ranking.candidates.is_empty() {
+            return match last.is_at_floor() {
+                true => Verdict::Adequate,
+                false => Verdict::Undecided,
+            };
+        }
+        if let Some(chosen) = self.climb.chosen {
+            return match is_unlisted(self.climb.ranking.candidates[chosen].effect) {
+                true => Verdict::UnlistedEffect,
+                false => Verdict::MissingEffect,
+            };
+        }
+        if added_unlisted {
+            return Verdict::UnlistedEffect;
+        }
+        // What takes several effects and still leaves more than noise is something else, in pieces.
+        if self.climb.additions.len() > 1 && last.is_beyond_noise() {
+            return Verdict::UnlistedEffect;
+        }
+        let floor = match self.climb.additions.is_empty() {
+            true => AT_FLOOR,
+            false => BESIDE_EFFECTS,
+        };
+        if last.is_weighted && last.error() > floor && repeatable.is_some_and(|r| r > REPEATS) {
+            return Verdict::UnlistedEffect;
+        }
+        match self.climb.is_promising(self.settings) {
+            Some(_) => Verdict::Undecided,
+            None => Verdict::Adequate,
+        }
+    }
+
+    /// The candidates, the chosen one first, and behind them the trends.
+    fn ranking(&self, drift: &[Drift]) -> Vec<RankedEffect> {
+        let ranking = &self.climb.ranking;
+        let mut order: Vec<usize> = (0..ranking.candidates.len()).collect();
+        if let Some(chosen) = self.climb.chosen {
+            order.retain(|&index| index != chosen);
+            order.insert(0, chosen);
+        }
+        let whole = misfit(self.climb.last());
+        let Some(&first) = order.first() else {
+            return Vec::new();
+        };
+        let first = &ranking.candidates[first];
+        let ranked = order
+            .iter()
+            .map(|&index| self.ranked(ranking, index, whole, first));
+        ranked.chain(trends(drift, self.question.cases)).collect()
+    }
+
+    fn ranked(
+        &self,
+        ranking: &Ranking,
+        index: usize,
+        misfit: f64,
+        first: &Candidate,
+    ) -> RankedEffect {
+        let candidate = &ranking.candidates[index];
+        let sizes = parameters(self.question.cases, &candidate.fitted, candidate.effect);
+        let supported = candidate.is_supported(self.settings);
+        let twins = match supported {
+            true => twins(ranking, index, &Units::of(self.question.cases)),
+            false => Vec::new(),
+        };
+        RankedEffect {
+            effect: candidate.effect.name().to_owned(),
+            kind: candidate.effect.description().kind.name().to_owned(),
+            unlisted: is_unlisted(candidate.effect),
+            expression: declaration(candidate.effect.name()).map(|term| term.expression),
+            score: candidate.score,
+            p_family: candidate.p_family,
+            heldout_gain: candidate.gain() / misfit,
+            heldout_gain_error: candidate.share_error(&misfits(self.climb.last())),
+            error_over_noise: candidate
+                .fitted
+                .is_weighted
+                .then(|| candidate.fitted.error()),
+            behind_first: first.ahead_of(candidate),
+            twins: twins.iter().map(|twin| twin.name().to_owned()).collect(),
+            plausible: candidate.fitted.converged
+                && sizes.iter().all(EffectParameter::is_plausible),
+            explanation: wording::explanation(candidate.effect, &candidate.fitted),
+            parameters: sizes,
+        }
+    }
+
+    fn added(&self) -> Vec<AddedEffect> {
+        let (cases, last) = (self.question.cases, self.climb.last());
+        let known = self.climb.rungs[0]
+            .effects
+            .iter()
+            .map(|&effect| (effect, None));
+        let added = self
+            .climb
+            .additions
+            .iter()
+            .map(|one| (one.effect, Some(one)));
+        known
+            .chain(added)
+            .filter(|(effect, _)| last.effects.contains(effect))
+            .map(|(effect, one): (Effect, Option<&Addition>)| {
+                let sizes = parameters(cases, last, effect);
+                AddedEffect {
+                    effect: effect.name().to_owned(),
+                    kind: effect.description().kind.name().to_owned(),
+                    expression: declaration(effect.name()).map(|d| d.expression),
+                    twins: one.map_or_else(Vec::new, |one| {
+                        one.twins
+                            .iter()
+                            .map(|twin| twin.name().to_owned())
+                            .collect()
+                    }),
+                    p_family: one.map(|one| one.p_family),
+                    heldout_gain: one.map(|one| one.heldout_gain),
+                    needed: (self.climb.attempts.iter())
+                        .find(|attempt| attempt.effect == effect)
+                        .map(|attempt| attempt.loss / last.squares()),
+                    explanation: wording::explanation(effect, last),
+                    parameters: sizes,
+                }
+            })
+            .collect()
+    }
+
+    fn control(&self) -> Option<NegativeControl> {
+        let (campaigns, false_alarms) = self.climb.ranking.control;
+        if campaigns == 0 {
+            return None;
+        }
+        let interval = snug_statistics::proportion::wilson(false_alarms, campaigns, 0.95)
+            .ok()?
+            .interval;
+        Some(NegativeControl {
+            campaigns,
+            false_alarms,
+            nominal_rate: self.settings.level,
+            rate_low: interval.low,
+            rate_high: interval.high,
+        })
+    }
+
+    /// The unlisted term that was added or that the ranking chose.
+    fn unlisted(&self) -> Option<UnlistedTerm> {
+        let added = self
+            .climb
+            .additions
+            .iter()
+            .find(|one| is_unlisted(one.effect));
+        let chosen = self
+            .climb
+            .chosen
+            .map(|index| &self.climb.ranking.candidates[index]);
+        let (effect, gain, fitted) = match (added, chosen) {
+            (Some(one), _) => (one.effect, one.heldout_gain, self.climb.last()),
+            (None, Some(one)) if is_unlisted(one.effect) => (
+                one.effect,
+                one.gain() / misfit(self.climb.last()),
+                &one.fitted,
+            ),
+            _ => return None,
+        };
+        let declared = declaration(effect.name())?;
+        let sizes = parameters(self.question.cases, fitted, effect);
+        Some(UnlistedTerm {
+            statement: wording::unlisted(&declared, gain, &sizes, Units::of(self.question.cases)),
+            ron: wording::paste(&declared, &sizes),
+            expression: declared.expression,
+            heldout_gain: gain,
+        })
+    }
+}
+
+/// Error over noise below which what repeats beside effects that were added is their own: the instants at which the grip
+/// sets in are never quite right.
+const BESIDE_EFFECTS: f64 = 1.05;
+
+/// Share of the misfit that must repeat before it is called an effect.
+const REPEATS: f64 = 0.2;
+
+fn rung_model(cases: &[Case], fitted: &Fitted) -> RungModel {
+    RungModel {
+        effects: fitted
+            .effects
+            .iter()
+            .map(|effect| effect.name().to_owned())
+            .collect(),
+        declarations: fitted
+            .effects
+            .iter()
+            .filter_map(|effect| declaration(effect.name()))
+            .collect(),
+        base: fitted.base(),
+        parameters: fitted
+            .effects
+            .iter()
+            .flat_map(|&effect| parameters(cases, fitted, effect))
+            .collect(),
+    }
+}
+
+fn removal(attempt: &Attempt) -> Removal {
+    Removal {
+        effect: attempt.effect.name().to_owned(),
+        removed: attempt.removed,
+        statement: wording::removal(attempt),
+    }
+}

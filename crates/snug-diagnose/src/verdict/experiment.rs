@@ -1,0 +1,153 @@
+//! The experiment that tells twins apart: tightenings are simulated with the one and fitted with the other.
+
+use crate::data::case::Case;
+use crate::data::cases::Cases;
+use crate::data::clusters::Units;
+use crate::pooled::fit::fit_effects;
+use crate::pooled::fitted::Fitted;
+use crate::pooled::model::Hypothesis;
+use crate::pooled::sizes::held;
+use crate::verdict::wording::spoken;
+use snug_campaign::Experiment;
+use snug_least_squares::PooledSettings;
+use snug_model::{Effect, Input};
+
+/// How the torque of a tightening at hand is changed for a tightening to be made.
+struct Change {
+    words: &'static str,
+    torque: f64,
+    duration: f64,
+}
+
+const CHANGES: &[Change] = &[
+    Change {
+        words: "as they were",
+        torque: 1.0,
+        duration: 1.0,
+    },
+    Change {
+        words: "with half the target torque",
+        torque: 0.5,
+        duration: 1.0,
+    },
+    Change {
+        words: "with 1.5 times the target torque",
+        torque: 1.5,
+        duration: 1.0,
+    },
+    Change {
+        words: "on a harder joint (pulse half as long)",
+        torque: 1.0,
+        duration: 0.5,
+    },
+    Change {
+        words: "on a softer joint (pulse twice as long)",
+        torque: 1.0,
+        duration: 2.0,
+    },
+    Change {
+        words: "with 1.5 times the target torque on a softer joint",
+        torque: 1.5,
+        duration: 2.0,
+    },
+];
+
+/// Tightenings at hand from which the new ones are made.
+const PATTERNS: usize = 6;
+/// Squared distance over noise that tells two models apart with 95 % power at 95 % confidence: (2 · (1.645 + 1.96))².
+const TELLING: f64 = 52.0;
+
+/// The change of conditions under which `second`, refitted, stays furthest from `first`.
+pub(crate) fn separating_experiment(
+    cases: Cases<'_>,
+    first: &Fitted,
+    second: Effect,
+) -> Option<Experiment> {
+    let chosen = *first.effects.last()?;
+    let few = first.spread(PATTERNS);
+    let mut best: Option<(&Change, f64)> = None;
+    for change in CHANGES {
+        let distance = distance(cases, first, second, &few, change)?;
+        if best.is_none_or(|(_, known)| distance > known) {
+            best = Some((change, distance));
+        }
+    }
+    let (change, distance) = best?;
+    let tightenings = (distance > 1e-3).then(|| (TELLING / distance).ceil().max(1.0) as usize);
+    let between = [chosen, second].map(spoken);
+    let statement = match tightenings {
+        Some(1) => format!(
+            "To tell {} from {}: one more tightening {} is enough.",
+            between[0], between[1], change.words
+        ),
+        Some(number) if number <= 10_000 => format!(
+            "To tell {} from {}: make about {number} more tightenings {}.",
+            between[0], between[1], change.words
+        ),
+        _ => format!(
+            "No change of torque or joint that was tried tells {} from {}: the two need a look at the bench.",
+            between[0], between[1]
+        ),
+    };
+    Some(Experiment {
+        between: between.to_vec(),
+        conditions: change.words.to_owned(),
+        tightenings: tightenings.filter(|number| *number <= 10_000),
+        distance_per_tightening: distance,
+        statement,
+    })
+}
+
+/// Mean squared distance over noise per tightening between data simulated with `first` and `second` refitted to them.
+fn distance(
+    cases: Cases<'_>,
+    first: &Fitted,
+    second: Effect,
+    few: &[usize],
+    change: &Change,
+) -> Option<f64> {
+    let mut made = Vec::new();
+    for &index in few {
+        made.push(simulated(&cases[index], first, index, change)?);
+    }
+    let mut effects = first.effects.clone();
+    effects.pop();
+    let base = fit_effects(cases.others(&made), &effects, None, Units { per_case: 1 }).ok()?;
+    effects.push(second);
+    let mut hypothesis = Hypothesis::new(cases.others(&made), &effects).ok()?;
+    let start = base.start(&hypothesis);
+    let end = hypothesis.fit(&start, &PooledSettings::default()).ok()?;
+    Some(2.0 * end.cost() / made.len() as f64)
+}
+
+/// A tightening as `first` says it would go under changed conditions, without noise.
+fn simulated(case: &Case, first: &Fitted, member: usize, change: &Change) -> Option<Case> {
+    let model = held(case, first, None)?;
+    let samples = case.tightening.torque_nm.len();
+    let interval_s = case.tightening.time_base.interval_s;
+    let onset = case.tightening.onset.unwrap_or(0);
+    let torque: Vec<f64> = (0..samples)
+        .map(|index| {
+            let since = (index as f64 - onset as f64) / change.duration + onset as f64;
+            let at = since.clamp(0.0, (samples - 1) as f64);
+            let (low, part) = (at as usize, at.fract());
+            let high = (low + 1).min(samples - 1);
+            let torque = &case.tightening.torque_nm;
+            change.torque * (torque[low] * (1.0 - part) + torque[high] * part)
+        })
+        .collect();
+    let input = Input::new(&torque, interval_s, snug_campaign::Intersample::Linear)
+        .with_onset(case.input.onset_s())
+        .with_rest_before(case.input.rest_before_s());
+    let mut values: Vec<f64> = model.parameters().iter().map(|p| p.value).collect();
+    for (name, value) in first.own_named(member) {
+        let index = model.parameters().iter().position(|p| p.name == name)?;
+        values[index] = value;
+    }
+    let mut made = case.clone();
+    made.tightening.motion = model.simulate(&values, &input);
+    made.tightening.torque_nm = torque;
+    made.tightening.corrections.clear();
+    made.input = input;
+    Some(made)
+}

@@ -1,0 +1,76 @@
+//! A rung of the error ladder: what a fitted model leaves, in the sample and in what was held out.
+
+use crate::data::case::Case;
+use crate::pooled::fitted::Fitted;
+use crate::pooled::sizes::held;
+use snug_campaign::Rung;
+use std::collections::BTreeSet;
+
+/// All of a rung but what only an evaluation of the whole study can tell.
+pub(crate) fn rung(cases: &[Case], fitted: &Fitted) -> Rung {
+    let squares = fitted.squares();
+    let target = |unit: usize| {
+        let target = cases[fitted.members[unit]].tightening.target_torque_nm;
+        if target.is_finite() {
+            target.round() as usize
+        } else {
+            0
+        }
+    };
+    let names: Vec<Option<&String>> = {
+        let all = cases
+            .iter()
+            .map(|case| case.tightening.conditions.participant.as_ref());
+        all.collect()
+    };
+    let person = |unit: usize| {
+        let own = names[fitted.members[unit]];
+        names.iter().position(|name| *name == own).unwrap_or(0)
+    };
+    let relative =
+        |heldout: Vec<f64>| fitted.error() * (heldout.iter().sum::<f64>() / squares).sqrt();
+    let several = |group: &dyn Fn(usize) -> usize| {
+        let groups: BTreeSet<usize> = (0..fitted.blocks.len()).map(group).collect();
+        groups.len() > 1
+    };
+    let weighted = fitted.is_weighted;
+    Rung {
+        effects: fitted
+            .effects
+            .iter()
+            .map(|effect| effect.name().to_owned())
+            .collect(),
+        error_over_noise: weighted.then(|| fitted.error()),
+        heldout_error_over_noise: weighted.then(|| relative(fitted.heldout(&|unit| unit))),
+        heldout_target_error_over_noise: (weighted && several(&target))
+            .then(|| relative(fitted.heldout(&target))),
+        heldout_participant_error_over_noise: (weighted && several(&person))
+            .then(|| relative(fitted.heldout(&person))),
+        rms_fitted_output: rms_residual(cases, fitted),
+        rms_displacement_rad: None,
+        fit_percent_median: None,
+        selected_fraction: f64::NAN,
+    }
+}
+
+/// Root mean square of measured − simulated of the compared output, in its unit.
+fn rms_residual(cases: &[Case], fitted: &Fitted) -> f64 {
+    let (mut squares, mut count) = (0.0, 0_usize);
+    for (member, case) in cases.iter().enumerate() {
+        let Some(model) = held(case, fitted, None) else {
+            continue;
+        };
+        let mut values: Vec<f64> = model.parameters().iter().map(|p| p.value).collect();
+        for (name, value) in fitted.own_named(member) {
+            if let Some(index) = model.parameters().iter().position(|p| p.name == name) {
+                values[index] = value;
+            }
+        }
+        let mut output = vec![0.0; case.measured().len()];
+        model.output(&values, &case.input, case.quantity, &mut output);
+        let scored = output.iter().zip(case.measured()).skip(case.unscored);
+        squares += scored.map(|(s, m)| (m - s).powi(2)).sum::<f64>();
+        count += output.len() - case.unscored;
+    }
+    (squares / count.max(1) as f64).sqrt()
+}
