@@ -1,4 +1,4 @@
-use crate::Number;
+use crate::numeric::number::Number;
 use snug_campaign::Quantity;
 
 /// Where in the chain from bolt to sample an effect sits.
@@ -252,7 +252,12 @@ pub trait Law {
     ///
     /// `at` is the instant of the true motion `motion`.
     #[inline(always)]
-    fn leak<N: Number>(&self, _p: &[N], _at: &Instant<N>, _motion: &Kinematics<N>) -> Option<N> {
+    fn cross_sensitivity<N: Number>(
+        &self,
+        _p: &[N],
+        _at: &Instant<N>,
+        _motion: &Kinematics<N>,
+    ) -> Option<N> {
         None
     }
 

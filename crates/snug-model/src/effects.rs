@@ -1,8 +1,8 @@
 //! The catalogue: one file per effect, one line each in the list below.
 
-use crate::Number;
-use crate::custom::CustomEffect;
+use crate::custom::law::CustomEffect;
 use crate::effect::{Deflection, Delayed, Description, Instant, Kinematics, Law, LoggedTorque};
+use crate::numeric::number::Number;
 use snug_campaign::Quantity;
 
 /// Declares the effects' modules and an enum over them that forwards every hook of [`Law`].
@@ -101,10 +101,10 @@ macro_rules! catalogue {
                 }
             }
             #[inline(always)]
-            fn leak<N: Number>(&self, p: &[N], at: &Instant<N>, motion: &Kinematics<N>) -> Option<N> {
+            fn cross_sensitivity<N: Number>(&self, p: &[N], at: &Instant<N>, motion: &Kinematics<N>) -> Option<N> {
                 match self {
-                    $(Self::$Effect => $module::$Effect.leak(p, at, motion),)+
-                    Self::Custom(law) => law.leak(p, at, motion),
+                    $(Self::$Effect => $module::$Effect.cross_sensitivity(p, at, motion),)+
+                    Self::Custom(law) => law.cross_sensitivity(p, at, motion),
                 }
             }
             #[inline(always)]

@@ -1,7 +1,7 @@
 //! What a simulation asks of effects at every stage of every step.
 
-use crate::Effect;
 use crate::effect::{Deflection, Instant, Law};
+use crate::effects::Effect;
 
 /// The hooks of [`Law`] that are asked at every stage of every step.
 #[derive(Debug, Clone, Copy)]
@@ -28,9 +28,9 @@ pub(crate) const HOOKS: [Hook; 7] = [
 
 /// The hooks that one effect answers.
 #[derive(Debug, Clone, Copy)]
-pub struct Answers([bool; HOOKS.len()]);
+pub struct AnsweredHooks([bool; HOOKS.len()]);
 
-impl Answers {
+impl AnsweredHooks {
     /// Asks once at rest: whether a law answers a hook depends on the law alone.
     pub fn of(law: Effect) -> Self {
         let description = law.description();
@@ -70,6 +70,6 @@ impl Effect {
     /// Whether it lets the grip come and go, as play does: the hand's spring and damper act only on what is left of the
     /// deflection, and the acceleration jumps where contact begins and ends.
     pub fn has_unilateral_contact(self) -> bool {
-        Answers::of(self).to(Hook::Deflection)
+        AnsweredHooks::of(self).to(Hook::Deflection)
     }
 }

@@ -1,7 +1,7 @@
 //! What the person does a reaction time after the pulse: a rise from 0 to 1 that begins at t_on and takes t_rise.
 
-use crate::Number;
 use crate::effect::{Instant, ParameterSpec, Scope};
+use crate::numeric::number::Number;
 
 /// t_on.
 pub(crate) const ONSET: ParameterSpec = ParameterSpec {

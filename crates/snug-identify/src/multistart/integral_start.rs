@@ -13,7 +13,7 @@ use crate::subject::Subject;
 use snug_campaign::{Parameter, ParameterSource, Quantity};
 use snug_least_squares::Linearization;
 use snug_least_squares::matrix::{entries_at, submatrix_at};
-use snug_model::{BASE_PARAMETERS, Input, on_this_processor};
+use snug_model::{BASE_PARAMETERS, Input, with_processor_instructions};
 
 /// Values of the free parameters among m, c, k, as if no effect acted; `None` when a start was stated, without a measured
 /// displacement, when the simulation does not begin at rest, or when the regression has no sensible answer.
@@ -38,7 +38,7 @@ pub(crate) fn integral_start(subject: &Subject<'_>) -> Option<Vec<f64>> {
         false => 0.0,
     };
     let [m, c, k] = [known(0), known(1), known(2)];
-    let sums = on_this_processor(
+    let sums = with_processor_instructions(
         #[inline(always)]
         || {
             Sums::over(

@@ -1,5 +1,5 @@
 use snug_campaign::{NoiseFloor, Quantity, Tightening};
-use snug_model::on_this_processor;
+use snug_model::with_processor_instructions;
 
 /// Makes stationary noise white with unit variance: w_t = (r_t + a_1 r_{t−1} + … + a_p r_{t−p}) / σ_e.
 ///
@@ -55,7 +55,7 @@ impl Whitening {
     /// Whitens a signal with `substeps` grid points per sample at every one of them; `white` is shorter by as many per
     /// sample of [`Whitening::order`].
     pub fn apply_to_grid(&self, signal: &[f64], substeps: usize, white: &mut [f64]) {
-        on_this_processor(
+        with_processor_instructions(
             #[inline(always)]
             || self.filter(signal, substeps, white),
         );

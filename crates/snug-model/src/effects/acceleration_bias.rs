@@ -3,7 +3,7 @@
 //! Always there; counted from the instant the integration began, which is why a long quiet part before the pulse makes
 //! it grow. Source: sensor zero offset, temperature drift.
 
-use crate::Number;
+use crate::numeric::number::Number;
 use crate::effect::{Description, Kind, Kinematics, Law, ParameterSpec, Scope};
 
 pub struct AccelerationBias;

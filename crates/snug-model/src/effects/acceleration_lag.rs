@@ -4,7 +4,7 @@
 //! Parameter: tau_s \[s\], 0 to 0.02. Excited by fast torque changes. In the residual it follows dα/dt.
 //! Source: low-pass filter of the accelerometer.
 
-use crate::Number;
+use crate::numeric::number::Number;
 use crate::effect::{Description, Kind, Law, ParameterSpec, Scope};
 
 pub struct AccelerationLag;

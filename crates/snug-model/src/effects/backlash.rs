@@ -10,7 +10,7 @@
 //! Parameter: gap_m \[m\], 0 to 0.005. Excited by any motion; relatively strongest in weak pulses. In the residual it shows
 //! at the first onset and at every passage through rest. Source: dead zone with contact damping.
 
-use crate::Number;
+use crate::numeric::number::Number;
 use crate::effect::{Deflection, Description, Kind, Law, ParameterSpec, Scope};
 
 /// Least length over which contact sets in \[m\].

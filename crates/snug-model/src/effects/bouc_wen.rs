@@ -8,7 +8,8 @@
 //! force k_h z_max for large. Excited by reversals. In the residual a step at every reversal that builds up over z_max.
 //! Source: Bouc (1967) and Wen (1976) with n = 1, β = γ.
 
-use crate::{Number, Real};
+use crate::numeric::number::Number;
+use crate::numeric::real::Real;
 use crate::effect::{Description, Instant, Kind, Law, ParameterSpec, Scope};
 
 pub struct BoucWen;

@@ -4,7 +4,7 @@
 //! off). Excited by fast rotation. In the residual it is one-sided and peaks with the speed, out and back alike.
 //! Source: transverse sensitivity and mounting of the accelerometer.
 
-use crate::Number;
+use crate::numeric::number::Number;
 use crate::effect::{Description, Instant, Kind, Kinematics, Law, ParameterSpec, Scope};
 
 pub struct CentripetalCrosstalk;
@@ -36,7 +36,7 @@ impl Law for CentripetalCrosstalk {
     }
 
     #[inline(always)]
-    fn leak<N: Number>(&self, p: &[N], _at: &Instant<N>, motion: &Kinematics<N>) -> Option<N> {
+    fn cross_sensitivity<N: Number>(&self, p: &[N], _at: &Instant<N>, motion: &Kinematics<N>) -> Option<N> {
         Some(p[0] * motion.velocity_rad_per_s.power(2))
     }
 

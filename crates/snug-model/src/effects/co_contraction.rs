@@ -5,7 +5,8 @@
 //! displacement after t_on. In the residual the second half of the motion is quicker than the first.
 //! Source: antagonist co-activation raises joint stiffness (Hogan 1984).
 
-use crate::{Number, reaction};
+use crate::numeric::number::Number;
+use crate::reaction;
 use crate::effect::{Description, Instant, Kind, Law, ParameterSpec, Scope};
 
 pub struct CoContraction;

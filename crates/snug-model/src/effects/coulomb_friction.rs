@@ -3,7 +3,7 @@
 //! Excited by any motion; relatively strongest in weak pulses. Its residual follows sign(v): a step at every reversal.
 //! Source: Coulomb friction, smoothed as usual in identification so that it is differentiable.
 
-use crate::Number;
+use crate::numeric::number::Number;
 use crate::effect::{Description, Instant, Kind, Law, ParameterSpec, Scope};
 
 /// v_s, the velocity over which the friction turns \[m/s\].

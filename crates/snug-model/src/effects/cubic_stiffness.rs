@@ -4,7 +4,7 @@
 //! low ones do not. In the residual it stands around the peak, third harmonic like, and the fitted k drifts with
 //! amplitude. Source: Duffing oscillator; muscle and tissue stiffening with stretch.
 
-use crate::Number;
+use crate::numeric::number::Number;
 use crate::effect::{Description, Instant, Kind, Law, ParameterSpec, Scope};
 
 pub struct CubicStiffness;

@@ -4,7 +4,8 @@
 //! peak. In the residual nothing shows until the peak, then a misfit in proportion to the velocity.
 //! Source: muscle resists lengthening and shortening differently (Hill's force–velocity relation).
 
-use crate::{Number, Real};
+use crate::numeric::number::Number;
+use crate::numeric::real::Real;
 use crate::effect::{Description, Instant, Kind, Law, ParameterSpec, Scope};
 
 pub struct DirectionalDamping;

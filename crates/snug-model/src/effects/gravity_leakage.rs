@@ -4,7 +4,7 @@
 //! (g over the sensor's distance from the joint). Excited by displacement. In the residual it follows the displacement, like a
 //! changed stiffness that no force explains. Source: static sensitivity of accelerometers.
 
-use crate::Number;
+use crate::numeric::number::Number;
 use crate::effect::{Description, Instant, Kind, Kinematics, Law, ParameterSpec, Scope};
 
 pub struct GravityLeakage;
@@ -36,7 +36,7 @@ impl Law for GravityLeakage {
     }
 
     #[inline(always)]
-    fn leak<N: Number>(&self, p: &[N], _at: &Instant<N>, motion: &Kinematics<N>) -> Option<N> {
+    fn cross_sensitivity<N: Number>(&self, p: &[N], _at: &Instant<N>, motion: &Kinematics<N>) -> Option<N> {
         Some(p[0] * motion.displacement_rad.sin())
     }
 

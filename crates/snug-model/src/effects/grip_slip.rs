@@ -4,7 +4,7 @@
 //! large forces: high targets. In the residual it stands around the largest force, where the hand gives way and the tool goes
 //! further. Source: limit of friction in the grip, smoothed.
 
-use crate::Number;
+use crate::numeric::number::Number;
 use crate::effect::{Description, Kind, Law, ParameterSpec, Scope};
 
 pub struct GripSlip;

@@ -2,7 +2,7 @@
 //!
 //! Excited by itself; decays with the hand–arm's own time constant. Source: preceding tightening, posture.
 
-use crate::Number;
+use crate::numeric::number::Number;
 use crate::effect::{Description, Kind, Law, ParameterSpec, Scope};
 
 pub struct InitialMotion;

@@ -3,7 +3,7 @@
 //! Excited by fast changes: the branch is stiff for motion quicker than τ and gone for slower. Its residual follows the
 //! velocity with a decaying tail. Source: standard linear solid (Zener); tissue relaxation.
 
-use crate::Number;
+use crate::numeric::number::Number;
 use crate::effect::{Description, Instant, Kind, Law, ParameterSpec, Scope};
 
 pub struct MaxwellBranch;

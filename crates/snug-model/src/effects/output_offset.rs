@@ -2,7 +2,7 @@
 //!
 //! In acceleration this is the same as `acceleration_bias`. Source: sensor zero of the output channel.
 
-use crate::Number;
+use crate::numeric::number::Number;
 use crate::effect::{Description, Kind, Kinematics, Law, ParameterSpec, Scope};
 use snug_campaign::Quantity;
 

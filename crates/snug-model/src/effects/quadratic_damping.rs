@@ -4,7 +4,7 @@
 //! follows v |v|: peaks where the velocity peaks, and the fitted c drifts with amplitude.
 //! Source: velocity-squared damping (Nayfeh and Mook, Nonlinear Oscillations, 1979).
 
-use crate::Number;
+use crate::numeric::number::Number;
 use crate::effect::{Description, Instant, Kind, Law, ParameterSpec, Scope};
 
 pub struct QuadraticDamping;

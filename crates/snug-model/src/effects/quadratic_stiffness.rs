@@ -4,7 +4,7 @@
 //! residual it stands around the peak with one sign on both sides of rest (even harmonics, a shifted mean).
 //! Source: asymmetric restoring force (Nayfeh and Mook, Nonlinear Oscillations, 1979).
 
-use crate::Number;
+use crate::numeric::number::Number;
 use crate::effect::{Description, Instant, Kind, Law, ParameterSpec, Scope};
 
 pub struct QuadraticStiffness;

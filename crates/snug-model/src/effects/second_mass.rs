@@ -8,7 +8,7 @@
 //! 500 kg/s; m2 or k2 without limit is the base model. Excited by short pulses, whose bandwidth reaches the second
 //! resonance. In the residual it rings, in the acceleration most. Source: two-degree-of-freedom hand–arm models (ISO 10068).
 
-use crate::Number;
+use crate::numeric::number::Number;
 use crate::effect::{Deflection, Description, Instant, Kind, Law, ParameterSpec, Scope};
 
 pub struct SecondMass;

@@ -5,7 +5,7 @@
 //! nothing shows until τ after the motion began, then a shifted copy of the displacement.
 //! Source: short- and long-latency stretch reflexes of the arm, 25–50 ms and 50–100 ms.
 
-use crate::Number;
+use crate::numeric::number::Number;
 use crate::effect::{Delayed, Description, Kind, Law, ParameterSpec, Scope};
 
 pub struct StretchReflex;

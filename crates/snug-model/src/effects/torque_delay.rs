@@ -3,7 +3,7 @@
 //! Excited by fast torque changes (shut-off). Its residual follows dT/dt. Half a sample of delay already looks like
 //! physics. Source: channel timing of separate amplifiers and filters.
 
-use crate::Number;
+use crate::numeric::number::Number;
 use crate::effect::{Description, Kind, Law, LoggedTorque, ParameterSpec, Scope};
 
 pub struct TorqueDelay;

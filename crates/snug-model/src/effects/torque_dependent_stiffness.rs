@@ -4,7 +4,7 @@
 //! displacement while torque still acts: soft joints. In the residual the build-up is stiffer than the free motion after
 //! shut-off. Source: grip force, and stiffness with it, rises with the load.
 
-use crate::Number;
+use crate::numeric::number::Number;
 use crate::effect::{Description, Instant, Kind, Law, ParameterSpec, Scope};
 
 pub struct TorqueDependentStiffness;

@@ -4,7 +4,7 @@
 //! Parameter: tau_s \[s\], 0 to 0.02. Excited by fast torque changes (shut-off). In the residual it follows dT/dt, with an echo
 //! of d²T/dt² that a plain delay does not have. Source: low-pass filter of the torque channel.
 
-use crate::Number;
+use crate::numeric::number::Number;
 use crate::effect::{Description, Kind, Law, LoggedTorque, ParameterSpec, Scope};
 
 pub struct TorqueLag;

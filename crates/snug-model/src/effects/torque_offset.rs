@@ -3,7 +3,7 @@
 //! Parameter: offset_nm \[Nm\], −2 to 2. Excited by itself. In the residual a step at the window's start that the spring turns
 //! into a constant angle T0/(k l²). Source: sensor zero offset.
 
-use crate::Number;
+use crate::numeric::number::Number;
 use crate::effect::{Description, Kind, Law, LoggedTorque, ParameterSpec, Scope};
 
 pub struct TorqueOffset;

@@ -4,7 +4,8 @@
 //! displacement), onset_s 0 to 0.3 s, rise_s 0.01 to 0.3 s; F_v = 0 is the base model. Excited by itself. In the residual a
 //! slow, one-sided shift that comes late and stays. Source: voluntary reaction, 100 ms and more after the stimulus.
 
-use crate::{Number, reaction};
+use crate::numeric::number::Number;
+use crate::reaction;
 use crate::effect::{Description, Instant, Kind, Law, ParameterSpec, Scope};
 
 pub struct VoluntaryPush;

@@ -1,0 +1,151 @@
+use crate::assembly::model::Model;
+use crate::assembly::scale::Scale;
+use crate::custom::law::CustomEffect;
+use crate::custom::settings::CustomEffectSettings;
+use crate::effects::Effect;
+use crate::error::ModelError;
+use serde::{Deserialize, Serialize};
+use snug_campaign::{Intersample, ParameterSource, Rig};
+use std::collections::BTreeMap;
+
+/// What a study says about the model.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct ModelSettings {
+    /// Effects added to the base model, by name, from the catalogue or from `custom`; default none.
+    pub effects: Vec<String>,
+    /// Laws that this study writes itself; they are in the model only where `effects` name them. Default none.
+    pub custom: Vec<CustomEffectSettings>,
+    /// What the input does between samples: `ZeroOrder`, `Linear` or `BandLimited`; default `Linear`.
+    pub intersample: Intersample,
+    /// How large torques, angles and times are on this rig, which starts and bounds of effects follow: `Automatic`,
+    /// `HandOnTool` or `Rig(torque_nm: …, angle_rad: …, time_s: …)`; default `Automatic`.
+    pub scale: Scale,
+    /// Changes to single parameters, by name, for example `{"mass_kg": (value: 1.0, fixed: true)}`.
+    pub parameters: BTreeMap<String, ParameterSettings>,
+}
+
+/// What a study says about one parameter; what it leaves out keeps its default.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct ParameterSettings {
+    /// Starting value, or the value of a fixed parameter, in the parameter's unit.
+    pub value: Option<f64>,
+    /// Smallest allowed value.
+    pub minimum: Option<f64>,
+    /// Largest allowed value.
+    pub maximum: Option<f64>,
+    /// Held at its value instead of identified; default false.
+    pub fixed: bool,
+    /// Standard error of a fixed value that was found elsewhere, in the parameter's unit: it widens the intervals of what
+    /// is identified beside it. Default none: the value is known exactly.
+    pub standard_error: Option<f64>,
+}
+
+impl Default for ModelSettings {
+    fn default() -> Self {
+        Self {
+            effects: Vec::new(),
+            custom: Vec::new(),
+            intersample: Intersample::Linear,
+            scale: Scale::Automatic,
+            parameters: BTreeMap::new(),
+        }
+    }
+}
+
+impl ModelSettings {
+    /// The model these settings describe, for one rig.
+    ///
+    /// # Errors
+    /// [`ModelError::UnknownEffect`], [`ModelError::UnknownParameter`] and [`ModelError::ParameterRange`] name what the
+    /// settings got wrong and what is allowed; otherwise as [`Model::new`] and [`ModelSettings::custom_effects`].
+    pub fn model(&self, rig: Rig) -> Result<Model, ModelError> {
+        let custom = self.custom_effects()?;
+        let effects = self
+            .effects
+            .iter()
+            .map(|name| self.scale.effect(named(name, &custom)?, &rig))
+            .collect::<Result<Vec<_>, _>>()?;
+        let mut model = Model::scaled(rig, &effects, self.scale)?;
+        for (name, settings) in &self.parameters {
+            settings.apply(name, &mut model)?;
+        }
+        Ok(model)
+    }
+
+    /// The effect that this study calls `name`: one of its own or of the catalogue.
+    ///
+    /// # Errors
+    /// [`ModelError::UnknownEffect`] when there is none; otherwise as [`ModelSettings::custom_effects`].
+    pub fn effect(&self, name: &str) -> Result<Effect, ModelError> {
+        named(name, &self.custom_effects()?)
+    }
+
+    /// The study's own effects, whether the model has them or not.
+    ///
+    /// # Errors
+    /// [`ModelError::CustomName`] when two have one name; otherwise as [`CustomEffect::intern`].
+    pub fn custom_effects(&self) -> Result<Vec<Effect>, ModelError> {
+        let mut effects: Vec<Effect> = Vec::new();
+        for settings in &self.custom {
+            let effect = CustomEffect::intern(settings)?;
+            if effects.iter().any(|known| known.name() == effect.name()) {
+                return Err(ModelError::CustomName {
+                    name: settings.name.clone(),
+                    problem: "is declared twice; a custom effect needs a name of its own",
+                });
+            }
+            effects.push(effect);
+        }
+        Ok(effects)
+    }
+}
+
+fn named(name: &str, custom: &[Effect]) -> Result<Effect, ModelError> {
+    let known = custom.iter().chain(Effect::ALL);
+    match known.clone().find(|effect| effect.name() == name) {
+        Some(effect) => Ok(*effect),
+        None => Err(ModelError::UnknownEffect {
+            name: name.to_owned(),
+            known: known.map(Effect::name).collect(),
+        }),
+    }
+}
+
+impl ParameterSettings {
+    fn apply(&self, name: &str, model: &mut Model) -> Result<(), ModelError> {
+        let known: Vec<String> = model.parameters().iter().map(|p| p.name.clone()).collect();
+        let Some(parameter) = model.parameters_mut().iter_mut().find(|p| p.name == name) else {
+            return Err(ModelError::UnknownParameter {
+                name: name.to_owned(),
+                known,
+            });
+        };
+        parameter.minimum = self.minimum.unwrap_or(parameter.minimum);
+        parameter.maximum = self.maximum.unwrap_or(parameter.maximum);
+        parameter.value = self.value.unwrap_or(parameter.value);
+        parameter.fixed = self.fixed;
+        parameter.standard_error = self.standard_error;
+        parameter.source = ParameterSource::Study;
+        if let Some(standard_error) = self.standard_error
+            && !(self.fixed && standard_error >= 0.0 && standard_error.is_finite())
+        {
+            return Err(ModelError::StandardError {
+                name: name.to_owned(),
+                standard_error,
+            });
+        }
+        let (value, minimum, maximum) = (parameter.value, parameter.minimum, parameter.maximum);
+        if value.is_finite() && minimum < maximum && (minimum..=maximum).contains(&value) {
+            Ok(())
+        } else {
+            Err(ModelError::ParameterRange {
+                name: name.to_owned(),
+                value,
+                minimum,
+                maximum,
+            })
+        }
+    }
+}

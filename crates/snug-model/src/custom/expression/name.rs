@@ -1,0 +1,147 @@
+use crate::numeric::number::Number;
+use crate::numeric::real::Real;
+
+/// A quantity of the motion that an expression may use.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Variable {
+    /// Grip displacement \[m\].
+    X,
+    /// Grip velocity \[m/s\].
+    V,
+    /// Torque that acts \[Nm\].
+    Torque,
+    /// Time since the pulse began \[s\].
+    Time,
+    /// Angle \[rad\].
+    Theta,
+    /// Angular velocity \[rad/s\].
+    Omega,
+    /// Lever arm \[m\].
+    Lever,
+    /// True angular acceleration \[rad/s²\].
+    Acceleration,
+}
+
+impl Variable {
+    /// Every variable; the last one is known to the sensor only.
+    pub const ALL: [Self; 8] = [
+        Self::X,
+        Self::V,
+        Self::Torque,
+        Self::Time,
+        Self::Theta,
+        Self::Omega,
+        Self::Lever,
+        Self::Acceleration,
+    ];
+
+    /// As expressions write it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::X => "x",
+            Self::V => "v",
+            Self::Torque => "T",
+            Self::Time => "t",
+            Self::Theta => "theta",
+            Self::Omega => "omega",
+            Self::Lever => "l",
+            Self::Acceleration => "a",
+        }
+    }
+
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|known| known.name() == name)
+    }
+}
+
+/// A function of one or two numbers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Function {
+    Abs,
+    Sign,
+    Sqrt,
+    Exp,
+    Log,
+    Sin,
+    Cos,
+    Tan,
+    Tanh,
+    Atan,
+    Step,
+    SmoothStep,
+    Min,
+    Max,
+}
+
+impl Function {
+    pub const ALL: [Self; 14] = [
+        Self::Abs,
+        Self::Sign,
+        Self::Sqrt,
+        Self::Exp,
+        Self::Log,
+        Self::Sin,
+        Self::Cos,
+        Self::Tan,
+        Self::Tanh,
+        Self::Atan,
+        Self::Step,
+        Self::SmoothStep,
+        Self::Min,
+        Self::Max,
+    ];
+
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Abs => "abs",
+            Self::Sign => "sign",
+            Self::Sqrt => "sqrt",
+            Self::Exp => "exp",
+            Self::Log => "log",
+            Self::Sin => "sin",
+            Self::Cos => "cos",
+            Self::Tan => "tan",
+            Self::Tanh => "tanh",
+            Self::Atan => "atan",
+            Self::Step => "step",
+            Self::SmoothStep => "smooth_step",
+            Self::Min => "min",
+            Self::Max => "max",
+        }
+    }
+
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|known| known.name() == name)
+    }
+
+    /// Whether it takes two arguments.
+    pub fn takes_two(self) -> bool {
+        matches!(self, Self::Min | Self::Max)
+    }
+
+    /// Its value; a function of one argument leaves `second` alone.
+    #[inline(always)]
+    pub fn of<N: Number>(self, first: N, second: N) -> N {
+        match self {
+            Self::Abs => first.abs(),
+            Self::Sign => first.sign(),
+            Self::Sqrt => first.sqrt(),
+            Self::Exp => first.exp(),
+            Self::Log => first.log(),
+            Self::Sin => first.sin(),
+            Self::Cos => first.cos(),
+            Self::Tan => first.tan(),
+            Self::Tanh => first.tanh(),
+            Self::Atan => first.atan(),
+            Self::Step => first.step(),
+            Self::SmoothStep => first.smooth_step(),
+            Self::Min => N::select(first.value().is_above(second.value()), second, first),
+            Self::Max => N::select(second.value().is_above(first.value()), second, first),
+        }
+    }
+}
+
+/// The constant called `name`.
+pub fn constant(name: &str) -> Option<f64> {
+    (name == "pi").then_some(std::f64::consts::PI)
+}

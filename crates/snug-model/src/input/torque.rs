@@ -1,0 +1,375 @@
+use crate::input::restart::Restarts;
+use crate::input::slope;
+use snug_campaign::Intersample;
+use std::sync::OnceLock;
+
+/// How much finer than the samples a band-limited input is represented.
+const BAND_LIMITED_SUBSTEPS: usize = 8;
+
+/// The input (torque) of one simulation, prepared once and used for every trial of the parameters.
+///
+/// Between its grid points it is constant (zero-order) or straight (linear). A band-limited input is carried by straight
+/// pieces on a grid eight times as fine, whose in-band spectrum equals the samples' own.
+#[derive(Debug, Clone)]
+pub struct Input {
+    grid: Vec<f64>,
+    grid_interval_s: f64,
+    substeps: usize,
+    samples: usize,
+    held: bool,
+    rest_before_s: f64,
+    onset_s: f64,
+    zero_at: Option<usize>,
+    restarts: Restarts,
+    /// Made when an effect first asks for the torque between samples.
+    between: OnceLock<Vec<f64>>,
+    /// Made when an effect first asks for the torque's slope.
+    slopes: OnceLock<Vec<f64>>,
+}
+
+impl Input {
+    /// From samples \[Nm\] taken every `interval_s`.
+    pub fn new(samples: &[f64], interval_s: f64, intersample: Intersample) -> Self {
+        let (grid, substeps) = match intersample {
+            Intersample::BandLimited => (
+                snug_spectrum::straight_pieces(samples, BAND_LIMITED_SUBSTEPS),
+                BAND_LIMITED_SUBSTEPS,
+            ),
+            Intersample::ZeroOrder | Intersample::Linear => (samples.to_vec(), 1),
+        };
+        Self {
+            grid,
+            grid_interval_s: interval_s / substeps as f64,
+            substeps,
+            samples: samples.len(),
+            held: intersample == Intersample::ZeroOrder,
+            rest_before_s: 0.0,
+            onset_s: 0.0,
+            zero_at: None,
+            restarts: Restarts::default(),
+            between: OnceLock::new(),
+            slopes: OnceLock::new(),
+        }
+    }
+
+    /// The same input with every value replaced by the mean over it and `reach` samples on either side.
+    ///
+    /// What is computed from it knows the torque's course, but hardly the noise of any one sample.
+    pub fn smoothed(&self, reach: usize) -> Self {
+        let reach = reach * self.substeps;
+        let sums = slope::sums(&self.grid);
+        let last = self.grid.len().saturating_sub(1);
+        let mean = |index: usize| {
+            let reach = reach.min(index).min(last - index);
+            (sums[index + reach + 1] - sums[index - reach]) / (2 * reach + 1) as f64
+        };
+        Self {
+            grid: (0..self.grid.len()).map(mean).collect(),
+            between: OnceLock::new(),
+            slopes: OnceLock::new(),
+            ..self.clone()
+        }
+    }
+
+    /// The same input with `noise` \[Nm\], one value per sample, on top.
+    pub fn with_added(&self, noise: &[f64]) -> Self {
+        let noise = match self.substeps {
+            1 => noise.to_vec(),
+            factor => snug_spectrum::straight_pieces(noise, factor),
+        };
+        let sum = self
+            .grid
+            .iter()
+            .zip(noise)
+            .map(|(torque, more)| torque + more);
+        Self {
+            grid: sum.collect(),
+            between: OnceLock::new(),
+            slopes: OnceLock::new(),
+            ..self.clone()
+        }
+    }
+
+    /// The same input up to its `samples`-th sample.
+    pub fn beginning(&self, samples: usize) -> Self {
+        let samples = samples.min(self.samples);
+        let points = samples.saturating_sub(1) * self.substeps + 1;
+        Self {
+            grid: self.grid[..points.min(self.grid.len())].to_vec(),
+            samples,
+            between: OnceLock::new(),
+            slopes: OnceLock::new(),
+            ..self.clone()
+        }
+    }
+
+    /// States for how long \[s\] before the first sample the sensor's signal was already being integrated.
+    pub fn with_rest_before(mut self, rest_before_s: f64) -> Self {
+        self.rest_before_s = rest_before_s;
+        self
+    }
+
+    /// For how long before the first sample the sensor's signal was already being integrated \[s\].
+    pub fn rest_before_s(&self) -> f64 {
+        self.rest_before_s
+    }
+
+    /// States when the pulse begins \[s after the first sample\]; without it, at the first sample.
+    pub fn with_onset(mut self, onset_s: f64) -> Self {
+        self.onset_s = onset_s;
+        self
+    }
+
+    /// When the pulse begins \[s after the first sample\].
+    pub fn onset_s(&self) -> f64 {
+        self.onset_s
+    }
+
+    /// States that the measured displacement was zeroed by taking its value at this sample off the whole signal.
+    ///
+    /// The simulated displacement of a model with sensor effects is zeroed there, too. A sample beyond the last counts as
+    /// the last.
+    pub fn with_zero_at(mut self, sample: Option<usize>) -> Self {
+        self.zero_at = sample;
+        self
+    }
+
+    /// States that the simulation does not run freely: every `apart` samples, from the first on, it takes up the next of
+    /// `motions`, angle \[rad\] and velocity \[rad/s\]. What effects carry along (a second mass, a hysteresis) runs on.
+    pub fn with_restarts(mut self, apart: usize, motions: Vec<[f64; 2]>) -> Self {
+        self.restarts = Restarts::new(apart * self.substeps, motions);
+        self
+    }
+
+    /// Whether the simulation takes up the measured motion anywhere.
+    pub fn is_restarted(&self) -> bool {
+        !self.restarts.is_empty()
+    }
+
+    /// Angle \[rad\] and velocity \[rad/s\] from which the simulation goes on at a grid point.
+    #[inline(always)]
+    pub(crate) fn restart_at(&self, point: usize) -> Option<[f64; 2]> {
+        self.restarts.at(point)
+    }
+
+    /// The sample at which the measured displacement was zeroed.
+    pub fn zero_at(&self) -> Option<usize> {
+        let last = self.samples.saturating_sub(1);
+        self.zero_at.map(|sample| sample.min(last))
+    }
+
+    /// Number of samples.
+    pub fn samples(&self) -> usize {
+        self.samples
+    }
+
+    /// The torque as it was `delay_s` before every grid point; the ends are held.
+    ///
+    /// Between samples it is what a torque without anything above half the sampling rate has there: that keeps the
+    /// power of the torque's noise, where a straight line between samples takes half of it away and a shift by half a
+    /// sample would always fit better than none. The slope of a torque that is straight between samples is its rate, which
+    /// hardly knows the noise: noise that moves along with a delay says nothing about it, and a slope that counted it would
+    /// make the delay's interval far too narrow. A held input is straight: shifted by part of an interval, it has the
+    /// straight line's values as its means over the intervals.
+    pub fn before(&self, delay_s: f64) -> Vec<Earlier> {
+        let slopes = (self.slopes)
+            .get_or_init(|| slope::slopes(&self.grid, self.grid_interval_s, self.substeps));
+        let fine_interval_s =
+            self.grid_interval_s * self.substeps as f64 / BAND_LIMITED_SUBSTEPS as f64;
+        let is_straight = self.substeps == 1 && !self.held;
+        let (fine, step) = match is_straight {
+            true => (self.between(), BAND_LIMITED_SUBSTEPS),
+            false => (self.grid.as_slice(), 1),
+        };
+        // A delay is the same part of an interval before every grid point.
+        let then = Position::new(-delay_s / self.grid_interval_s);
+        let then_in_fine = Position::new(-delay_s / fine_interval_s);
+        let earlier = |point: usize| {
+            let then = then.moved(point);
+            let (rate_nm_per_s, change_nm_per_s2) = then.straight(slopes, self.grid_interval_s);
+            let (torque_nm, slope_nm_per_s) = match self.held {
+                true => then.straight(&self.grid, self.grid_interval_s),
+                false => then_in_fine
+                    .moved(step * point)
+                    .curved(fine, fine_interval_s),
+            };
+            let is_still = slope_nm_per_s == 0.0;
+            Earlier {
+                torque_nm,
+                slope_nm_per_s: match is_straight && !is_still {
+                    true => rate_nm_per_s,
+                    false => slope_nm_per_s,
+                },
+                rate_nm_per_s,
+                change_nm_per_s2,
+            }
+        };
+        (0..self.grid.len()).map(earlier).collect()
+    }
+
+    /// The samples and what lies between them, [`BAND_LIMITED_SUBSTEPS`] to an interval.
+    fn between(&self) -> &[f64] {
+        let made = || snug_spectrum::between_samples(&self.grid, BAND_LIMITED_SUBSTEPS);
+        self.between.get_or_init(made)
+    }
+
+    /// Torque at the grid points \[Nm\].
+    pub fn grid_nm(&self) -> &[f64] {
+        &self.grid
+    }
+
+    /// Time between grid points \[s\].
+    pub fn grid_interval_s(&self) -> f64 {
+        self.grid_interval_s
+    }
+
+    /// Grid points per sample.
+    pub fn substeps(&self) -> usize {
+        self.substeps
+    }
+
+    /// Whether the input keeps each grid value until the next.
+    pub(crate) fn held(&self) -> bool {
+        self.held
+    }
+}
+
+/// A torque some time ago.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Earlier {
+    /// The torque \[Nm\].
+    pub torque_nm: f64,
+    /// How it changes with time \[Nm/s\].
+    pub slope_nm_per_s: f64,
+    /// The same over as many milliseconds as its course allows \[Nm/s\]: a slope from one neighbour to the other would be
+    /// mostly noise, which a lag of several milliseconds multiplies.
+    pub rate_nm_per_s: f64,
+    /// How fast that changes \[Nm/s²\].
+    pub change_nm_per_s2: f64,
+}
+
+/// A place among points: behind point number `index` by this part of an interval.
+#[derive(Clone, Copy)]
+struct Position {
+    index: isize,
+    part: f64,
+}
+
+impl Position {
+    fn new(intervals: f64) -> Self {
+        let index = intervals.floor();
+        Self {
+            index: index as isize,
+            part: intervals - index,
+        }
+    }
+
+    #[inline(always)]
+    fn moved(self, points: usize) -> Self {
+        Self {
+            index: self.index.saturating_add_unsigned(points),
+            ..self
+        }
+    }
+
+    /// The interval it lies in, or the point whose value is held there.
+    #[inline(always)]
+    fn among(self, points: &[f64]) -> Result<usize, f64> {
+        let last = points.len().saturating_sub(1);
+        match usize::try_from(self.index) {
+            Err(_) => Err(points.first().copied().unwrap_or(0.0)),
+            Ok(index) if index >= last => Err(points.last().copied().unwrap_or(0.0)),
+            Ok(index) => Ok(index),
+        }
+    }
+
+    /// Value and slope of the line between the points, `interval_s` apart; the ends are held.
+    #[inline(always)]
+    fn straight(self, points: &[f64], interval_s: f64) -> (f64, f64) {
+        match self.among(points) {
+            Err(held) => (held, 0.0),
+            Ok(index) => {
+                let (here, step) = (points[index], points[index + 1] - points[index]);
+                (here + step * self.part, step / interval_s)
+            }
+        }
+    }
+
+    /// Value and slope of the cubics that meet at the points, `interval_s` apart, with the slopes from one neighbour to
+    /// the other; the ends are held.
+    #[inline(always)]
+    fn curved(self, points: &[f64], interval_s: f64) -> (f64, f64) {
+        let index = match self.among(points) {
+            Err(held) => return (held, 0.0),
+            Ok(index) => index,
+        };
+        let (u, last) = (self.part, points.len() - 1);
+        let (here, next) = (points[index], points[index + 1]);
+        let slope_here = 0.5 * (next - points[index.saturating_sub(1)]);
+        let slope_next = 0.5 * (points[(index + 2).min(last)] - here);
+        // Hermite form: here + u (m + u (b + u a)).
+        let a = 2.0 * (here - next) + slope_here + slope_next;
+        let b = 3.0 * (next - here) - 2.0 * slope_here - slope_next;
+        (
+            here + u * (slope_here + u * (b + u * a)),
+            (slope_here + u * (2.0 * b + 3.0 * u * a)) / interval_s,
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::numeric::even_noise::even_noise;
+
+    fn power(values: impl Iterator<Item = f64>) -> f64 {
+        let (mut sum, mut count) = (0.0, 0);
+        for value in values {
+            sum += value * value;
+            count += 1;
+        }
+        sum / f64::from(count)
+    }
+
+    /// A straight line between two independent samples has half their power in its middle.
+    #[test]
+    fn a_shift_by_half_a_sample_keeps_the_power_of_noise() {
+        let samples = even_noise(20_000);
+        let input = Input::new(&samples, 1e-4, Intersample::Linear);
+        let power_before = |delay_s| {
+            let earlier = input.before(delay_s);
+            power(earlier[100..19_900].iter().map(|then| then.torque_nm))
+        };
+        let (shifted, there) = (power_before(0.5e-4), power_before(0.0));
+        assert!(
+            (there - 1.0).abs() < 0.03 && (shifted / there - 1.0).abs() < 0.02,
+            "{there} {shifted}"
+        );
+    }
+
+    #[test]
+    fn a_beginning_ends_on_its_last_sample() {
+        let samples = even_noise(400);
+        for intersample in [Intersample::Linear, Intersample::BandLimited] {
+            let whole = Input::new(&samples, 0.01, intersample);
+            let beginning = whole.beginning(100);
+            assert_eq!(beginning.samples(), 100);
+            let points = beginning.grid_nm();
+            assert_eq!(points.len(), 99 * whole.substeps() + 1);
+            assert_eq!(points, &whole.grid_nm()[..points.len()]);
+        }
+    }
+
+    /// The slope at a sample says nothing about that sample's noise, so that a small delay cannot take it away.
+    #[test]
+    fn the_slope_at_a_sample_does_not_know_its_noise() {
+        let samples = even_noise(20_000);
+        let input = Input::new(&samples, 1.0, Intersample::Linear);
+        let now = input.before(0.0);
+        let product: f64 = (100..19_900)
+            .map(|i| now[i].slope_nm_per_s * samples[i])
+            .sum();
+        // Σ of 19 800 products of spread 0.7 and mean 0; a line to the next sample would give −19 800.
+        assert!(product.abs() < 4.0 * 0.8 * 19_800_f64.sqrt(), "{product}");
+    }
+}

@@ -1,0 +1,15 @@
+//! The equations of motion with their effects, stepped, seen by sensors, for many tightenings at a time.
+
+pub(crate) mod accelerometer;
+pub(crate) mod acting_torque;
+pub(crate) mod history;
+pub(crate) mod hook_set;
+pub(crate) mod inputs;
+pub(crate) mod model;
+pub(crate) mod plant;
+pub(crate) mod record;
+pub(crate) mod response;
+pub(crate) mod runge_kutta;
+pub(crate) mod sensors;
+pub(crate) mod side_by_side;
+pub(crate) mod zeroed;

@@ -1,0 +1,103 @@
+use crate::assembly::layout::Part;
+use crate::effect::{Instant, Law, LoggedTorque};
+use crate::input::torque::Earlier;
+use crate::numeric::number::Number;
+use crate::numeric::real::Real;
+use crate::simulate::inputs::SimulationInputs;
+
+/// The torque that acts on the joint, from the one that is logged.
+pub struct ActingTorque<'a, N: Number> {
+    inputs: &'a SimulationInputs<'a, N::Real>,
+    /// Absent when the one that is logged acts.
+    logged: Option<Logged<N>>,
+}
+
+/// How it is logged, and what was logged before every grid point.
+struct Logged<N: Number> {
+    how: LoggedTorque<N>,
+    shifted: Vec<Shifted<N::Real>>,
+}
+
+/// The logged torque a delay ago.
+#[derive(Clone, Copy)]
+struct Shifted<R> {
+    torque_nm: R,
+    slope_nm_per_s: R,
+    /// The slope that no single sample's noise disturbs, and how fast it changes.
+    rate_nm_per_s: R,
+    change_nm_per_s2: R,
+}
+
+impl<'a, N: Number> ActingTorque<'a, N> {
+    /// What the effects `parts` say about how it is logged, summed; `p` are all parameters.
+    pub fn new(parts: &[Part], p: &[N], inputs: &'a SimulationInputs<'a, N::Real>) -> Self {
+        let logged = parts
+            .iter()
+            .filter_map(|part| part.effect.logged_torque(&p[part.parameters.clone()]))
+            .reduce(|sum, more| LoggedTorque {
+                delay_s: sum.delay_s + more.delay_s,
+                lag_s: sum.lag_s + more.lag_s,
+                offset_nm: sum.offset_nm + more.offset_nm,
+            });
+        Self {
+            inputs,
+            logged: logged.map(|how| Logged {
+                shifted: shifted(inputs, how.delay_s.value()),
+                how,
+            }),
+        }
+    }
+
+    /// Whether it depends on no parameter.
+    pub fn is_known(&self) -> bool {
+        self.logged.is_none()
+    }
+
+    /// Torque at grid point number `point` of the input \[Nm\].
+    #[inline(always)]
+    pub fn at(&self, point: usize) -> N {
+        let Some(Logged { how, shifted }) = &self.logged else {
+            return N::from(self.inputs.torque_nm()[point]);
+        };
+        let then = shifted[point];
+        let delay = how.delay_s;
+        delay.chain(then.torque_nm, -then.slope_nm_per_s)
+            + how.lag_s * delay.chain(then.rate_nm_per_s, -then.change_nm_per_s2)
+            - how.offset_nm
+    }
+}
+
+/// The logged torque `delay_s` before every grid point; each lane looks it up in its own input.
+fn shifted<R: Real>(inputs: &SimulationInputs<'_, R>, delay_s: R) -> Vec<Shifted<R>> {
+    let (points, zero) = (inputs.torque_nm().len(), inputs.zero);
+    let found: Vec<Vec<Earlier>> = (inputs.of_lanes().iter().zip(delay_s.lanes()))
+        .map(|(input, &delay_s)| input.before(delay_s))
+        .collect();
+    (0..points)
+        .map(|point| {
+            // A lane whose input has ended keeps its last value.
+            let of = |lane: usize| -> Earlier {
+                let earlier = found[lane].get(point).or(found[lane].last());
+                earlier.copied().unwrap_or_default()
+            };
+            Shifted {
+                torque_nm: zero.lane_by_lane(|lane| of(lane).torque_nm),
+                slope_nm_per_s: zero.lane_by_lane(|lane| of(lane).slope_nm_per_s),
+                rate_nm_per_s: zero.lane_by_lane(|lane| of(lane).rate_nm_per_s),
+                change_nm_per_s2: zero.lane_by_lane(|lane| of(lane).change_nm_per_s2),
+            }
+        })
+        .collect()
+}
+
+/// The instant with what the effects `parts` add to the torque at it, each on top of the same torque.
+#[inline(always)]
+pub fn with_added_torque<N: Number>(parts: &[Part], p: &[N], at: Instant<N>) -> Instant<N> {
+    let mut torque_nm = at.torque_nm;
+    for part in parts {
+        if let Some(added) = part.effect.torque(&p[part.parameters.clone()], &at) {
+            torque_nm += added;
+        }
+    }
+    Instant { torque_nm, ..at }
+}

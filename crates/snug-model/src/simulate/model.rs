@@ -1,0 +1,58 @@
+//! A model simulated by itself.
+
+use crate::assembly::model::Model;
+use crate::input::torque::Input;
+use crate::simulate::inputs::SimulationInputs;
+use crate::simulate::side_by_side::{Run, simulate_side_by_side};
+use snug_campaign::{Motion, Quantity};
+
+impl Model {
+    /// The measured motion that `values` (all parameters) give under `input`.
+    pub fn simulate(&self, values: &[f64], input: &Input) -> Motion {
+        let mut signals: [Vec<f64>; 3] =
+            std::array::from_fn(|_| Vec::with_capacity(input.samples()));
+        let inputs = SimulationInputs::new(0.0, |_| (self.assembly(), input));
+        self.assembly().respond(values, &inputs, |_, motion| {
+            signals[0].push(motion.displacement_rad);
+            signals[1].push(motion.velocity_rad_per_s);
+            signals[2].push(motion.acceleration_rad_per_s2);
+        });
+        let [displacement, velocity, acceleration] = signals;
+        Motion {
+            displacement_rad: Some(displacement),
+            velocity_rad_per_s: Some(velocity),
+            acceleration_rad_per_s2: Some(acceleration),
+        }
+    }
+
+    /// One measured quantity into `output` (one value per sample).
+    pub fn output(&self, values: &[f64], input: &Input, quantity: Quantity, output: &mut [f64]) {
+        self.sensitivities(values, &[], input, quantity, output, &mut []);
+    }
+
+    /// One measured quantity and its sensitivities.
+    ///
+    /// `output` gets one value per sample; `sensitivity` gets ∂output/∂values\[free\[j\]\], column-major, samples × free.
+    ///
+    /// # Panics
+    /// When more than [`MAXIMUM_FREE`] parameters are free, or a slice is too short.
+    pub fn sensitivities(
+        &self,
+        values: &[f64],
+        free: &[usize],
+        input: &Input,
+        quantity: Quantity,
+        output: &mut [f64],
+        sensitivity: &mut [f64],
+    ) {
+        let mut alone = [Run {
+            model: self,
+            values,
+            input,
+            quantity,
+            output,
+            sensitivity,
+        }];
+        simulate_side_by_side(&mut alone, free);
+    }
+}

@@ -1,0 +1,160 @@
+use crate::assembly::layout::{Assembly, Part};
+use crate::effect::{Deflection, Delayed, Instant, Law};
+use crate::hooks::Hook;
+use crate::numeric::number::{Number, OfOne};
+use crate::simulate::history::History;
+use crate::simulate::hook_set::HookSet;
+use crate::simulate::inputs::SimulationInputs;
+
+/// Tool, hand and arm of one simulation: the equations of motion with everything that stays the same worked out once.
+///
+/// The motion is that of the grip, x = l θ and v = l ω, which is what the laws are written in.
+pub struct Plant<'a, N: Number> {
+    inputs: &'a SimulationInputs<'a, N::Real>,
+    damping_kg_per_s: OfOne<N::Real>,
+    stiffness_n_per_m: OfOne<N::Real>,
+    /// l / (I_n + m l²).
+    mobility: OfOne<N::Real>,
+    /// −l² / (I_n + m l²).
+    lever_mobility: OfOne<N::Real>,
+    hook_set: HookSet<'a, N>,
+    delayed: Vec<Delayed<N>>,
+    /// Kept only where a delayed law looks back.
+    history: History<N>,
+    /// Whether the torque depends on no parameter.
+    is_torque_known: bool,
+}
+
+/// Columns of the partial derivatives that [`Plant`] knows by number: m, c and k come first.
+const MASS: usize = 0;
+const DAMPING: usize = 1;
+const STIFFNESS: usize = 2;
+
+impl<'a, N: Number> Plant<'a, N> {
+    /// The assembly with parameters `p` on a bench.
+    #[inline(always)]
+    pub fn new(
+        assembly: &'a Assembly,
+        p: &'a [N],
+        inputs: &'a SimulationInputs<'a, N::Real>,
+        is_torque_known: bool,
+    ) -> Self {
+        let parts = assembly.parts();
+        let lever = inputs.lever_arm_m;
+        let inertia = p[0].times(lever * lever).plus(inputs.known_inertia_kg_m2);
+        let mobility = N::from(lever) / inertia;
+        let hook_set = HookSet::new(parts, p);
+        let mut delayed = Vec::new();
+        for part in parts {
+            delayed.extend(part.effect.delayed(&p[part.parameters.clone()]));
+        }
+        Self {
+            inputs,
+            damping_kg_per_s: p[1].of_one::<DAMPING>(),
+            stiffness_n_per_m: p[2].of_one::<STIFFNESS>(),
+            mobility: mobility.of_one::<MASS>(),
+            lever_mobility: mobility.times(-lever).of_one::<MASS>(),
+            is_torque_known: is_torque_known && hook_set.on(Hook::Torque).is_empty(),
+            hook_set,
+            delayed,
+            history: History::new(inputs.interval_s),
+        }
+    }
+
+    /// Notes the motion at the next grid point, for laws that look back.
+    #[inline(always)]
+    pub fn note(&mut self, x_m: N, v_m_per_s: N) {
+        if !self.delayed.is_empty() {
+            self.history.note(x_m, v_m_per_s);
+        }
+    }
+
+    /// Sets of the instant what does not follow from the motion: the time, `position` grid intervals after the first
+    /// sample, and the torque, with what effects add to it.
+    #[inline(always)]
+    pub fn drive(&self, at: &mut Instant<N>, position: f64, torque_nm: N) {
+        at.since_onset_s = (self.inputs).since_onset_s(self.inputs.interval_s * position);
+        at.torque_nm = torque_nm;
+        if !self.hook_set.on(Hook::Torque).is_empty() {
+            let mut whole = torque_nm;
+            for hooked in self.hook_set.on(Hook::Torque) {
+                hooked.add_torque(at, &mut whole);
+            }
+            at.torque_nm = whole;
+        }
+    }
+
+    /// dv/dt \[m/s²\], and the rates of the effects' `own` states.
+    #[inline(always)]
+    pub fn rates(&self, position: f64, at: &Instant<N>, own: &[N], own_rates: &mut [N]) -> N {
+        let hand_n = self.hand_force(at, own);
+        for hooked in self.hook_set.on(Hook::Moving) {
+            hooked.set_rates(at, own, hand_n, own_rates);
+        }
+        let mut force = hand_n;
+        for hooked in self.hook_set.on(Hook::Force) {
+            hooked.add_force(at, own, &mut force);
+        }
+        let time_s = self.inputs.interval_s * position;
+        for spring in &self.delayed {
+            force += spring.stiffness_n_per_m * self.history.x_m(time_s, spring.delay_s);
+        }
+        for hooked in self.hook_set.on(Hook::Limit) {
+            hooked.limit(&mut force);
+        }
+        // dv/dt = l (T − l F) / (I_n + m l²).
+        let by_force = force.times_one::<MASS>(self.lever_mobility);
+        if self.is_torque_known {
+            by_force.plus_one::<MASS>(self.mobility.times(at.torque_nm.value()))
+        } else {
+            by_force + at.torque_nm.times_one::<MASS>(self.mobility)
+        }
+    }
+
+    /// What the hand's spring and damper exert \[N\]: k (1 + Σ stiffening) d + c dd/dt.
+    #[inline(always)]
+    fn hand_force(&self, at: &Instant<N>, own: &[N]) -> N {
+        let (supports, deflecting) = (
+            self.hook_set.on(Hook::Support),
+            self.hook_set.on(Hook::Deflection),
+        );
+        let stiffening = self.hook_set.on(Hook::Stiffening);
+        if supports.is_empty() && deflecting.is_empty() && stiffening.is_empty() {
+            return self.spring_and_damper(at.x_m, at.v_m_per_s);
+        }
+        let mut seen = Deflection {
+            x_m: at.x_m,
+            v_m_per_s: at.v_m_per_s,
+        };
+        for hooked in supports {
+            hooked.subtract_support(own, &mut seen);
+        }
+        for hooked in deflecting {
+            hooked.deflect(&mut seen);
+        }
+        let mut stretched = seen.x_m;
+        for hooked in stiffening {
+            hooked.add_stiffening(at, seen.x_m, &mut stretched);
+        }
+        self.spring_and_damper(stretched, seen.v_m_per_s)
+    }
+
+    #[inline(always)]
+    fn spring_and_damper(&self, x_m: N, v_m_per_s: N) -> N {
+        x_m.times_one::<STIFFNESS>(self.stiffness_n_per_m)
+            + v_m_per_s.times_one::<DAMPING>(self.damping_kg_per_s)
+    }
+}
+
+/// The effects' initial angle \[rad\] and angular velocity \[rad/s\]; at rest without them.
+#[inline(always)]
+pub fn initial_motion<N: Number>(parts: &[Part], p: &[N]) -> [N; 2] {
+    let mut motion = [p[0].constant(0.0); 2];
+    for part in parts {
+        if let Some((angle, velocity)) = part.effect.initial(&p[part.parameters.clone()]) {
+            motion[0] += angle;
+            motion[1] += velocity;
+        }
+    }
+    motion
+}

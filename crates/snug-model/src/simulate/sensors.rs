@@ -1,0 +1,112 @@
+use crate::assembly::layout::{Assembly, Part};
+use crate::effect::{Instant, Kinematics, Law};
+use crate::numeric::number::Number;
+use crate::simulate::accelerometer::Accelerometer;
+use crate::simulate::acting_torque::{ActingTorque, with_added_torque};
+use crate::simulate::inputs::SimulationInputs;
+
+/// From the true motion to the measured one: cross-sensitivities and lag of the accelerometer, then what is added to its signals.
+pub struct Sensors<'a, N: Number> {
+    parts: &'a [Part],
+    p: &'a [N],
+    inputs: &'a SimulationInputs<'a, N::Real>,
+    acting_torque: &'a ActingTorque<'a, N>,
+    /// Absent when no effect of the assembly needs it.
+    accelerometer: Option<Accelerometer<N>>,
+}
+
+impl<'a, N: Number> Sensors<'a, N> {
+    /// At rest before the first sample.
+    #[inline(always)]
+    pub fn new(
+        assembly: &'a Assembly,
+        p: &'a [N],
+        inputs: &'a SimulationInputs<'a, N::Real>,
+        acting_torque: &'a ActingTorque<'a, N>,
+    ) -> Self {
+        let zero = N::from(inputs.zero);
+        let still = Kinematics {
+            displacement_rad: zero,
+            velocity_rad_per_s: zero,
+            acceleration_rad_per_s2: zero,
+        };
+        let mut sensors = Self {
+            parts: assembly.parts(),
+            p,
+            inputs,
+            acting_torque,
+            accelerometer: None,
+        };
+        let lag = sensors.total(
+            #[inline(always)]
+            |effect, p| effect.acceleration_lag_s(p),
+        );
+        if lag.is_some() || sensors.cross_sensitivity(0, &still).is_some() {
+            let interval_s = inputs.since_rest_s(1) - inputs.since_rest_s(0);
+            sensors.accelerometer = Some(Accelerometer::new(interval_s, lag));
+        }
+        sensors
+    }
+
+    /// The measured motion of the next sample, which is number `index`.
+    #[inline(always)]
+    pub fn sample(&mut self, index: usize, motion: Kinematics<N>) -> Kinematics<N> {
+        let mut seen = motion;
+        if self.accelerometer.is_some() {
+            let cross_sensitivity = self.cross_sensitivity(index, &motion);
+            if let Some(accelerometer) = &mut self.accelerometer {
+                seen = accelerometer.sample(motion, cross_sensitivity);
+            }
+        }
+        let since_rest_s = self.inputs.since_rest_s(index);
+        for part in self.parts {
+            let own = &self.p[part.parameters.clone()];
+            seen = part.effect.measure(own, since_rest_s, seen).unwrap_or(seen);
+        }
+        seen
+    }
+
+    /// Whether an effect of the assembly changes what is measured of the motion.
+    pub fn are_heard(&self) -> bool {
+        self.parts.iter().any(|part| part.effect.measurement_only())
+    }
+
+    #[inline(always)]
+    fn cross_sensitivity(&self, index: usize, motion: &Kinematics<N>) -> Option<N> {
+        let at = self.instant(index, motion);
+        self.total(
+            #[inline(always)]
+            |effect, p| effect.cross_sensitivity(p, &at, motion),
+        )
+    }
+
+    /// The instant of sample `index`, at which the true motion is `motion`.
+    #[inline(always)]
+    fn instant(&self, index: usize, motion: &Kinematics<N>) -> Instant<N> {
+        let point = index * self.inputs.substeps;
+        let lever = self.inputs.lever_arm_m;
+        let at = Instant {
+            torque_nm: self.acting_torque.at(point),
+            x_m: motion.displacement_rad.times(lever),
+            v_m_per_s: motion.velocity_rad_per_s.times(lever),
+            since_onset_s: (self.inputs).since_onset_s(self.inputs.interval_s * point as f64),
+            lever_arm_m: lever,
+        };
+        with_added_torque(self.parts, self.p, at)
+    }
+
+    /// The sum of what the effects add to the same place, if any adds to it.
+    #[inline(always)]
+    fn total(&self, of: impl Fn(crate::Effect, &[N]) -> Option<N>) -> Option<N> {
+        let mut total: Option<N> = None;
+        for part in self.parts {
+            if let Some(more) = of(part.effect, &self.p[part.parameters.clone()]) {
+                total = Some(match total {
+                    Some(sum) => sum + more,
+                    None => more,
+                });
+            }
+        }
+        total
+    }
+}
