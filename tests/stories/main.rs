@@ -13,6 +13,7 @@ mod intervals;
 mod layers;
 mod many;
 mod mystery;
+mod one_pass;
 mod other_rigs;
 mod practice;
 mod recording;

@@ -14,6 +14,9 @@ pub enum Quantity {
 }
 
 impl Quantity {
+    /// All of them, each the derivative of the one before.
+    pub const ALL: [Self; 3] = [Self::Displacement, Self::Velocity, Self::Acceleration];
+
     /// What it is called in texts and files.
     pub fn name(self) -> &'static str {
         match self {

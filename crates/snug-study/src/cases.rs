@@ -2,39 +2,48 @@
 
 use crate::comparable::{Comparable, comparable};
 use crate::evaluation::input;
+use crate::prepared_file::{KeptFiles, PreparedFile};
 use crate::{Study, StudyError};
 use rayon::prelude::*;
 use snug_campaign::Rejection;
 use snug_diagnose::Case;
 use snug_files::{Disk, Host};
 use snug_ingest::IngestError;
-use snug_preprocess::preprocess;
 use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
+use std::sync::Mutex;
 
 /// Reads and prepares at most `most` tightenings, evenly spread over the files and within each; tightenings with faulty
 /// data, those kept for validation and those that cannot be judged by the same measure as the others take no part.
 pub fn cases(study: &Study, files: &[PathBuf], most: usize) -> Result<Vec<Case>, StudyError> {
-    Ok(chosen(study, &Host, files, most)?.cases)
+    Ok(chosen(study, &Host, files, most)?.0.cases)
 }
 
 /// Tightenings of one file that take part at least, if it has them: what drifts within a file shows between two.
 const EACH: usize = 2;
 
-/// The same, with what is to be said of those that take no part.
+/// The same, with what is to be said of those that take no part, and the files as far as there is room for them.
 pub(crate) fn chosen(
     study: &Study,
     disk: &dyn Disk,
     files: &[PathBuf],
     most: usize,
-) -> Result<Comparable, StudyError> {
+) -> Result<(Comparable, KeptFiles), StudyError> {
+    let kept = Mutex::new(KeptFiles::default());
     let stride = files.len().div_ceil((most / EACH).max(1)).max(1);
     let each = (most * stride / files.len().max(1)).max(1);
     let read = |from: usize| -> Result<Vec<Part>, StudyError> {
         let some: Vec<usize> = (from..files.len()).step_by(stride).collect();
         let parts = some.into_par_iter().map(|number| {
-            let (all, unread) = match cases_of_file(study, disk, &files[number])? {
-                Ok(all) => (all, None),
+            let path = &files[number];
+            let (all, unread) = match PreparedFile::read(study, disk, path)? {
+                Ok(file) => {
+                    let all = cases_of_file(study, &file)?;
+                    if let Ok(mut kept) = kept.lock() {
+                        kept.offer(path, file);
+                    }
+                    (all, None)
+                }
                 Err(error) => (Vec::new(), Some(error)),
             };
             let part = Part::of(number, all, each, number / stride);
@@ -57,7 +66,7 @@ pub(crate) fn chosen(
     let mut comparable = comparable(parts.into_iter().flat_map(|part| part.cases).collect());
     comparable.remarks.extend(is_selection.then_some(remark));
     (comparable.remarks).extend(unread_files(&unread));
-    Ok(comparable)
+    Ok((comparable, kept.into_inner().unwrap_or_default()))
 }
 
 /// What is taken of a file.
@@ -100,28 +109,32 @@ fn selection(taken: usize, read: usize, all: usize) -> String {
     )
 }
 
-fn cases_of_file(
-    study: &Study,
-    disk: &dyn Disk,
-    path: &Path,
-) -> Result<Result<Vec<Case>, IngestError>, StudyError> {
-    let lever_arm_m = study.preprocess.rig.lever_arm_m;
-    let ingested = match snug_ingest::read_on(disk, &study.source, path, lever_arm_m) {
-        Ok(ingested) => ingested,
-        Err(error) => return Ok(Err(error)),
-    };
-    // Everything else that is left out the run of the study names in its findings.
+/// The same tightenings with a study that differs in its model and in how that is run.
+pub(crate) fn with_settled(study: &Study, cases: Vec<Case>) -> Result<Vec<Case>, StudyError> {
+    let simulation = study.identify.simulation;
+    (cases.into_iter())
+        .map(|case| {
+            Ok(Case {
+                model: study.model.model(case.tightening.rig)?,
+                input: simulation.of(case.input, &case.tightening),
+                ..case
+            })
+        })
+        .collect()
+}
+
+/// What of a file can be compared with the model. Everything else that is left out the run of the study names in its findings.
+fn cases_of_file(study: &Study, file: &PreparedFile) -> Result<Vec<Case>, StudyError> {
     let only_simulated = study.validation_segments();
     let mut cases = Vec::new();
-    for recording in &ingested.recordings {
-        let prepared = preprocess(recording, &study.preprocess, study.identify.fitted_output)?;
-        for one in prepared.tightenings {
+    for (_, prepared) in &file.recordings {
+        for one in &prepared.tightenings {
             let faulty = one.rejections().contains(&Rejection::DataQuality);
             if faulty || only_simulated.contains(&one.tightening.id.number) {
                 continue;
             }
-            let input = input(study, &one);
-            let tightening = one.tightening;
+            let input = input(study, one);
+            let tightening = one.tightening.clone();
             let fitted = study.identify.fitted_output;
             // The noise is known of what was measured: that is where model and measurement are best compared.
             let quantity = tightening
@@ -143,12 +156,12 @@ fn cases_of_file(
             }
         }
     }
-    Ok(Ok(cases))
+    Ok(cases)
 }
 
 /// What is to be said of files that could not be read for a diagnosis: a disk that fails for a moment may read them again
 /// when the study is run, and then no finding names them.
-pub(crate) fn unread_files(errors: &[IngestError]) -> Option<String> {
+fn unread_files(errors: &[IngestError]) -> Option<String> {
     let first = errors.first()?;
     let more = match errors.len() - 1 {
         0 => String::new(),

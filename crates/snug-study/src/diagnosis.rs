@@ -1,22 +1,15 @@
 //! A study diagnosed: tightenings to the diagnosis, its models back into the study, every rung of the ladder evaluated.
 
-use crate::cases::{chosen, unread_files};
+use crate::cases::{chosen, with_settled};
 use crate::comparable::Comparable;
-use crate::evaluation::Evaluated;
-use crate::file_evaluation::evaluate_alone;
 use crate::output::Workplace;
-use crate::run::{Outcome, RunSettings, pool, run_with};
+use crate::run::{Outcome, RunSettings, Task, pool, run_with};
+use crate::rungs::Ladder;
 use crate::settling::{Settled, settle};
 use crate::{ProgressEvent, Study, StudyError};
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
-use snug_campaign::{Diagnosis, Rejection, Rung, Showcase, TighteningId, Traces};
 use snug_diagnose::{Answer, Case, DiagnoseError, Goal, Question, RungModel, Watch, examine};
-use snug_files::Disk;
-use snug_ingest::IngestError;
 use snug_model::{Effect, ParameterSettings};
-use snug_statistics::descriptive::median;
-use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// How a study is diagnosed.
@@ -126,7 +119,7 @@ fn nothing_to_compare(
     progress: &(dyn Fn(ProgressEvent<'_>) + Sync),
     interrupted: &AtomicBool,
 ) -> Result<Outcome, StudyError> {
-    let outcome = run_with(study, None, workplace, settings, progress, interrupted)?;
+    let outcome = run_with(Task::of(study), workplace, settings, progress, interrupted)?;
     match outcome.result.tightenings.len() {
         0 => Ok(outcome),
         tightenings => Err(DiagnoseError::NothingToCompare {
@@ -162,10 +155,11 @@ pub fn diagnose(
     });
     let pool = pool(settings.threads)?;
     let most = study.diagnosis.most_tightenings;
+    let (comparable, kept) = pool.install(|| chosen(study, disk, &files, most))?;
     let Comparable {
         cases,
         remarks: left_out,
-    } = pool.install(|| chosen(study, disk, &files, most))?;
+    } = comparable;
     if interrupted.load(Ordering::Relaxed) {
         return Err(StudyError::Interrupted);
     }
@@ -175,8 +169,7 @@ pub fn diagnose(
     let settled = pool.install(|| settle(study, &cases));
     let (study, cases, remarks) = match &settled {
         Some(Settled { study, remarks }) => {
-            let again = pool.install(|| chosen(study, disk, &files, most))?;
-            (study, again.cases, remarks.as_slice())
+            (study, with_settled(study, cases)?, remarks.as_slice())
         }
         None => (study, cases, [].as_slice()),
     };
@@ -199,15 +192,19 @@ pub fn diagnose(
     answer.diagnosis.reasons.extend_from_slice(remarks);
     answer.diagnosis.reasons.extend(left_out);
     drop(cases);
-    let (last, diagnosis) = pool.install(|| climb(study, answer, disk, &files, progress))?;
+    let (last, ladder) = climb(study, answer);
     // Who ended the search wants to see what it found of all tightenings.
     let never = AtomicBool::new(false);
     let interrupted = match interrupted.load(Ordering::Relaxed) {
         true => &never,
         false => interrupted,
     };
-    let told = Some(diagnosis);
-    run_with(&last, told, workplace, settings, progress, interrupted)
+    let task = Task {
+        study: &last,
+        ladder: Some(ladder),
+        kept,
+    };
+    run_with(task, workplace, settings, progress, interrupted)
 }
 
 /// The named effects, the study's own among them, as they act on its rig.
@@ -223,44 +220,15 @@ fn effects(study: &Study, names: &[String], cases: &[Case]) -> Result<Vec<Effect
     Ok(named.collect::<Result<_, _>>()?)
 }
 
-/// Evaluates the study with the model of every rung; returns the last of these studies and the finished diagnosis.
-fn climb(
-    study: &Study,
-    answer: Answer,
-    disk: &dyn Disk,
-    files: &[PathBuf],
-    progress: &(dyn Fn(ProgressEvent<'_>) + Sync),
-) -> Result<(Study, Diagnosis), StudyError> {
-    let mut diagnosis = answer.diagnosis;
-    let shown = diagnosis
-        .comparison
-        .tightenings
-        .first()
-        .map(|worst| worst.id.clone());
+/// The study with the model of the last rung, and the ladder up to there.
+fn climb(study: &Study, answer: Answer) -> (Study, Ladder) {
     let changes = answer.models.len() > 1;
-    let mut showcase: Vec<Option<Traces>> = Vec::new();
-    let mut last = study.clone();
-    for (rung, model) in diagnosis.ladder.iter_mut().zip(&answer.models) {
-        last = with_model(study, model, changes);
-        let text = match rung.effects.as_slice() {
-            [] => "evaluating the base model".to_owned(),
-            some => format!("evaluating {}", some.join(" + ")),
-        };
-        progress(ProgressEvent::Stage { what: &text });
-        let mut unread = Vec::new();
-        let traces = measure(&last, disk, files, rung, shown.as_ref(), &mut unread)?;
-        showcase.push(traces);
-        let remark = unread_files(&unread);
-        (diagnosis.reasons).extend(remark.filter(|remark| !diagnosis.reasons.contains(remark)));
-    }
-    let ends = (
-        showcase.first_mut().and_then(Option::take),
-        showcase.last_mut().and_then(Option::take),
-    );
-    if let (Some(id), (Some(before), Some(after))) = (shown, ends) {
-        diagnosis.showcase = Some(Showcase { id, before, after });
-    }
-    Ok((last, diagnosis))
+    let mut before: Vec<Study> = (answer.models.iter())
+        .map(|model| with_model(study, model, changes))
+        .collect();
+    let last = before.pop().unwrap_or_else(|| study.clone());
+    let diagnosis = answer.diagnosis;
+    (last, Ladder { diagnosis, before })
 }
 
 /// The study with a rung's model. What all tightenings share is held where they put it together.
@@ -301,59 +269,4 @@ fn with_model(study: &Study, model: &RungModel, changes: bool) -> Study {
         told.standard_error = parameter.standard_error.or(Some(0.0));
     }
     study
-}
-
-/// Fills in what only an evaluation of the whole study can tell of a rung, and why files could not be read for it; returns
-/// the signals of one tightening.
-fn measure(
-    study: &Study,
-    disk: &dyn Disk,
-    files: &[PathBuf],
-    rung: &mut Rung,
-    shown: Option<&TighteningId>,
-    unread: &mut Vec<IngestError>,
-) -> Result<Option<Traces>, StudyError> {
-    let evaluated = files.par_iter().map(|path| {
-        let mut all = evaluate_alone(study, disk, path)?;
-        for one in all.iter_mut().flatten() {
-            one.traces = one.traces.take().filter(|_| Some(&one.result.id) == shown);
-        }
-        Ok(all)
-    });
-    let evaluated: Vec<Result<Result<Vec<Evaluated>, IngestError>, StudyError>> =
-        evaluated.collect();
-    let (mut squares, mut fits, mut selected, mut count) =
-        (Vec::new(), Vec::new(), 0_usize, 0_usize);
-    let mut traces = None;
-    for file in evaluated {
-        let all = file?.unwrap_or_else(|error| {
-            unread.push(error);
-            Vec::new()
-        });
-        for one in all {
-            if one
-                .result
-                .selection
-                .rejections
-                .contains(&Rejection::Validation)
-            {
-                continue;
-            }
-            count += 1;
-            selected += usize::from(one.result.selection.selected());
-            squares.extend(
-                one.result
-                    .measures
-                    .rms_displacement_rad
-                    .map(|rms| rms * rms),
-            );
-            fits.extend(one.result.measures.fit_percent);
-            traces = traces.or(one.traces);
-        }
-    }
-    rung.selected_fraction = selected as f64 / count.max(1) as f64;
-    rung.fit_percent_median = median(&fits).ok();
-    rung.rms_displacement_rad =
-        (!squares.is_empty()).then(|| (squares.iter().sum::<f64>() / squares.len() as f64).sqrt());
-    Ok(traces)
 }

@@ -1,13 +1,14 @@
 //! One measurement file, from bytes to results.
 
 use crate::evaluation::{Evaluated, fitted, validated, without_estimate};
+use crate::prepared_file::PreparedFile;
+use crate::rungs::{Ladder, RungShare};
 use crate::{Study, StudyError};
 use rayon::prelude::*;
 use snug_campaign::{Estimate, Finding, FitStatus, Recording, Rejection, Severity, TighteningId};
 use snug_files::Disk;
 use snug_identify::SIDE_BY_SIDE;
-use snug_ingest::IngestError;
-use snug_preprocess::{Prepared, Preset, Window, preprocess};
+use snug_preprocess::{Prepared, Preprocessed, Preset, Window, preprocess};
 use std::path::Path;
 
 /// What became of one file.
@@ -20,71 +21,83 @@ pub struct FileEvaluation {
     pub findings: Vec<Finding>,
     /// Per tightening the reasons for which the other preset rejects it; `None` where that preset does not apply.
     pub other_preset: Option<Vec<(TighteningId, Vec<Rejection>)>>,
+    /// What the file says of every rung of a diagnosis' ladder; empty without one.
+    pub rungs: Vec<RungShare>,
 }
 
-/// Reads, prepares and evaluates one file. What cannot be used becomes a finding.
+/// Evaluates one file, which is read and prepared unless it was kept: with the run's own study, and with those of the rungs
+/// before it. What cannot be used becomes a finding.
 pub fn evaluate_file(
     study: &Study,
+    ladder: Option<&Ladder>,
     disk: &dyn Disk,
     path: &Path,
+    kept: Option<PreparedFile>,
 ) -> Result<FileEvaluation, StudyError> {
     let _span = tracing::info_span!("file", path = %path.display()).entered();
-    let lever_arm_m = study.preprocess.rig.lever_arm_m;
-    let ingested = match snug_ingest::read_on(disk, &study.source, path, lever_arm_m) {
-        Ok(ingested) => ingested,
+    let read = match kept {
+        Some(file) => Ok(file),
+        None => PreparedFile::read(study, disk, path)?,
+    };
+    let file = match read {
+        Ok(file) => file,
         Err(error) => {
             tracing::warn!(%error, "the file is left out");
             return Ok(FileEvaluation {
-                recordings: Vec::new(),
-                evaluated: Vec::new(),
                 findings: vec![error.finding()],
-                other_preset: other(study).map(|_| Vec::new()),
+                ..FileEvaluation::nothing(study, ladder)
             });
         }
     };
-    let mut findings = ingested.findings;
-    let mut evaluated = Vec::new();
+    let mut whole = FileEvaluation::nothing(study, ladder);
+    whole.findings = file.findings;
     let other = other(study);
-    let mut other_preset = other.as_ref().map(|_| Vec::new());
-    for recording in &ingested.recordings {
-        evaluated.extend(evaluate(study, recording, &mut findings)?);
-        if let (Some(other), Some(there)) = (&other, &mut other_preset) {
-            let mut seen = Vec::new();
-            there.extend(outcomes(&evaluate(other, recording, &mut seen)?));
+    for (recording, prepared) in file.recordings {
+        for (rung, share) in rungs_before(ladder).iter().zip(&mut whole.rungs) {
+            let (evaluated, _) = evaluate(rung, &recording, &prepared)?;
+            share.add(RungShare::of(&evaluated, ladder.and_then(Ladder::shown)));
+        }
+        let (evaluated, findings) = evaluate(study, &recording, &prepared)?;
+        whole.findings.extend(prepared.findings);
+        whole.findings.extend(findings);
+        if let (Some(other), Some(there)) = (&other, &mut whole.other_preset) {
+            let prepared = preprocess(&recording, &other.preprocess, other.identify.fitted_output)?;
+            let (evaluated, findings) = evaluate(other, &recording, &prepared)?;
+            there.extend(outcomes(&evaluated));
             if study.preprocess.preset == Preset::Thesis {
-                findings.extend(seen.into_iter().map(as_note));
+                let seen = prepared.findings.into_iter().chain(findings);
+                whole.findings.extend(seen.map(as_note));
             }
         }
+        if let (Some(ladder), Some(last)) = (ladder, whole.rungs.last_mut()) {
+            last.add(RungShare::of(&evaluated, ladder.shown()));
+        }
+        whole.recordings.push(recording);
+        whole.evaluated.extend(evaluated);
     }
     tracing::info!(
-        tightenings = evaluated.len(),
-        findings = findings.len(),
+        tightenings = whole.evaluated.len(),
+        findings = whole.findings.len(),
         "the file is evaluated"
     );
-    Ok(FileEvaluation {
-        recordings: ingested.recordings,
-        evaluated,
-        findings,
-        other_preset,
-    })
+    Ok(whole)
 }
 
-/// Reads, prepares and evaluates one file under the study's own preset only; the inner error says why it cannot be read.
-pub fn evaluate_alone(
-    study: &Study,
-    disk: &dyn Disk,
-    path: &Path,
-) -> Result<Result<Vec<Evaluated>, IngestError>, StudyError> {
-    let lever_arm_m = study.preprocess.rig.lever_arm_m;
-    let ingested = match snug_ingest::read_on(disk, &study.source, path, lever_arm_m) {
-        Ok(ingested) => ingested,
-        Err(error) => return Ok(Err(error)),
-    };
-    let mut evaluated = Vec::new();
-    for recording in &ingested.recordings {
-        evaluated.extend(evaluate(study, recording, &mut Vec::new())?);
+impl FileEvaluation {
+    fn nothing(study: &Study, ladder: Option<&Ladder>) -> Self {
+        let rungs = ladder.map_or(0, |ladder| ladder.before.len() + 1);
+        Self {
+            recordings: Vec::new(),
+            evaluated: Vec::new(),
+            findings: Vec::new(),
+            other_preset: other(study).map(|_| Vec::new()),
+            rungs: (0..rungs).map(|_| RungShare::default()).collect(),
+        }
     }
-    Ok(Ok(evaluated))
+}
+
+fn rungs_before(ladder: Option<&Ladder>) -> &[Study] {
+    ladder.map_or(&[], |ladder| &ladder.before)
 }
 
 /// What preset `snug` found, for a run of the original program, which looks for nothing: told, without consequence.
@@ -125,14 +138,13 @@ pub fn outcomes(evaluated: &[Evaluated]) -> Vec<(TighteningId, Vec<Rejection>)> 
         .collect()
 }
 
-/// Prepares and evaluates one recording: every segment gives a result, with an estimate or with the reason for none.
+/// Evaluates one recording: every segment gives a result, with an estimate or with the reason for none, which is a finding.
 fn evaluate(
     study: &Study,
     recording: &Recording,
-    findings: &mut Vec<Finding>,
-) -> Result<Vec<Evaluated>, StudyError> {
-    let prepared = preprocess(recording, &study.preprocess, study.identify.fitted_output)?;
-    findings.extend(prepared.findings);
+    prepared: &Preprocessed,
+) -> Result<(Vec<Evaluated>, Vec<Finding>), StudyError> {
+    let mut findings = Vec::new();
     let only_simulated = study.validation_segments();
     let (kept, to_fit): (Vec<&Prepared>, Vec<&Prepared>) = prepared
         .tightenings
@@ -163,7 +175,7 @@ fn evaluate(
         }
     }
     evaluated.sort_by_key(|one| one.result.id.number);
-    Ok(evaluated)
+    Ok((evaluated, findings))
 }
 
 /// Says that a validation window ends before its scored samples begin.

@@ -4,11 +4,13 @@ use crate::evaluation::Evaluated;
 use crate::examples::Examples;
 use crate::file_evaluation::{FileEvaluation, evaluate_file, other, outcomes};
 use crate::output::{Output, Workplace};
+use crate::prepared_file::KeptFiles;
+use crate::rungs::{Ladder, RungShare};
 use crate::{ProgressEvent, Study, StudyError, statistics};
 use rayon::prelude::*;
 use snug_campaign::{
-    CampaignResult, Diagnosis, Finding, ParameterMeaning, PresetSummary, Rejection, RejectionCount,
-    Severity, TighteningId, TighteningResult,
+    CampaignResult, Finding, ParameterMeaning, PresetSummary, Rejection, RejectionCount, Severity,
+    TighteningId, TighteningResult,
 };
 use snug_files::{Disk, Host};
 use snug_ingest::Listing;
@@ -102,6 +104,7 @@ struct Collected {
     examples: Examples,
     here: Vec<(TighteningId, Vec<Rejection>)>,
     there: Vec<(TighteningId, Vec<Rejection>)>,
+    rungs: Vec<RungShare>,
 }
 
 /// Runs a study: ingest → preprocess → identify → statistics → report and MCAP.
@@ -123,26 +126,45 @@ pub fn run(
 ) -> Result<Outcome, StudyError> {
     study.check()?;
     let workplace = Workplace::new(study, settings, interrupted)?;
-    run_with(study, None, workplace, settings, progress, interrupted)
+    let task = Task::of(study);
+    run_with(task, workplace, settings, progress, interrupted)
+}
+
+/// What is run.
+pub(crate) struct Task<'a> {
+    pub study: &'a Study,
+    /// What a diagnosis found out before, whose rungs are evaluated beside the study.
+    pub ladder: Option<Ladder>,
+    /// Files that are read and prepared already.
+    pub kept: KeptFiles,
+}
+
+impl<'a> Task<'a> {
+    /// A study, nothing known of it.
+    pub fn of(study: &'a Study) -> Self {
+        Self {
+            study,
+            ladder: None,
+            kept: KeptFiles::default(),
+        }
+    }
 }
 
 /// The same at a workplace, with what a diagnosis found out told beside it.
 pub(crate) fn run_with(
-    study: &Study,
-    diagnosis: Option<Diagnosis>,
+    task: Task<'_>,
     workplace: Workplace,
     settings: &RunSettings,
     progress: &(dyn Fn(ProgressEvent<'_>) + Sync),
     interrupted: &AtomicBool,
 ) -> Result<Outcome, StudyError> {
     let Workplace { listing, results } = workplace;
-    let study_ron = runnable_anywhere(study)?.to_ron()?;
-    let output = Output::new(results, study, &study_ron, settings)?;
+    let study_ron = runnable_anywhere(task.study)?.to_ron()?;
+    let output = Output::new(results, task.study, &study_ron, settings)?;
     let partial = output.partial();
     let run = Run {
-        study,
+        task,
         study_ron,
-        diagnosis,
         settings,
         progress,
         interrupted,
@@ -159,16 +181,15 @@ pub(crate) fn run_with(
 
 /// A run whose results have a place.
 struct Run<'a> {
-    study: &'a Study,
+    task: Task<'a>,
     study_ron: String,
-    diagnosis: Option<Diagnosis>,
     settings: &'a RunSettings,
     progress: &'a (dyn Fn(ProgressEvent<'_>) + Sync),
     interrupted: &'a AtomicBool,
 }
 
 impl Run<'_> {
-    fn carry_out(self, listing: Listing, mut output: Output) -> Result<Outcome, StudyError> {
+    fn carry_out(mut self, listing: Listing, mut output: Output) -> Result<Outcome, StudyError> {
         let progress = self.progress;
         let mut collected = Collected::default();
         collected.note(listing.findings, &mut output)?;
@@ -176,8 +197,9 @@ impl Run<'_> {
         collected.note(not_reached(left), &mut output)?;
 
         progress(ProgressEvent::Writing { what: "statistics" });
-        let mut result = collected.result(self.study, self.study_ron)?;
-        result.diagnosis = self.diagnosis;
+        let shares = std::mem::take(&mut collected.rungs);
+        let mut result = collected.result(self.task.study, self.study_ron)?;
+        result.diagnosis = (self.task.ladder).map(|ladder| ladder.completed(shares));
         output.record(|recorder| {
             recorder.statistics(&result.conditions, &result.tests)?;
             match &result.diagnosis {
@@ -200,7 +222,7 @@ impl Run<'_> {
 
     /// Evaluates file after file; returns those that were not reached.
     fn evaluate<'f>(
-        &self,
+        &mut self,
         files: &'f [PathBuf],
         collected: &mut Collected,
         output: &mut Output,
@@ -212,10 +234,16 @@ impl Run<'_> {
             if self.interrupted.load(Ordering::Relaxed) {
                 return Ok(&files[number * at_once..]);
             }
+            let Task {
+                study,
+                ladder,
+                kept,
+            } = &mut self.task;
+            let (ladder, disk) = (ladder.as_ref(), &*self.settings.disk);
+            let group: Vec<_> = (group.iter()).map(|path| (path, kept.take(path))).collect();
             let evaluated: Vec<Result<FileEvaluation, StudyError>> = pool.install(|| {
-                group
-                    .par_iter()
-                    .map(|path| evaluate_file(self.study, &*self.settings.disk, path))
+                (group.into_par_iter())
+                    .map(|(path, kept)| evaluate_file(study, ladder, disk, path, kept))
                     .collect()
             });
             for file in evaluated {
@@ -252,6 +280,10 @@ impl Collected {
         }
         self.here.extend(outcomes(&file.evaluated));
         self.there.extend(file.other_preset.unwrap_or_default());
+        self.rungs.resize_with(file.rungs.len(), RungShare::default);
+        for (rung, share) in self.rungs.iter_mut().zip(file.rungs) {
+            rung.add(share);
+        }
         for Evaluated {
             result,
             traces,

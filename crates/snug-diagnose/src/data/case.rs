@@ -63,11 +63,7 @@ impl Case {
             torque_nm, motion, ..
         } = &mut beginning.tightening;
         torque_nm.truncate(samples);
-        for quantity in [
-            Quantity::Displacement,
-            Quantity::Velocity,
-            Quantity::Acceleration,
-        ] {
+        for quantity in Quantity::ALL {
             if let Some(signal) = motion.get(quantity) {
                 let signal = signal[..samples.min(signal.len())].to_vec();
                 motion.set(quantity, signal);

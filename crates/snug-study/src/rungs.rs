@@ -1,0 +1,90 @@
+//! The rungs of a diagnosis' ladder, each evaluated on every file while the file is at hand.
+
+use crate::Study;
+use crate::evaluation::Evaluated;
+use snug_campaign::{Diagnosis, Rejection, Rung, Showcase, TighteningId, Traces};
+use snug_statistics::descriptive::median;
+
+/// What a diagnosis found out, with the models whose evaluation completes it.
+pub(crate) struct Ladder {
+    pub diagnosis: Diagnosis,
+    /// The study with the model of every rung but the last, which is that of the run itself.
+    pub before: Vec<Study>,
+}
+
+impl Ladder {
+    /// The tightening whose signals are shown before and after.
+    pub fn shown(&self) -> Option<&TighteningId> {
+        (self.diagnosis.comparison.tightenings.first()).map(|worst| &worst.id)
+    }
+
+    /// The diagnosis with what the evaluation of all files says of every rung.
+    pub fn completed(self, shares: Vec<RungShare>) -> Diagnosis {
+        let shown = self.shown().cloned();
+        let mut diagnosis = self.diagnosis;
+        let mut ends = (None, None);
+        let last = shares.len().saturating_sub(1);
+        for (number, (rung, share)) in diagnosis.ladder.iter_mut().zip(shares).enumerate() {
+            share.complete(rung);
+            match number {
+                0 => ends.0 = share.traces,
+                number if number == last => ends.1 = share.traces,
+                _ => {}
+            }
+        }
+        if let (Some(id), (Some(before), Some(after))) = (shown, ends) {
+            diagnosis.showcase = Some(Showcase { id, before, after });
+        }
+        diagnosis
+    }
+}
+
+/// What evaluated tightenings say of a rung.
+#[derive(Default)]
+pub(crate) struct RungShare {
+    /// Mean squares of the displacement's residual \[rad²\].
+    squares_rad2: Vec<f64>,
+    fits_percent: Vec<f64>,
+    selected: usize,
+    count: usize,
+    /// Signals of the tightening that is shown.
+    traces: Option<Traces>,
+}
+
+impl RungShare {
+    /// Of tightenings of one file; those kept for validation say nothing.
+    pub fn of(evaluated: &[Evaluated], shown: Option<&TighteningId>) -> Self {
+        let mut share = Self::default();
+        for Evaluated { result, traces, .. } in evaluated {
+            if result.selection.rejections.contains(&Rejection::Validation) {
+                continue;
+            }
+            share.count += 1;
+            share.selected += usize::from(result.selection.selected());
+            let rms = result.measures.rms_displacement_rad;
+            share.squares_rad2.extend(rms.map(|rms| rms * rms));
+            share.fits_percent.extend(result.measures.fit_percent);
+            if Some(&result.id) == shown && share.traces.is_none() {
+                share.traces.clone_from(traces);
+            }
+        }
+        share
+    }
+
+    /// Adds what the next file says.
+    pub fn add(&mut self, next: Self) {
+        self.squares_rad2.extend(next.squares_rad2);
+        self.fits_percent.extend(next.fits_percent);
+        self.selected += next.selected;
+        self.count += next.count;
+        self.traces = self.traces.take().or(next.traces);
+    }
+
+    fn complete(&self, rung: &mut Rung) {
+        let squares = &self.squares_rad2;
+        rung.selected_fraction = self.selected as f64 / self.count.max(1) as f64;
+        rung.fit_percent_median = median(&self.fits_percent).ok();
+        rung.rms_displacement_rad = (!squares.is_empty())
+            .then(|| (squares.iter().sum::<f64>() / squares.len() as f64).sqrt());
+    }
+}
