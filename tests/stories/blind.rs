@@ -5,7 +5,8 @@
 //! that hide nothing.
 
 use snug_campaign::{AddedEffect, Diagnosis, Verdict};
-use snug_diagnose::{Case, DiagnoseSettings, Goal, Question, Watch, examine};
+use snug_diagnose::{DiagnoseSettings, Goal, Question, Watch, examine};
+use snug_identify::FitTask;
 use snug_model::Law;
 use snug_study::{Preset, Study};
 use snug_synthetic::{
@@ -63,7 +64,7 @@ const PAIRS: [([Hidden; 2], f64); 10] = [
 ];
 
 struct Campaign {
-    cases: Vec<Case>,
+    cases: Vec<FitTask<'static>>,
     truth: Truth,
 }
 
@@ -97,7 +98,7 @@ fn campaign_as(preset: Preset, effects: &[Hidden], strength: f64, seed: u64) -> 
     }
 }
 
-fn ask(cases: &[Case], goal: Goal) -> Diagnosis {
+fn ask(cases: &[FitTask<'_>], goal: Goal) -> Diagnosis {
     let question = Question {
         cases,
         effects: Vec::new(),

@@ -16,7 +16,7 @@ fn campaign(folder: &Path, files: usize, each: usize) -> Study {
 fn taken(study: &Study, most: usize) -> Vec<(String, u32)> {
     let listing = snug_ingest::list(&study.source, &study.source.path).unwrap();
     let cases = snug_study::cases(study, &listing.files, most).unwrap();
-    let ids = cases.into_iter().map(|case| case.tightening.id);
+    let ids = cases.into_iter().map(|case| case.tightening.id.clone());
     ids.map(|id| (id.file, id.number)).collect()
 }
 

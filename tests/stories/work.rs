@@ -6,13 +6,13 @@
 
 use crate::coarse;
 use snug_campaign::{Quantity, WorkDone};
-use snug_diagnose::{Case, DiagnoseSettings, Goal, Question, Watch, examine, fit_together};
-use snug_identify::{IdentifySettings, identify};
+use snug_diagnose::{DiagnoseSettings, Goal, Question, Watch, examine, fit_together};
+use snug_identify::{FitTask, IdentifySettings, identify};
 use snug_model::Effect;
 use snug_synthetic::{CampaignPlan, HiddenEffect};
 
 /// Eight tightenings with a spring that hardens.
-fn cases() -> Vec<Case> {
+fn cases() -> Vec<FitTask<'static>> {
     let plan = CampaignPlan::of_size(4, 2).hiding(HiddenEffect::CubicStiffness, 0.35);
     let folder = tempfile::tempdir().unwrap();
     let study = coarse::study(plan, 11, folder.path());
@@ -23,7 +23,11 @@ fn cases() -> Vec<Case> {
 }
 
 /// Iterations, evaluations and conic programs of all tightenings, each fitted by itself.
-fn one_by_one(cases: &[Case], fitted_output: Quantity, effect: Option<Effect>) -> [usize; 3] {
+fn one_by_one(
+    cases: &[FitTask<'_>],
+    fitted_output: Quantity,
+    effect: Option<Effect>,
+) -> [usize; 3] {
     let settings = IdentifySettings {
         fitted_output,
         ..IdentifySettings::default()
@@ -31,7 +35,7 @@ fn one_by_one(cases: &[Case], fitted_output: Quantity, effect: Option<Effect>) -
     cases.iter().fold([0; 3], |[steps, passes, conic], case| {
         let model = match effect {
             Some(effect) => case.model.with_effect(effect).unwrap(),
-            None => case.model.clone(),
+            None => case.model.clone().into_owned(),
         };
         let estimate = identify(&model, &case.input, &case.tightening, &settings).unwrap();
         [
@@ -42,7 +46,7 @@ fn one_by_one(cases: &[Case], fitted_output: Quantity, effect: Option<Effect>) -
     })
 }
 
-fn diagnosed(cases: &[Case], threads: usize) -> WorkDone {
+fn diagnosed(cases: &[FitTask<'_>], threads: usize) -> WorkDone {
     let question = Question {
         cases,
         effects: Vec::new(),

@@ -1,6 +1,5 @@
 //! The tightenings of a question, the work done with them, and how they stand side by side.
 
-pub(crate) mod case;
 pub(crate) mod cases;
 pub(crate) mod clusters;
 pub(crate) mod simulation;

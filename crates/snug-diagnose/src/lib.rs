@@ -13,7 +13,6 @@ mod settings;
 mod verdict;
 mod watch;
 
-pub use data::case::Case;
 pub use error::DiagnoseError;
 pub use examine::examine;
 pub use locate::{Seen, compare, drifts, locate};

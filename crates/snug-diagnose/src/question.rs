@@ -1,6 +1,6 @@
 //! What can be asked of the data.
 
-use crate::data::case::Case;
+use snug_identify::FitTask;
 use snug_model::Effect;
 
 /// What is asked of the data.
@@ -32,7 +32,7 @@ impl Goal {
 #[derive(Debug, Clone)]
 pub struct Question<'a> {
     /// The tightenings.
-    pub cases: &'a [Case],
+    pub cases: &'a [FitTask<'a>],
     /// Effects of the study's own model.
     pub effects: Vec<Effect>,
     /// Effects that the study declares but does not use: candidates, too.

@@ -13,7 +13,7 @@ use crate::noise::score_covariance::{OwnedNoise, noise_of};
 use crate::residual::tightening::TighteningResidual;
 use crate::residual::whitening::Whitening;
 use crate::settings::IdentifySettings;
-use crate::subject::Subject;
+use crate::task::FitTask;
 use snug_campaign::{
     Estimate, FitStatus, Identifiability, Interval, Parameter, ParameterEstimate, Quantity,
     Tightening,
@@ -39,50 +39,46 @@ pub fn identify(
     tightening: &Tightening,
     settings: &IdentifySettings,
 ) -> Result<Estimate, IdentifyError> {
-    let alone = Subject {
-        model,
-        input,
-        tightening,
-    };
-    let mut outcomes = identify_all(&[alone], settings);
-    outcomes.pop().expect("one outcome for one subject")
+    let alone = [FitTask::new(tightening, input, model, settings)];
+    let mut outcomes = identify_all(&alone);
+    outcomes.pop().expect("one outcome for one task")
 }
 
-/// Tightenings worth handing over to [`identify_all`] at a time: more than the widest vector registers hold, since fits end one
-/// by one, and few enough to be shared out among threads.
-pub const SIDE_BY_SIDE: usize = 16;
+/// Identifies many tightenings, each as [`identify`] does and with the same bits, neighbours with the same settings side by
+/// side: as many at a time as the processor's vector registers hold.
+pub fn identify_all(tasks: &[FitTask<'_>]) -> Vec<Result<Estimate, IdentifyError>> {
+    let alike = tasks.chunk_by(|one, next| one.settings == next.settings);
+    alike.flat_map(identify_alike).collect()
+}
 
-/// Identifies many tightenings, each as [`identify`] does and with the same bits, as many at a time as the processor's vector
-/// registers hold.
-pub fn identify_all(
-    subjects: &[Subject<'_>],
-    settings: &IdentifySettings,
-) -> Vec<Result<Estimate, IdentifyError>> {
+/// Of tasks that have the same settings.
+fn identify_alike(tasks: &[FitTask<'_>]) -> Vec<Result<Estimate, IdentifyError>> {
+    let settings = &*tasks[0].settings;
     let quantity = settings.fitted_output;
-    let whitenings: Vec<Option<Whitening>> = (subjects.iter())
-        .map(|subject| Whitening::of(subject.tightening, quantity))
+    let whitenings: Vec<Option<Whitening>> = (tasks.iter())
+        .map(|task| Whitening::of(&task.tightening, quantity))
         .collect();
-    let mut attempts: Vec<Result<Attempt<'_>, IdentifyError>> = (subjects.iter())
+    let mut attempts: Vec<Result<Attempt<'_>, IdentifyError>> = (tasks.iter())
         .zip(&whitenings)
-        .map(|(subject, whitening)| Attempt::new(subject, whitening.as_ref(), settings))
+        .map(|(task, whitening)| Attempt::new(task, whitening.as_ref(), settings))
         .collect();
-    let decimated_records: Vec<Option<DecimatedRecord>> = (attempts.iter().zip(subjects))
-        .map(|(attempt, subject)| attempt.as_ref().ok()?.decimated(subject, quantity))
+    let decimated_records: Vec<Option<DecimatedRecord>> = (attempts.iter().zip(tasks))
+        .map(|(attempt, task)| attempt.as_ref().ok()?.decimated(task, quantity))
         .collect();
     let mut in_sweeps: Vec<BaseFit<'_, '_>> = (attempts.iter_mut().flatten())
         .filter_map(Attempt::in_sweeps)
         .collect();
     fit::fit_all(&mut in_sweeps, quantity, &settings.solver);
     drop(in_sweeps);
-    let mut fitted_in_sweeps: Vec<FittedInSweeps<'_, '_>> = (attempts.iter_mut().zip(subjects))
-        .filter_map(|(attempt, subject)| attempt.as_mut().ok()?.fitted_in_sweeps(subject))
+    let mut fitted_in_sweeps: Vec<FittedInSweeps<'_, '_>> = (attempts.iter_mut().zip(tasks))
+        .filter_map(|(attempt, task)| attempt.as_mut().ok()?.fitted_in_sweeps(task))
         .collect();
     noise::ask_all(&mut fitted_in_sweeps, quantity);
     drop(fitted_in_sweeps);
     let simulator = BatchSimulator::default();
-    let estimates = (attempts.into_iter().zip(subjects).zip(&decimated_records)).map(
-        |((attempt, subject), decimated)| async {
-            (attempt?.estimate(subject, decimated.as_ref(), settings, &simulator)).await
+    let estimates = (attempts.into_iter().zip(tasks).zip(&decimated_records)).map(
+        |((attempt, task), decimated)| async {
+            (attempt?.estimate(task, decimated.as_ref(), settings, &simulator)).await
         },
     );
     simulator.finish(estimates)
@@ -104,15 +100,15 @@ struct Attempt<'a> {
 
 impl<'a> Attempt<'a> {
     fn new(
-        subject: &Subject<'a>,
+        task: &'a FitTask<'a>,
         whitening: Option<&'a Whitening>,
         settings: &IdentifySettings,
     ) -> Result<Self, IdentifyError> {
         let quantity = settings.fitted_output;
-        let motion = &subject.tightening.motion;
+        let motion = &task.tightening.motion;
         let residual = TighteningResidual::new(
-            subject.model,
-            subject.input,
+            &task.model,
+            &task.input,
             motion
                 .get(quantity)
                 .ok_or(IdentifyError::MissingOutput { quantity })?,
@@ -121,12 +117,12 @@ impl<'a> Attempt<'a> {
             settings.unscored_samples,
         );
         residual.check_length()?;
-        let usual = starts(subject.model);
+        let usual = starts(&task.model);
         let is_rugged = usual.len() > 1 || residual.has_unilateral_contact();
-        let near = integral_start(subject).filter(|_| is_rugged || residual.is_base());
+        let near = integral_start(task).filter(|_| is_rugged || residual.is_base());
         Ok(Self {
             residual,
-            set: convex_set(subject.model, &settings.constraints),
+            set: convex_set(&task.model, &settings.constraints),
             starts: near.map_or_else(|| usual.clone(), |near| nearer(&usual, &near, is_rugged)),
             distinct_starts: usual.len(),
             usual_start: usual.into_iter().next().unwrap_or_default(),
@@ -152,10 +148,7 @@ impl<'a> Attempt<'a> {
     }
 
     /// As sweeps ask about its noise: if the last one of the fit was made at the estimate.
-    fn fitted_in_sweeps<'r>(
-        &'r mut self,
-        subject: &'r Subject<'a>,
-    ) -> Option<FittedInSweeps<'r, 'a>> {
+    fn fitted_in_sweeps<'r>(&'r mut self, task: &'a FitTask<'a>) -> Option<FittedInSweeps<'r, 'a>> {
         let Some(Ok(fit)) = &self.outcome else {
             return None;
         };
@@ -163,7 +156,7 @@ impl<'a> Attempt<'a> {
         let is_here = self.residual.all_values(&fit.values).starts_with(&values);
         is_here.then_some(FittedInSweeps {
             residual: &mut self.residual,
-            subject,
+            task,
             fit,
             found,
             noise: &mut self.noise,
@@ -171,15 +164,15 @@ impl<'a> Attempt<'a> {
     }
 
     /// On what several starts are tried.
-    fn decimated(&self, subject: &Subject<'a>, quantity: Quantity) -> Option<DecimatedRecord> {
+    fn decimated(&self, task: &'a FitTask<'a>, quantity: Quantity) -> Option<DecimatedRecord> {
         let is_one = self.starts.len() == 1;
-        (!is_one).then(|| DecimatedRecord::of(subject, quantity))?
+        (!is_one).then(|| DecimatedRecord::of(task, quantity))?
     }
 
     /// As it is fitted by itself.
     fn multistart_search<'s>(
         &'s self,
-        subject: &'s Subject<'a>,
+        task: &'a FitTask<'a>,
         decimated: Option<&'a DecimatedRecord>,
         settings: &'s IdentifySettings,
         simulator: &'s BatchSimulator<'a>,
@@ -190,7 +183,7 @@ impl<'a> Attempt<'a> {
             starts: &self.starts,
             distinct_starts: self.distinct_starts,
             decimated,
-            subject,
+            task,
             settings,
             simulator,
         }
@@ -199,7 +192,7 @@ impl<'a> Attempt<'a> {
     /// The estimate with its covariance, after a fit if that is still to be made.
     async fn estimate(
         mut self,
-        subject: &Subject<'a>,
+        task: &'a FitTask<'a>,
         decimated: Option<&'a DecimatedRecord>,
         settings: &IdentifySettings,
         simulator: &BatchSimulator<'a>,
@@ -208,17 +201,17 @@ impl<'a> Attempt<'a> {
             Some(outcome) => outcome?,
             None => {
                 let multistart_search =
-                    self.multistart_search(subject, decimated, settings, simulator);
+                    self.multistart_search(task, decimated, settings, simulator);
                 multistart_search.lowest().await?
             }
         };
         let noise = match self.noise {
             Some(noise) => noise,
-            None => noise_of(&mut self.residual, subject, &fit, simulator).await,
+            None => noise_of(&mut self.residual, task, &fit, simulator).await,
         };
         let mut covariance = fit.covariance(noise.as_residual_noise());
         self.residual.widen_by_fixed(&fit, &mut covariance);
-        Ok(estimate(subject.model, &self.set, &fit, &covariance))
+        Ok(estimate(&task.model, &self.set, &fit, &covariance))
     }
 }
 

@@ -2,6 +2,7 @@
 
 mod base_model;
 mod batch;
+mod batches;
 mod constraint_kind;
 pub mod derived;
 mod error;
@@ -10,15 +11,16 @@ mod multistart;
 mod noise;
 mod residual;
 mod settings;
-mod subject;
+mod task;
 
+pub use batches::{SIDE_BY_SIDE, in_batches};
 pub use constraint_kind::{ConstraintKind, convex_set};
 pub use error::IdentifyError;
-pub use identify::{SIDE_BY_SIDE, identify, identify_all};
+pub use identify::{identify, identify_all};
 pub use multistart::smoothing::{HALF_WIDTHS, smooth};
 pub use residual::agreement;
 pub use residual::restarts::{Simulation, motions, motions_at, widest_half_width};
 pub use residual::tightening::TighteningResidual;
 pub use residual::whitening::Whitening;
 pub use settings::IdentifySettings;
-pub use subject::Subject;
+pub use task::FitTask;

@@ -6,18 +6,26 @@ use crate::prepared_file::{KeptFiles, PreparedFile};
 use crate::{Study, StudyError};
 use rayon::prelude::*;
 use snug_campaign::Rejection;
-use snug_diagnose::Case;
 use snug_files::{Disk, Host};
+use snug_identify::{FitTask, IdentifySettings};
 use snug_ingest::IngestError;
+use std::borrow::Cow;
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 use std::sync::Mutex;
 
 /// Reads and prepares at most `most` tightenings, evenly spread over the files and within each; tightenings with faulty
 /// data, those kept for validation and those that cannot be judged by the same measure as the others take no part.
-pub fn cases(study: &Study, files: &[PathBuf], most: usize) -> Result<Vec<Case>, StudyError> {
+pub fn cases(
+    study: &Study,
+    files: &[PathBuf],
+    most: usize,
+) -> Result<Vec<FitTask<'static>>, StudyError> {
     Ok(chosen(study, &Host, files, most)?.0.cases)
 }
+
+/// Samples that must be scored for a comparison to say anything.
+const FEWEST_SCORED: usize = 100;
 
 /// Tightenings of one file that take part at least, if it has them: what drifts within a file shows between two.
 const EACH: usize = 2;
@@ -73,7 +81,7 @@ pub(crate) fn chosen(
 struct Part {
     /// Which file.
     number: usize,
-    cases: Vec<Case>,
+    cases: Vec<FitTask<'static>>,
     /// Whether it has more.
     is_selection: bool,
     /// Why nothing could be read of it.
@@ -82,7 +90,7 @@ struct Part {
 
 impl Part {
     /// At most `most` of the tightenings of a file, evenly spread and `later` by so many, round the end.
-    fn of(number: usize, all: Vec<Case>, most: usize, later: usize) -> Self {
+    fn of(number: usize, all: Vec<FitTask<'static>>, most: usize, later: usize) -> Self {
         let (count, picked) = (all.len(), most.min(all.len()));
         let places: BTreeSet<usize> = (0..picked)
             .map(|place| (place * count / picked + later) % count)
@@ -110,13 +118,18 @@ fn selection(taken: usize, read: usize, all: usize) -> String {
 }
 
 /// The same tightenings with a study that differs in its model and in how that is run.
-pub(crate) fn with_settled(study: &Study, cases: Vec<Case>) -> Result<Vec<Case>, StudyError> {
+pub(crate) fn with_settled(
+    study: &Study,
+    cases: Vec<FitTask<'static>>,
+) -> Result<Vec<FitTask<'static>>, StudyError> {
     let simulation = study.identify.simulation;
     (cases.into_iter())
         .map(|case| {
-            Ok(Case {
-                model: study.model.model(case.tightening.rig)?,
-                input: simulation.of(case.input, &case.tightening),
+            let model = study.model.model(case.tightening.rig)?;
+            let input = simulation.of(case.input.into_owned(), &case.tightening);
+            Ok(FitTask {
+                model: Cow::Owned(model),
+                input: Cow::Owned(input),
                 ..case
             })
         })
@@ -124,7 +137,7 @@ pub(crate) fn with_settled(study: &Study, cases: Vec<Case>) -> Result<Vec<Case>,
 }
 
 /// What of a file can be compared with the model. Everything else that is left out the run of the study names in its findings.
-fn cases_of_file(study: &Study, file: &PreparedFile) -> Result<Vec<Case>, StudyError> {
+fn cases_of_file(study: &Study, file: &PreparedFile) -> Result<Vec<FitTask<'static>>, StudyError> {
     let only_simulated = study.validation_segments();
     let mut cases = Vec::new();
     for (_, prepared) in &file.recordings {
@@ -143,15 +156,19 @@ fn cases_of_file(study: &Study, file: &PreparedFile) -> Result<Vec<Case>, StudyE
                 .map(|noise| noise.quantity)
                 .filter(|&quantity| tightening.motion.get(quantity).is_some())
                 .unwrap_or(fitted);
-            let case = Case {
-                model: study.model.model(tightening.rig)?,
-                input,
-                quantity,
-                unscored: study.identify.unscored_samples,
+            let settings = IdentifySettings {
+                fitted_output: quantity,
                 constraints: study.identify.constraints.clone(),
-                tightening,
+                unscored_samples: study.identify.unscored_samples,
+                ..IdentifySettings::default()
             };
-            if case.is_comparable() {
+            let case = FitTask {
+                model: Cow::Owned(study.model.model(tightening.rig)?),
+                input: Cow::Owned(input),
+                settings: Cow::Owned(settings),
+                tightening: Cow::Owned(tightening),
+            };
+            if case.measured().len() > case.unscored() + FEWEST_SCORED {
                 cases.push(case);
             }
         }

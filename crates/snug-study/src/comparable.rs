@@ -1,12 +1,12 @@
 //! Tightenings that can be judged together: one output, and either all against their measured noise or none.
 
 use snug_campaign::Quantity;
-use snug_diagnose::Case;
+use snug_identify::FitTask;
 use std::collections::BTreeMap;
 
 /// Tightenings that are judged by one measure.
 pub(crate) struct Comparable {
-    pub cases: Vec<Case>,
+    pub cases: Vec<FitTask<'static>>,
     /// Why others take no part; empty where all do.
     pub remarks: Vec<String>,
 }
@@ -16,9 +16,9 @@ pub(crate) struct Comparable {
 ///
 /// A pooled residual has one unit: multiples of the noise, or the output's own. One tightening whose noise could not be
 /// measured would take that unit away from all.
-pub(crate) fn comparable(cases: Vec<Case>) -> Comparable {
+pub(crate) fn comparable(cases: Vec<FitTask<'static>>) -> Comparable {
     let measures: Vec<(Quantity, bool)> = (cases.iter())
-        .map(|case| (case.quantity, case.has_noise()))
+        .map(|case| (case.quantity(), case.whitening().is_some()))
         .collect();
     let mut alike: BTreeMap<(Quantity, bool), usize> = BTreeMap::new();
     for &measure in &measures {
@@ -26,7 +26,7 @@ pub(crate) fn comparable(cases: Vec<Case>) -> Comparable {
     }
     let largest = (measures.iter().copied()).max_by_key(|one| (alike[one], one.1));
     let all = cases.len();
-    let kept: Vec<Case> = (cases.into_iter().zip(measures))
+    let kept: Vec<FitTask<'static>> = (cases.into_iter().zip(measures))
         .filter_map(|(case, measure)| (Some(measure) == largest).then_some(case))
         .collect();
     let remark = match (largest, all - kept.len()) {

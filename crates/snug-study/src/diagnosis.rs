@@ -8,7 +8,8 @@ use crate::rungs::Ladder;
 use crate::settling::{Settled, settle};
 use crate::{ProgressEvent, Study, StudyError};
 use serde::{Deserialize, Serialize};
-use snug_diagnose::{Answer, Case, DiagnoseError, Goal, Question, RungModel, Watch, examine};
+use snug_diagnose::{Answer, DiagnoseError, Goal, Question, RungModel, Watch, examine};
+use snug_identify::FitTask;
 use snug_model::{Effect, ParameterSettings};
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -208,7 +209,11 @@ pub fn diagnose(
 }
 
 /// The named effects, the study's own among them, as they act on its rig.
-fn effects(study: &Study, names: &[String], cases: &[Case]) -> Result<Vec<Effect>, StudyError> {
+fn effects(
+    study: &Study,
+    names: &[String],
+    cases: &[FitTask<'_>],
+) -> Result<Vec<Effect>, StudyError> {
     let Some(first) = cases.first() else {
         return Ok(Vec::new());
     };

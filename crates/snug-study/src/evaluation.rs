@@ -5,12 +5,13 @@ use snug_campaign::{
     Estimate, FitMeasures, FitStatus, Motion, Quantity, Recording, Rejection, Segment, Selection,
     Tightening, TighteningId, TighteningResult, Traces,
 };
-use snug_identify::{IdentifyError, Subject, agreement, derived, identify_all};
+use snug_identify::{FitTask, IdentifyError, agreement, derived, identify_all};
 use snug_model::{
     BASE_PARAMETERS, Input, Law, Model, euler_displacement, inverse_dynamics_force,
     spring_damper_force, thesis_damping_ratio,
 };
 use snug_preprocess::{Prepared, Preset, ThesisChecks, target_torque_nm};
+use std::borrow::Cow;
 
 /// A tightening's result with its signals.
 pub struct Evaluated {
@@ -25,31 +26,30 @@ pub fn fitted(
     study: &Study,
     prepared: &[&Prepared],
 ) -> Result<Vec<Result<Evaluated, IdentifyError>>, StudyError> {
-    let models = (prepared.iter())
-        .map(|one| study.model.model(one.tightening.rig))
-        .collect::<Result<Vec<Model>, _>>()?;
-    let inputs: Vec<Input> = prepared.iter().map(|one| input(study, one)).collect();
-    let subjects: Vec<Subject<'_>> = (models.iter().zip(&inputs).zip(prepared))
-        .map(|((model, input), one)| Subject {
-            model,
-            input,
-            tightening: &one.tightening,
+    let tasks = (prepared.iter())
+        .map(|one| {
+            Ok(FitTask {
+                tightening: Cow::Borrowed(&one.tightening),
+                input: Cow::Owned(input(study, one)),
+                model: Cow::Owned(study.model.model(one.tightening.rig)?),
+                settings: Cow::Borrowed(&study.identify),
+            })
         })
-        .collect();
-    let estimates = identify_all(&subjects, &study.identify);
-    Ok((estimates.into_iter().zip(&subjects).zip(prepared))
-        .map(|((estimate, subject), one)| Ok(identified(study, subject, one, estimate?)))
+        .collect::<Result<Vec<FitTask<'_>>, StudyError>>()?;
+    let estimates = identify_all(&tasks);
+    Ok((estimates.into_iter().zip(&tasks).zip(prepared))
+        .map(|((estimate, task), one)| Ok(identified(study, task, one, estimate?)))
         .collect())
 }
 
 /// A tightening simulated with its own estimate.
 fn identified(
     study: &Study,
-    subject: &Subject<'_>,
+    task: &FitTask<'_>,
     prepared: &Prepared,
     estimate: Estimate,
 ) -> Evaluated {
-    let Subject { model, input, .. } = *subject;
+    let (model, input) = (&*task.model, &*task.input);
     tracing::debug!(
         tightening = prepared.tightening.id.number,
         status = ?estimate.status,

@@ -4,10 +4,9 @@ use crate::evaluation::{Evaluated, fitted, validated, without_estimate};
 use crate::prepared_file::PreparedFile;
 use crate::rungs::{Ladder, RungShare};
 use crate::{Study, StudyError};
-use rayon::prelude::*;
 use snug_campaign::{Estimate, Finding, FitStatus, Recording, Rejection, Severity, TighteningId};
 use snug_files::Disk;
-use snug_identify::SIDE_BY_SIDE;
+use snug_identify::in_batches;
 use snug_preprocess::{Prepared, Preprocessed, Preset, Window, preprocess};
 use std::path::Path;
 
@@ -150,11 +149,9 @@ fn evaluate(
         .tightenings
         .iter()
         .partition(|one| only_simulated.contains(&one.tightening.id.number));
-    let groups = (to_fit.par_chunks(SIDE_BY_SIDE))
-        .map(|group| fitted(study, group))
-        .collect::<Result<Vec<_>, StudyError>>()?;
+    let outcomes = in_batches(&to_fit, |batch| fitted(study, batch))?;
     let mut evaluated = Vec::new();
-    for (one, outcome) in to_fit.iter().zip(groups.into_iter().flatten()) {
+    for (one, outcome) in to_fit.iter().zip(outcomes) {
         match outcome {
             Ok(done) => evaluated.push(done),
             Err(error) => {

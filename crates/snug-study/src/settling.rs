@@ -3,8 +3,7 @@
 
 use crate::Study;
 use snug_campaign::Quantity;
-use snug_diagnose::Case;
-use snug_identify::{IdentifySettings, Simulation, identify, motions, widest_half_width};
+use snug_identify::{FitTask, IdentifySettings, Simulation, identify, motions, widest_half_width};
 use snug_model::Scale;
 use snug_preprocess::Window;
 
@@ -15,7 +14,7 @@ pub(crate) struct Settled {
 }
 
 /// Makes the choices that the study leaves open, where its window is a whole record; `None` where there are none.
-pub(crate) fn settle(study: &Study, cases: &[Case]) -> Option<Settled> {
+pub(crate) fn settle(study: &Study, cases: &[FitTask<'_>]) -> Option<Settled> {
     if study.preprocess.window != Window::Whole {
         return None;
     }
@@ -83,8 +82,8 @@ struct Sizes {
 }
 
 impl Sizes {
-    fn of(cases: &[Case]) -> Option<Self> {
-        let motion = |case: &Case| case.tightening.motion.displacement_rad.is_some();
+    fn of(cases: &[FitTask<'_>]) -> Option<Self> {
+        let motion = |case: &FitTask<'_>| case.tightening.motion.displacement_rad.is_some();
         if !cases.iter().all(motion) {
             return None;
         }
@@ -125,7 +124,7 @@ impl Sizes {
     }
 
     /// Speed over its change, root mean square, seen over a fourth of the present time; `None` where that is too short.
-    fn time_of_speed(&self, cases: &[Case]) -> Option<f64> {
+    fn time_of_speed(&self, cases: &[FitTask<'_>]) -> Option<f64> {
         let (mut speeds, mut changes) = (0.0, 0.0);
         for case in cases {
             let interval_s = interval_s(case);
@@ -149,14 +148,14 @@ impl Sizes {
     }
 }
 
-fn displacement(case: &Case) -> &[f64] {
+fn displacement<'a>(case: &'a FitTask<'_>) -> &'a [f64] {
     case.tightening
         .motion
         .get(Quantity::Displacement)
         .unwrap_or_default()
 }
 
-fn interval_s(case: &Case) -> f64 {
+fn interval_s(case: &FitTask<'_>) -> f64 {
     case.tightening.time_base.interval_s
 }
 
@@ -167,41 +166,41 @@ fn mean_square(values: &[f64]) -> f64 {
 /// Root mean square of what a free run of the study's own model leaves, as a share of the measured motion about its
 /// mean; `None` where restarts make no sense: an acceleration does not drift, and what is integrated from one has no
 /// measured motion to start from.
-fn missed(cases: &[Case]) -> Option<f64> {
+fn missed(cases: &[FitTask<'_>]) -> Option<f64> {
     let (mut left, mut whole) = (0.0, 0.0);
     for case in cases {
         let motion = &case.tightening.motion;
-        if case.quantity == Quantity::Acceleration || motion.acceleration_rad_per_s2.is_some() {
+        if case.quantity() == Quantity::Acceleration || motion.acceleration_rad_per_s2.is_some() {
             return None;
         }
         let settings = IdentifySettings {
-            fitted_output: case.quantity,
-            constraints: case.constraints.clone(),
-            unscored_samples: case.unscored,
+            fitted_output: case.quantity(),
+            constraints: case.settings.constraints.clone(),
+            unscored_samples: case.unscored(),
             simulation: Simulation::FreeRun,
             ..IdentifySettings::default()
         };
-        let measured = motion.get(case.quantity)?;
+        let measured = motion.get(case.quantity())?;
         let mean = measured.iter().sum::<f64>() / measured.len() as f64;
         let error = identify(&case.model, &case.input, &case.tightening, &settings).map(|found| {
             let values: Vec<f64> = found.parameters.iter().map(|p| p.value).collect();
             let mut error = vec![0.0; measured.len()];
             case.model
-                .output(&values, &case.input, case.quantity, &mut error);
+                .output(&values, &case.input, case.quantity(), &mut error);
             error
                 .iter_mut()
                 .zip(measured)
                 .for_each(|(simulated, y)| *simulated -= y);
             error
         });
-        let scored = measured.len() - case.unscored;
-        let about: f64 = measured[case.unscored..]
+        let scored = measured.len() - case.unscored();
+        let about: f64 = measured[case.unscored()..]
             .iter()
             .map(|y| (y - mean).powi(2))
             .sum();
         // What cannot even be simulated misses everything.
         left += error.map_or(about, |error| {
-            scored as f64 * mean_square(&error[case.unscored..])
+            scored as f64 * mean_square(&error[case.unscored()..])
         });
         whole += about;
     }

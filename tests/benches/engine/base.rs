@@ -5,8 +5,7 @@ use crate::measure::{Clock, race};
 use crate::table::{Reference, alone, section, times_the};
 use crate::{bare_lanes, bare_loop};
 use snug_campaign::{Estimate, FitStatus, Quantity};
-use snug_diagnose::Case;
-use snug_identify::{IdentifySettings, Subject, identify, identify_all};
+use snug_identify::{FitTask, IdentifySettings, identify, identify_all};
 use std::hint::black_box;
 
 /// Tightenings that every row fits.
@@ -89,30 +88,26 @@ pub fn fitting(fitted_output: Quantity) -> IdentifySettings {
 }
 
 /// A complete fit.
-pub fn fit(case: &Case, settings: &IdentifySettings) -> Estimate {
+pub fn fit(case: &FitTask<'_>, settings: &IdentifySettings) -> Estimate {
     identify(&case.model, &case.input, &case.tightening, settings)
         .expect("the benchmark's own data can be fitted")
 }
 
 /// Complete fits of many tightenings, as a study does them on one core.
-pub fn fit_all(cases: &[&Case], settings: &IdentifySettings) -> Vec<Estimate> {
-    let subjects: Vec<Subject<'_>> = (cases.iter())
-        .map(|case| Subject {
-            model: &case.model,
-            input: &case.input,
-            tightening: &case.tightening,
-        })
+pub fn fit_all(cases: &[&FitTask<'_>], settings: &IdentifySettings) -> Vec<Estimate> {
+    let tasks: Vec<FitTask<'_>> = (cases.iter())
+        .map(|case| FitTask::new(&case.tightening, &case.input, &case.model, settings))
         .collect();
-    let fitted = identify_all(&subjects, settings).into_iter();
+    let fitted = identify_all(&tasks).into_iter();
     fitted
         .map(|estimate| estimate.expect("the benchmark's own data can be fitted"))
         .collect()
 }
 
 /// The tightenings whose optimum of the displacement lies inside the constraints: no other program here knows them.
-pub fn inside(cases: &[Case]) -> Vec<&Case> {
+pub fn inside<'a>(cases: &'a [FitTask<'static>]) -> Vec<&'a FitTask<'static>> {
     let settings = fitting(Quantity::Displacement);
-    let is_inside = |case: &&Case| fit(case, &settings).status == FitStatus::Converged;
+    let is_inside = |case: &&FitTask<'_>| fit(case, &settings).status == FitStatus::Converged;
     cases.iter().filter(is_inside).collect()
 }
 
@@ -129,7 +124,7 @@ pub fn difference(found: &[f64], expected: &[f64]) -> f64 {
         .fold(0.0, f64::max)
 }
 
-fn worst_difference(cases: &[&Case]) -> f64 {
+fn worst_difference(cases: &[&FitTask<'_>]) -> f64 {
     let settings = fitting(Quantity::Displacement);
     let records: Vec<_> = cases.iter().map(|case| record(case)).collect();
     let in_lanes = bare_lanes::fit_all(&records, START);

@@ -2,7 +2,7 @@
 
 use crate::bare_loop::Record;
 use snug_campaign::Quantity;
-use snug_diagnose::Case;
+use snug_identify::FitTask;
 use snug_model::THESIS_START;
 use snug_study::Study;
 use snug_synthetic::{CampaignPlan, HiddenEffect, MatStyle, simulate};
@@ -63,18 +63,18 @@ impl Campaign {
     }
 
     /// Its tightenings, prepared.
-    pub fn cases(&self) -> Vec<Case> {
+    pub fn cases(&self) -> Vec<FitTask<'static>> {
         cases(&self.data(), usize::MAX)
     }
 
     /// As many of them as a study learns effects from by itself.
-    pub fn usual_cases(&self) -> Vec<Case> {
+    pub fn usual_cases(&self) -> Vec<FitTask<'static>> {
         cases(&self.data(), self.study().diagnosis.most_tightenings)
     }
 }
 
 /// At most so many of the tightenings in a folder of measurement files, prepared.
-pub fn cases(data: &Path, most: usize) -> Vec<Case> {
+pub fn cases(data: &Path, most: usize) -> Vec<FitTask<'static>> {
     let study = Study::on(data.to_path_buf());
     let listing =
         snug_ingest::list(&study.source, &study.source.path).expect("the files were just written");
@@ -85,7 +85,7 @@ pub fn cases(data: &Path, most: usize) -> Vec<Case> {
 const PART: usize = 32;
 
 /// What the bare loops take of a tightening: torque and displacement.
-pub fn record(case: &Case) -> Record<'_> {
+pub fn record<'a>(case: &'a FitTask<'_>) -> Record<'a> {
     let tightening = &case.tightening;
     let displacement = tightening.motion.get(Quantity::Displacement);
     Record {

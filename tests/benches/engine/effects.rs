@@ -6,9 +6,11 @@ use crate::campaign::{Campaign, START, record};
 use crate::measure::{Clock, Times, race};
 use crate::table::{Reference, section, times_the};
 use snug_campaign::Quantity;
-use snug_diagnose::{Case, fit_together};
+use snug_diagnose::fit_together;
+use snug_identify::FitTask;
 use snug_model::Effect;
 use snug_synthetic::HiddenEffect;
+use std::borrow::Cow;
 use std::hint::black_box;
 
 /// Tightenings that hide the effect.
@@ -30,11 +32,11 @@ pub fn fill(_is_long: bool) {
     }
 }
 
-fn row(name: &str, effect: Effect, cases: &[Case]) {
-    let with: Vec<Case> = (cases.iter())
+fn row(name: &str, effect: Effect, cases: &[FitTask<'_>]) {
+    let with: Vec<FitTask<'_>> = (cases.iter())
         .filter_map(|case| with_effect(case, effect))
         .collect();
-    let with: Vec<&Case> = with.iter().collect();
+    let with: Vec<&FitTask<'_>> = with.iter().collect();
     let settings = fitting(Quantity::Acceleration);
     let [bare, alone, side_by_side, pooled] = race(
         Clock::Core,
@@ -70,11 +72,11 @@ fn row(name: &str, effect: Effect, cases: &[Case]) {
 }
 
 /// The same tightening, the effect in its model.
-fn with_effect(case: &Case, effect: Effect) -> Option<Case> {
+fn with_effect<'a>(case: &'a FitTask<'_>, effect: Effect) -> Option<FitTask<'a>> {
     let model = case.model.with_effect(effect).ok()?;
-    Some(Case {
-        model,
-        ..case.clone()
+    Some(FitTask {
+        model: Cow::Owned(model),
+        ..case.lent()
     })
 }
 

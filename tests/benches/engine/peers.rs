@@ -7,7 +7,7 @@ use crate::campaign::{Campaign, START, record};
 use crate::measure::{Clock, Times};
 use crate::table::{Reference, alone, faster_than, left_out, section};
 use snug_campaign::Quantity;
-use snug_diagnose::Case;
+use snug_identify::FitTask;
 use std::io::{BufRead, BufReader, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
@@ -75,7 +75,7 @@ fn succeed(command: &mut Command, what: &str) -> Result<(), String> {
 }
 
 /// `index.json`, and torque and angle of every tightening one after the other as little-endian doubles.
-fn write_problem(cases: &[&Case], folder: &Path) {
+fn write_problem(cases: &[&FitTask<'_>], folder: &Path) {
     let records: Vec<_> = cases.iter().map(|case| record(case)).collect();
     let index = serde_json::json!({
         "tightenings": records.len(),
@@ -155,7 +155,7 @@ impl Drop for Peer {
     }
 }
 
-fn compare(mut peer: Peer, name: &str, cases: &[&Case]) {
+fn compare(mut peer: Peer, name: &str, cases: &[&FitTask<'_>]) {
     let settings = fitting(Quantity::Displacement);
     let (mut theirs, mut ours) = (Vec::new(), Vec::new());
     let mut worst = 0.0_f64;

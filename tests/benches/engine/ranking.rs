@@ -4,7 +4,8 @@ use crate::bare_loop;
 use crate::campaign::{Campaign, START, record};
 use crate::measure::{Clock, once, race};
 use crate::table::{Reference, left_out, section, times_the};
-use snug_diagnose::{Case, DiagnoseSettings, Goal, Question, Watch, examine};
+use snug_diagnose::{DiagnoseSettings, Goal, Question, Watch, examine};
+use snug_identify::FitTask;
 use std::hint::black_box;
 
 /// Tightenings of the short row and of the long one.
@@ -68,14 +69,14 @@ fn row(
 }
 
 /// One base-model fit of each by the bare scalar loop.
-pub fn bare_fits(cases: &[Case]) {
+pub fn bare_fits(cases: &[FitTask<'_>]) {
     for case in cases {
         black_box(bare_loop::fit(&record(case), START));
     }
 }
 
 /// Number of candidates ranked.
-fn diagnose(cases: &[Case]) -> usize {
+fn diagnose(cases: &[FitTask<'_>]) -> usize {
     let question = Question {
         cases,
         effects: Vec::new(),

@@ -5,7 +5,7 @@ use crate::effects::one_core;
 use crate::measure::{Clock, Times, race};
 use crate::table::{Reference, section, short, times_the};
 use snug_campaign::{FitMeasures, Quantity, Recording, Selection, TighteningResult, Traces};
-use snug_diagnose::Case;
+use snug_identify::FitTask;
 use snug_preprocess::{PreprocessSettings, preprocess};
 use snug_record::{RecordSettings, Recorder};
 use std::hint::black_box;
@@ -134,7 +134,7 @@ fn write(path: &Path, results: &[(TighteningResult, Traces)]) {
 }
 
 /// A tightening with the signals of the model it starts from.
-fn result(case: &Case) -> (TighteningResult, Traces) {
+fn result(case: &FitTask<'_>) -> (TighteningResult, Traces) {
     let tightening = &case.tightening;
     let values: Vec<f64> = (case.model.parameters().iter())
         .map(|parameter| parameter.value)

@@ -1,7 +1,7 @@
 //! The tightenings of a question together with the count of what is done with them.
 
-use crate::data::case::Case;
 use snug_campaign::{Estimate, WorkDone};
+use snug_identify::FitTask;
 use snug_least_squares::Work;
 use std::ops::Deref;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -9,17 +9,17 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 /// Tightenings, and where the work done with them is counted.
 #[derive(Clone, Copy)]
 pub(crate) struct Cases<'a> {
-    all: &'a [Case],
+    all: &'a [FitTask<'a>],
     tally: &'a Tally,
 }
 
 impl<'a> Cases<'a> {
-    pub fn new(all: &'a [Case], tally: &'a Tally) -> Self {
+    pub fn new(all: &'a [FitTask<'a>], tally: &'a Tally) -> Self {
         Self { all, tally }
     }
 
     /// Other tightenings, the work counted with that of these.
-    pub fn others<'b>(self, all: &'b [Case]) -> Cases<'b>
+    pub fn others<'b>(self, all: &'b [FitTask<'b>]) -> Cases<'b>
     where
         'a: 'b,
     {
@@ -28,10 +28,10 @@ impl<'a> Cases<'a> {
     }
 
     /// Some of them.
-    pub fn some(self, members: &[usize]) -> Vec<Case> {
+    pub fn some(self, members: &[usize]) -> Vec<FitTask<'a>> {
         members
             .iter()
-            .map(|&member| self.all[member].clone())
+            .map(|&member| self.all[member].lent())
             .collect()
     }
 
@@ -40,10 +40,10 @@ impl<'a> Cases<'a> {
     }
 }
 
-impl Deref for Cases<'_> {
-    type Target = [Case];
+impl<'a> Deref for Cases<'a> {
+    type Target = [FitTask<'a>];
 
-    fn deref(&self) -> &[Case] {
+    fn deref(&self) -> &[FitTask<'a>] {
         self.all
     }
 }

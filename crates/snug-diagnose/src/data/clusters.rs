@@ -1,6 +1,6 @@
 //! What counts as one independent piece of evidence: a tightening, or, where there are few, a stretch of one.
 
-use crate::data::case::Case;
+use snug_identify::FitTask;
 use std::ops::Range;
 
 /// Fewer tightenings than this are cut into stretches.
@@ -18,13 +18,13 @@ pub(crate) struct Units {
 }
 
 impl Units {
-    pub fn of(cases: &[Case]) -> Self {
+    pub fn of(cases: &[FitTask<'_>]) -> Self {
         if cases.len() >= FEWEST_WHOLE {
             return Self { per_case: 1 };
         }
         let shortest = cases
             .iter()
-            .map(|case| case.measured().len() - case.unscored);
+            .map(|case| case.measured().len() - case.unscored());
         let room = shortest.min().unwrap_or(0) / SHORTEST_STRETCH;
         Self {
             per_case: STRETCHES_WANTED

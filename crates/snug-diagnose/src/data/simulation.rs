@@ -1,6 +1,6 @@
 //! What models say of several tightenings, simulated side by side.
 
-use crate::data::case::Case;
+use snug_identify::FitTask;
 use snug_model::{Input, Model, Run, simulate_side_by_side};
 
 /// What is asked of one tightening.
@@ -28,7 +28,7 @@ pub(crate) struct Simulated {
 /// `models` are those of `cases`, one each. The first of `simulated` get the answers; they are kept from call to call for
 /// their room.
 pub(crate) fn simulate(
-    cases: &[Case],
+    cases: &[FitTask<'_>],
     models: &[Model],
     asked: &[Asked<'_>],
     order: &[usize],
@@ -45,7 +45,7 @@ pub(crate) fn simulate(
                 model: &models[asked.member],
                 values: asked.values,
                 input: asked.input,
-                quantity: case.quantity,
+                quantity: case.quantity(),
                 output: &mut simulated.output,
                 sensitivity: &mut simulated.sensitivity,
             }

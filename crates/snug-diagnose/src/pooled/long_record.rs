@@ -1,9 +1,8 @@
 //! A candidate's refit to a few long records, where mass, damping and stiffness are no matter of each tightening.
 
-use crate::data::case::Case;
 use crate::error::DiagnoseError;
 use crate::pooled::model::{Hypothesis, Start};
-use snug_identify::{TighteningResidual, convex_set};
+use snug_identify::{FitTask, TighteningResidual, convex_set};
 use snug_least_squares::{DenseResidual, PooledFit, PooledSettings, Settings, solve};
 
 /// Samples of all records together up to which they are soon simulated.
@@ -34,23 +33,23 @@ pub(crate) fn best_of(
     if samples <= SOON {
         return lowest(hypothesis, starts, settings);
     }
-    let beginnings: Vec<Case> = hypothesis.cases.iter().map(beginning).collect();
+    let beginnings: Vec<FitTask<'_>> = hypothesis.cases.iter().map(beginning).collect();
     let mut there = Hypothesis::new(hypothesis.cases.others(&beginnings), &hypothesis.effects)?;
     let start = Start::at(&lowest(&mut there, starts, settings)?);
     hypothesis.fit(&start, settings)
 }
 
 /// What comes first and holds enough of the motion.
-fn beginning(record: &Case) -> Case {
+fn beginning(record: &FitTask<'_>) -> FitTask<'static> {
     let measured = record.measured();
     let squares = |samples: &[f64]| samples.iter().map(|y| y * y).sum::<f64>();
-    let enough = BEGINNING * squares(&measured[record.unscored..]);
+    let enough = BEGINNING * squares(&measured[record.unscored()..]);
     let mut sum = 0.0;
-    let more = measured[record.unscored..].iter().take_while(|&&y| {
+    let more = measured[record.unscored()..].iter().take_while(|&&y| {
         sum += y * y;
         sum < enough
     });
-    record.beginning(record.unscored + more.count().max(SHORTEST))
+    record.beginning(record.unscored() + more.count().max(SHORTEST))
 }
 
 /// Fewest scored samples of a beginning.
@@ -113,12 +112,12 @@ fn further(hypothesis: &Hypothesis<'_>, from: &Start) -> Option<Start> {
         model,
         &case.input,
         case.measured(),
-        case.quantity,
+        case.quantity(),
         whitening.as_ref(),
-        case.unscored,
+        case.unscored(),
     ));
     let start: Vec<f64> = free.iter().map(|&index| values[index]).collect();
-    let set = convex_set(model, &case.constraints);
+    let set = convex_set(model, &case.settings.constraints);
     let settings = Settings {
         max_iterations: 300,
         gradient_tolerance: 1e-6,

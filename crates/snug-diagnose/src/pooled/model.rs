@@ -1,10 +1,9 @@
 //! A set of effects as one statement about all tightenings: each its own m, c, k, the effects' sizes shared.
 
-use crate::data::case::Case;
 use crate::data::cases::Cases;
 use crate::data::simulation::{Asked, Simulated, simulate};
 use crate::error::DiagnoseError;
-use snug_identify::{Subject, Whitening, convex_set, identify_all, smooth};
+use snug_identify::{FitTask, Whitening, convex_set, identify_all, smooth};
 use snug_least_squares::{
     Constraints, EvaluationError, PooledFit, PooledResidual, PooledSettings, Trial, solve_pooled,
 };
@@ -105,11 +104,11 @@ impl<'a> Hypothesis<'a> {
                 for &index in &shared {
                     alone.parameters_mut()[index].fixed = true;
                 }
-                convex_set(&alone, &case.constraints)
+                convex_set(&alone, &case.settings.constraints)
             })
             .collect();
         Ok(Self {
-            whitenings: cases.iter().map(Case::whitening).collect(),
+            whitenings: cases.iter().map(FitTask::whitening).collect(),
             cases,
             effects: effects.to_vec(),
             models,
@@ -209,27 +208,15 @@ impl<'a> Hypothesis<'a> {
         let models: Vec<Model> = (members.iter().zip(own))
             .map(|(&member, own)| self.held(member, own, shared))
             .collect();
-        let pairs: Vec<(usize, &Model)> = members.iter().copied().zip(&models).collect();
-        let settings = |member: usize| self.cases[member].settings();
-        let alike = pairs.chunk_by(|(one, _), (next, _)| settings(*one) == settings(*next));
-        alike.flat_map(|some| self.identify_alone(some)).collect()
-    }
-
-    /// Members that are identified with the same settings, each with its own model.
-    fn identify_alone(&self, some: &[(usize, &Model)]) -> Vec<Option<(Vec<f64>, f64)>> {
-        let subjects: Vec<Subject<'_>> = (some.iter())
-            .map(|&(member, model)| Subject {
-                model,
-                input: &self.cases[member].input,
-                tightening: &self.cases[member].tightening,
-            })
+        let tasks: Vec<FitTask<'_>> = (members.iter().zip(&models))
+            .map(|(&member, model)| self.cases[member].with_model(model))
             .collect();
-        let estimates = identify_all(&subjects, &self.cases[some[0].0].settings());
+        let estimates = identify_all(&tasks);
         let mut room = Room::default();
         let ends = estimates
             .into_iter()
-            .zip(some)
-            .map(|(estimate, &(member, _))| {
+            .zip(members)
+            .map(|(estimate, &member)| {
                 let estimate = estimate.ok()?;
                 self.cases.tally().fit_alone(&estimate);
                 let found: Vec<f64> = estimate.parameters.iter().map(|p| p.value).collect();
@@ -309,13 +296,13 @@ impl<'a> Hypothesis<'a> {
         }
         residual.resize(scored, 0.0);
         jacobian.resize(scored * columns, 0.0);
-        weigh(whitening, &simulated.output[case.unscored..], residual);
+        weigh(whitening, &simulated.output[case.unscored()..], residual);
         let samples = simulated.output.len();
         for (column, weighted) in (simulated.sensitivity)
             .chunks_exact(samples)
             .zip(jacobian.chunks_exact_mut(scored))
         {
-            weigh(whitening, &column[case.unscored..], weighted);
+            weigh(whitening, &column[case.unscored()..], weighted);
             for value in weighted {
                 *value = -*value;
             }
@@ -333,15 +320,15 @@ impl<'a> Hypothesis<'a> {
         let case = &self.cases[member];
         let whitening = self.whitenings[member].as_ref();
         let mut weighted = vec![0.0; scored(case, whitening)];
-        weigh(whitening, &signal[case.unscored..], &mut weighted);
+        weigh(whitening, &signal[case.unscored()..], &mut weighted);
         weighted
     }
 }
 
 /// Number of weighted residuals of a case.
-fn scored(case: &Case, whitening: Option<&Whitening>) -> usize {
+fn scored(case: &FitTask<'_>, whitening: Option<&Whitening>) -> usize {
     let lost = whitening.map_or(0, Whitening::order);
-    (case.measured().len() - case.unscored).saturating_sub(lost)
+    (case.measured().len() - case.unscored()).saturating_sub(lost)
 }
 
 fn weigh(whitening: Option<&Whitening>, signal: &[f64], weighted: &mut [f64]) {

@@ -1,9 +1,9 @@
 //! The sizes of a fitted hypothesis' effects, with intervals that survive coloured noise and a little misfit.
 
-use crate::data::case::Case;
 use crate::pooled::fitted::Fitted;
 use crate::pooled::model::first_parameter;
 use snug_campaign::EffectParameter;
+use snug_identify::FitTask;
 use snug_least_squares::matrix::inner_product as dot;
 use snug_model::{Effect, Law, Model, ParameterSpec, Scope};
 use statrs::distribution::{ContinuousCDF, StudentsT};
@@ -12,7 +12,11 @@ use statrs::distribution::{ContinuousCDF, StudentsT};
 ///
 /// Shared: variance S⁻¹ of unit noise, or, where larger, S⁻¹ (Σ g gᵀ) S⁻¹ over units (sandwich), Student's t over units.
 /// Of each tightening's own: mean, its interval over tightenings, and the spread between them.
-pub(crate) fn parameters(cases: &[Case], fitted: &Fitted, effect: Effect) -> Vec<EffectParameter> {
+pub(crate) fn parameters(
+    cases: &[FitTask<'_>],
+    fitted: &Fitted,
+    effect: Effect,
+) -> Vec<EffectParameter> {
     let Ok(model) = cases[0].model_with(&fitted.effects) else {
         return Vec::new();
     };
@@ -122,7 +126,7 @@ impl Fitted {
 }
 
 /// The model of one case with everything but its own parameters held, known as well as `errors` say.
-pub(crate) fn held(case: &Case, fitted: &Fitted, errors: Option<&[f64]>) -> Option<Model> {
+pub(crate) fn held(case: &FitTask<'_>, fitted: &Fitted, errors: Option<&[f64]>) -> Option<Model> {
     let mut model = case.model_with(&fitted.effects).ok()?;
     for (column, (name, value)) in fitted.shared_named().into_iter().enumerate() {
         let parameter = model.parameters_mut().iter_mut().find(|p| p.name == name)?;

@@ -1,11 +1,11 @@
 //! Effects fitted to many tightenings together, nothing judged: what a person sees who tries an effect by hand.
 
-use crate::data::case::Case;
 use crate::data::cases::{Cases, Tally};
 use crate::data::clusters::Units;
 use crate::error::DiagnoseError;
 use crate::pooled::fit::fit_effects;
 use snug_campaign::WorkDone;
+use snug_identify::FitTask;
 use snug_model::Effect;
 
 /// Where a fit of all tightenings together ended.
@@ -29,7 +29,7 @@ pub struct Together {
 ///
 /// # Errors
 /// [`DiagnoseError::NothingToCompare`] without tightenings, otherwise what the model or the fit refuses.
-pub fn fit_together(cases: &[Case], effects: &[Effect]) -> Result<Together, DiagnoseError> {
+pub fn fit_together(cases: &[FitTask<'_>], effects: &[Effect]) -> Result<Together, DiagnoseError> {
     if cases.is_empty() {
         return Err(DiagnoseError::NothingToCompare {
             tightenings: 0,

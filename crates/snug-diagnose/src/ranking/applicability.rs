@@ -1,21 +1,21 @@
 //! Which effects of the catalogue can act on the rig at all.
 
-use crate::data::case::Case;
 use crate::error::DiagnoseError;
 use crate::library::terms;
 use crate::pooled::fitted::Fitted;
 use snug_campaign::Quantity;
+use snug_identify::FitTask;
 use snug_model::{Effect, Kind, Law, Scale};
 
 /// The effects that may be missing beside `current`.
 pub(crate) fn candidates(
-    cases: &[Case],
+    cases: &[FitTask<'_>],
     current: &Fitted,
     custom: &[Effect],
 ) -> Result<Vec<Effect>, DiagnoseError> {
     let case = &cases[0];
-    let compared = case.quantity;
-    let only_this = cases.iter().all(|case| case.quantity == compared);
+    let compared = case.quantity();
+    let only_this = cases.iter().all(|case| case.quantity() == compared);
     let all = Effect::ALL.iter().filter(|&&effect| can_act(effect, case));
     let mut all = all
         .map(|&effect| case.model.scale().effect(effect, case.model.rig()))
@@ -36,9 +36,9 @@ pub(crate) fn candidates(
 ///
 /// A machine has no muscles and nerves; what an accelerometer does wrong is not in a displacement that was measured by
 /// itself; and a simulation that takes up the measured motion begins with it.
-fn can_act(effect: Effect, case: &Case) -> bool {
+fn can_act(effect: Effect, case: &FitTask<'_>) -> bool {
     let description = effect.description();
-    let has_accelerometer = case.quantity == Quantity::Acceleration
+    let has_accelerometer = case.quantity() == Quantity::Acceleration
         || case.tightening.motion.acceleration_rad_per_s2.is_some();
     let is_set = effect.sets_initial_motion() && case.input.is_restarted();
     let is_of_another = match description.kind {
@@ -50,6 +50,6 @@ fn can_act(effect: Effect, case: &Case) -> bool {
 }
 
 /// Whether nobody holds the rig.
-fn is_machine(case: &Case) -> bool {
+fn is_machine(case: &FitTask<'_>) -> bool {
     matches!(case.model.scale(), Scale::Rig { .. })
 }

@@ -1,6 +1,5 @@
 //! A candidate's refit: from its most promising starts, found on a few tightenings, to all of them.
 
-use crate::data::case::Case;
 use crate::data::cases::Cases;
 use crate::data::clusters::Units;
 use crate::error::DiagnoseError;
@@ -11,7 +10,7 @@ use crate::pooled::long_record;
 use crate::pooled::model::{Hypothesis, Start, first_parameter, pick};
 use crate::ranking::sensitivity::Column;
 use crate::settings::DiagnoseSettings;
-use snug_identify::{HALF_WIDTHS, SIDE_BY_SIDE};
+use snug_identify::{FitTask, HALF_WIDTHS, SIDE_BY_SIDE};
 use snug_least_squares::{PooledFit, PooledSettings, SolveError};
 use snug_model::{BASE_PARAMETERS, Effect, Law, Scope};
 use snug_statistics::descriptive::median;
@@ -174,7 +173,8 @@ fn led_along_motion(
     hypothesis: &Hypothesis<'_>,
     starts: &[Start],
 ) -> Result<Option<Start>, DiagnoseError> {
-    let led: Option<Vec<Case>> = hypothesis.cases.iter().map(Case::along_motion).collect();
+    let led: Option<Vec<FitTask<'_>>> =
+        hypothesis.cases.iter().map(FitTask::along_motion).collect();
     let Some(led) = led else {
         return Ok(None);
     };

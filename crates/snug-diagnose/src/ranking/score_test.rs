@@ -286,7 +286,7 @@ impl<'a, 'h> Scorer<'a, 'h> {
         let bias = corrections
             .iter()
             .find(|c| c.effect == "acceleration_bias")?;
-        if case.quantity != snug_campaign::Quantity::Acceleration || bias.standard_error <= 0.0 {
+        if case.quantity() != snug_campaign::Quantity::Acceleration || bias.standard_error <= 0.0 {
             return None;
         }
         let constant = vec![bias.standard_error; case.measured().len()];

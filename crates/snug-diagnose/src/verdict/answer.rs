@@ -1,6 +1,5 @@
 //! What the data answer: the climb told as a diagnosis.
 
-use crate::data::case::Case;
 use crate::data::cases::Cases;
 use crate::data::clusters::Units;
 use crate::error::DiagnoseError;
@@ -13,7 +12,7 @@ use crate::ranking::rank::{Candidate, Ranking};
 use crate::selection::path::{Addition, Attempt, Climb, misfit, misfits, twins};
 use crate::settings::DiagnoseSettings;
 use crate::verdict::experiment::separating_experiment;
-use crate::verdict::tightening_fits::Sight;
+use crate::verdict::tightening_fits::TighteningFits;
 use crate::verdict::trend::trends;
 use crate::verdict::wording::Situation;
 use crate::verdict::{detectability, ladder, preparation, wording};
@@ -22,6 +21,7 @@ use snug_campaign::{
     AddedEffect, Comparison, CorrectedEffect, Diagnosis, Drift, EffectParameter, Experiment,
     Location, NegativeControl, RankedEffect, Removal, UnlistedTerm, Verdict,
 };
+use snug_identify::FitTask;
 use snug_model::{CustomEffectSettings, Effect, Law};
 
 /// The model of one rung.
@@ -97,7 +97,7 @@ impl Examination<'_> {
             interrupted: self.climb.is_interrupted(),
             tightenings: cases.len(),
             noise: preparation::noise(cases),
-            compared_output: cases[0].quantity.name().to_owned(),
+            compared_output: cases[0].quantity().name().to_owned(),
             added: self.added(),
             corrected,
             ladder: rungs.clone().map(|one| ladder::rung(cases, one)).collect(),
@@ -124,11 +124,11 @@ impl Examination<'_> {
     fn places(&self) -> Result<Places, DiagnoseError> {
         let (first, last) = (&self.climb.rungs[0], self.climb.last());
         let (cases, seed) = (self.question.cases, self.settings.seed);
-        let sight = Sight::of(cases, first)?;
+        let sight = TighteningFits::of(cases, first)?;
         let base = sight.seen();
         let final_location = match last.effects == first.effects {
             true => None,
-            false => Some(locate(&Sight::of(cases, last)?.seen(), seed)),
+            false => Some(locate(&TighteningFits::of(cases, last)?.seen(), seed)),
         };
         Ok(Places {
             comparison: compare(&base),
@@ -369,7 +369,7 @@ const BESIDE_EFFECTS: f64 = 1.05;
 /// Share of the misfit that must repeat before it is called an effect.
 const REPEATS: f64 = 0.2;
 
-fn rung_model(cases: &[Case], fitted: &Fitted) -> RungModel {
+fn rung_model(cases: &[FitTask<'_>], fitted: &Fitted) -> RungModel {
     RungModel {
         effects: fitted
             .effects

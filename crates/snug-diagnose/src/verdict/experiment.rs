@@ -1,6 +1,5 @@
 //! The experiment that tells twins apart: tightenings are simulated with the one and fitted with the other.
 
-use crate::data::case::Case;
 use crate::data::cases::Cases;
 use crate::data::clusters::Units;
 use crate::pooled::fit::fit_effects;
@@ -9,8 +8,10 @@ use crate::pooled::model::Hypothesis;
 use crate::pooled::sizes::held;
 use crate::verdict::wording::spoken;
 use snug_campaign::Experiment;
+use snug_identify::FitTask;
 use snug_least_squares::PooledSettings;
 use snug_model::{Effect, Input};
+use std::borrow::Cow;
 
 /// How the torque of a tightening at hand is changed for a tightening to be made.
 struct Change {
@@ -121,7 +122,12 @@ fn distance(
 }
 
 /// A tightening as `first` says it would go under changed conditions, without noise.
-fn simulated(case: &Case, first: &Fitted, member: usize, change: &Change) -> Option<Case> {
+fn simulated<'a>(
+    case: &FitTask<'a>,
+    first: &Fitted,
+    member: usize,
+    change: &Change,
+) -> Option<FitTask<'a>> {
     let model = held(case, first, None)?;
     let samples = case.tightening.torque_nm.len();
     let interval_s = case.tightening.time_base.interval_s;
@@ -144,10 +150,14 @@ fn simulated(case: &Case, first: &Fitted, member: usize, change: &Change) -> Opt
         let index = model.parameters().iter().position(|p| p.name == name)?;
         values[index] = value;
     }
-    let mut made = case.clone();
-    made.tightening.motion = model.simulate(&values, &input);
-    made.tightening.torque_nm = torque;
-    made.tightening.corrections.clear();
-    made.input = input;
-    Some(made)
+    let mut tightening = case.tightening.clone().into_owned();
+    tightening.motion = model.simulate(&values, &input);
+    tightening.torque_nm = torque;
+    tightening.corrections.clear();
+    Some(FitTask {
+        tightening: Cow::Owned(tightening),
+        input: Cow::Owned(input),
+        model: case.model.clone(),
+        settings: case.settings.clone(),
+    })
 }

@@ -1,13 +1,13 @@
 //! A rung of the error ladder: what a fitted model leaves, in the sample and in what was held out.
 
-use crate::data::case::Case;
 use crate::pooled::fitted::Fitted;
 use crate::pooled::sizes::held;
 use snug_campaign::Rung;
+use snug_identify::FitTask;
 use std::collections::BTreeSet;
 
 /// All of a rung but what only an evaluation of the whole study can tell.
-pub(crate) fn rung(cases: &[Case], fitted: &Fitted) -> Rung {
+pub(crate) fn rung(cases: &[FitTask<'_>], fitted: &Fitted) -> Rung {
     let squares = fitted.squares();
     let target = |unit: usize| {
         let target = cases[fitted.members[unit]].tightening.target_torque_nm;
@@ -54,7 +54,7 @@ pub(crate) fn rung(cases: &[Case], fitted: &Fitted) -> Rung {
 }
 
 /// Root mean square of measured − simulated of the compared output, in its unit.
-fn rms_residual(cases: &[Case], fitted: &Fitted) -> f64 {
+fn rms_residual(cases: &[FitTask<'_>], fitted: &Fitted) -> f64 {
     let (mut squares, mut count) = (0.0, 0_usize);
     for (member, case) in cases.iter().enumerate() {
         let Some(model) = held(case, fitted, None) else {
@@ -67,10 +67,10 @@ fn rms_residual(cases: &[Case], fitted: &Fitted) -> f64 {
             }
         }
         let mut output = vec![0.0; case.measured().len()];
-        model.output(&values, &case.input, case.quantity, &mut output);
-        let scored = output.iter().zip(case.measured()).skip(case.unscored);
+        model.output(&values, &case.input, case.quantity(), &mut output);
+        let scored = output.iter().zip(case.measured()).skip(case.unscored());
         squares += scored.map(|(s, m)| (m - s).powi(2)).sum::<f64>();
-        count += output.len() - case.unscored;
+        count += output.len() - case.unscored();
     }
     (squares / count.max(1) as f64).sqrt()
 }

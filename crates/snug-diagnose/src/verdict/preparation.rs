@@ -1,10 +1,10 @@
 //! What preparation says of the tightenings: what it took out, and the noise it measured.
 
-use crate::data::case::Case;
 use snug_campaign::{CorrectedEffect, NoiseSource, NoiseStatement, Quantity};
+use snug_identify::FitTask;
 
 /// Sensor errors that were measured in the quiet part and taken out, with their typical size where they are significant.
-pub(crate) fn corrected(cases: &[Case]) -> Vec<CorrectedEffect> {
+pub(crate) fn corrected(cases: &[FitTask<'_>]) -> Vec<CorrectedEffect> {
     let mut corrected: Vec<CorrectedEffect> = Vec::new();
     let all = || cases.iter().flat_map(|case| &case.tightening.corrections);
     for correction in all() {
@@ -35,7 +35,7 @@ pub(crate) fn corrected(cases: &[Case]) -> Vec<CorrectedEffect> {
 }
 
 /// Where the noise comes from that errors are compared with, and how large it is in the acceleration.
-pub(crate) fn noise(cases: &[Case]) -> NoiseStatement {
+pub(crate) fn noise(cases: &[FitTask<'_>]) -> NoiseStatement {
     let floors: Vec<_> = cases
         .iter()
         .filter_map(|case| case.tightening.noise.as_ref())

@@ -1,13 +1,16 @@
 //! What changes from tightening to tightening: fatigue shows in the fitted m, c, k, not in the misfit of any one.
 
-use crate::data::case::Case;
 use crate::pooled::sizes::described;
 use crate::verdict::wording;
 use snug_campaign::{Drift, EffectParameter, RankedEffect};
+use snug_identify::FitTask;
 use snug_model::{BASE_PARAMETERS, Description, TRENDS};
 
 /// The catalogue's trends as candidates, as far as they could be tested.
-pub(crate) fn trends(drifts: &[Drift], cases: &[Case]) -> impl Iterator<Item = RankedEffect> {
+pub(crate) fn trends(
+    drifts: &[Drift],
+    cases: &[FitTask<'_>],
+) -> impl Iterator<Item = RankedEffect> {
     TRENDS
         .iter()
         .filter_map(|trend| candidate(trend, drifts, cases))
@@ -20,7 +23,7 @@ pub(crate) fn trends(drifts: &[Drift], cases: &[Case]) -> impl Iterator<Item = R
 fn candidate(
     description: &'static Description,
     drifts: &[Drift],
-    cases: &[Case],
+    cases: &[FitTask<'_>],
 ) -> Option<RankedEffect> {
     let numbers = || {
         cases

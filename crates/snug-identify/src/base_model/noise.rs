@@ -3,7 +3,7 @@
 use crate::noise::integrated::{IntegratedNoise, drift, to_source};
 use crate::noise::score_covariance::{OwnedNoise, STRETCHES, ScoreCovariance, ScoreSums, Source};
 use crate::residual::tightening::TighteningResidual;
-use crate::subject::Subject;
+use crate::task::FitTask;
 use snug_campaign::Quantity;
 use snug_least_squares::matrix::{entries_at, submatrix_at};
 use snug_least_squares::{Fit, Residual};
@@ -12,7 +12,7 @@ use snug_model::{LaneTask, NormalEquations, Real, ScoredRecord, Sweep, Task, in_
 /// A base-model fit whose noise is asked about.
 pub(crate) struct FittedInSweeps<'r, 'a> {
     pub residual: &'r mut TighteningResidual<'a>,
-    pub subject: &'r Subject<'a>,
+    pub task: &'a FitTask<'a>,
     pub fit: &'r Fit,
     /// What the last sweep found, at the fit's own values.
     pub found: NormalEquations,
@@ -23,7 +23,7 @@ pub(crate) struct FittedInSweeps<'r, 'a> {
 pub(crate) fn ask_all(fits: &mut [FittedInSweeps<'_, '_>], quantity: Quantity) {
     let values: Vec<[f64; 3]> = fits.iter_mut().map(FittedInSweeps::values).collect();
     let inquiries: Vec<ScoreCovariance> = (fits.iter())
-        .map(|fit| ScoreCovariance::new(fit.residual, fit.subject, fit.fit))
+        .map(|fit| ScoreCovariance::new(fit.residual, fit.task, fit.fit))
         .collect();
     let mut score_sums: Vec<ScoreSums> = fits.iter().map(FittedInSweeps::at_hand).collect();
     for search in [LevenbergMarquardt::Scores, LevenbergMarquardt::Source] {
@@ -57,7 +57,7 @@ impl<'a> FittedInSweeps<'_, 'a> {
 
     /// The measured acceleration.
     fn acceleration(&self) -> Option<&'a [f64]> {
-        (self.subject.tightening.motion).get(Quantity::Acceleration)
+        (self.task.tightening.motion).get(Quantity::Acceleration)
     }
 
     /// What the last sweep of the fit tells already.

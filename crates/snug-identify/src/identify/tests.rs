@@ -98,12 +98,8 @@ struct Simulated {
 }
 
 impl Simulated {
-    fn subject(&self) -> Subject<'_> {
-        Subject {
-            model: &self.model,
-            input: &self.input,
-            tightening: &self.tightening,
-        }
+    fn task<'a>(&'a self, settings: &'a IdentifySettings) -> FitTask<'a> {
+        FitTask::new(&self.tightening, &self.input, &self.model, settings)
     }
 }
 
@@ -232,17 +228,17 @@ fn to_the_end() -> IdentifySettings {
 
 /// As every other model is fitted, from the same start as in sweeps or from the usual one.
 fn on_the_general_road(
-    subject: &Subject<'_>,
+    task: &FitTask<'_>,
     settings: &IdentifySettings,
     from_the_same_start: bool,
 ) -> Estimate {
-    let whitening = Whitening::of(subject.tightening, settings.fitted_output);
-    let mut attempt = Attempt::new(subject, whitening.as_ref(), settings).unwrap();
+    let whitening = Whitening::of(&task.tightening, settings.fitted_output);
+    let mut attempt = Attempt::new(task, whitening.as_ref(), settings).unwrap();
     if !from_the_same_start {
         attempt.starts = vec![attempt.usual_start.clone()];
     }
     let simulator = BatchSimulator::default();
-    let estimate = attempt.estimate(subject, None, settings, &simulator);
+    let estimate = attempt.estimate(task, None, settings, &simulator);
     alone(&simulator, estimate).unwrap()
 }
 
@@ -254,13 +250,13 @@ fn alone<T>(simulator: &BatchSimulator<'_>, fit: impl Future<Output = T>) -> T {
 #[test]
 fn side_by_side_agrees_with_the_general_road() {
     let all = all();
-    let subjects: Vec<Subject<'_>> = all.iter().map(Simulated::subject).collect();
     for settings in settings() {
-        let fitted = identify_all(&subjects, &settings);
-        for (number, (subject, found)) in subjects.iter().zip(fitted).enumerate() {
+        let tasks: Vec<FitTask<'_>> = all.iter().map(|one| one.task(&settings)).collect();
+        let fitted = identify_all(&tasks);
+        for (number, (task, found)) in tasks.iter().zip(fitted).enumerate() {
             let found = found.unwrap();
             for same_start in [true, false] {
-                let expected = on_the_general_road(subject, &settings, same_start);
+                let expected = on_the_general_road(task, &settings, same_start);
                 let what = format!(
                     "{number} {:?} {same_start}: {found:?} {expected:?}",
                     settings.fitted_output
@@ -339,19 +335,17 @@ fn shortened(tightening: &Tightening, samples: usize) -> Tightening {
 }
 
 fn company_changes_no_bit(all: &[Simulated]) {
-    let subjects: Vec<Subject<'_>> = all.iter().map(Simulated::subject).collect();
     for settings in settings() {
-        let together = identify_all(&subjects, &settings);
-        let mut reversed = subjects.clone();
+        let tasks: Vec<FitTask<'_>> = all.iter().map(|one| one.task(&settings)).collect();
+        let together = identify_all(&tasks);
+        let mut reversed = tasks.clone();
         reversed.reverse();
-        let mut backwards = identify_all(&reversed, &settings);
+        let mut backwards = identify_all(&reversed);
         backwards.reverse();
         assert_eq!(together, backwards, "in the other order");
         for size in [1, 3, 8] {
-            let groups = subjects.chunks(size);
-            let apart: Vec<_> = groups
-                .flat_map(|some| identify_all(some, &settings))
-                .collect();
+            let groups = tasks.chunks(size);
+            let apart: Vec<_> = groups.flat_map(|some| identify_all(some)).collect();
             assert_eq!(together, apart, "in groups of {size}");
         }
     }
@@ -361,8 +355,9 @@ fn company_changes_no_bit(all: &[Simulated]) {
 fn a_fit_without_the_fitted_output_leaves_the_others_alone() {
     let mut all = all();
     all[1].tightening.motion.acceleration_rad_per_s2 = None;
-    let subjects: Vec<Subject<'_>> = all.iter().map(Simulated::subject).collect();
-    let found = identify_all(&subjects, &IdentifySettings::default());
+    let settings = IdentifySettings::default();
+    let tasks: Vec<FitTask<'_>> = all.iter().map(|one| one.task(&settings)).collect();
+    let found = identify_all(&tasks);
     let missing = IdentifyError::MissingOutput {
         quantity: Quantity::Acceleration,
     };

@@ -8,7 +8,7 @@ use crate::multistart::early_stopping::{EarlyStopping, fit_starts};
 use crate::residual::restarts::motions_at;
 use crate::residual::tightening::TighteningResidual;
 use crate::settings::IdentifySettings;
-use crate::subject::Subject;
+use crate::task::FitTask;
 use snug_campaign::{Intersample, Quantity};
 use snug_least_squares::{Constraints, Fit, Settings, SolveError, Work};
 use snug_model::{Input, Model};
@@ -55,8 +55,8 @@ pub(crate) struct DecimatedRecord {
 impl DecimatedRecord {
     /// Of the tightening's torque and `quantity`; `None` where the record is too short for one, or the simulation is restarted
     /// from the measured motion.
-    pub fn of(subject: &Subject<'_>, quantity: Quantity) -> Option<Self> {
-        let (input, measured) = (subject.input, subject.tightening.motion.get(quantity)?);
+    pub fn of(task: &FitTask<'_>, quantity: Quantity) -> Option<Self> {
+        let (input, measured) = (&task.input, task.tightening.motion.get(quantity)?);
         let interval_s = input.grid_interval_s() * input.substeps() as f64;
         let shortest = (LONGEST_INTERVAL_S / interval_s) as usize;
         let factor = shortest.min(input.samples() / ENOUGH_SAMPLES);
@@ -75,7 +75,7 @@ impl DecimatedRecord {
         .with_onset(input.onset_s() - late_s)
         .with_rest_before(input.rest_before_s() + late_s)
         .with_zero_at(input.zero_at().map(|sample| sample / factor));
-        let means_of = |quantity| Some(means(subject.tightening.motion.get(quantity)?, factor));
+        let means_of = |quantity| Some(means(task.tightening.motion.get(quantity)?, factor));
         let restarted = || {
             let angle_rad = means_of(Quantity::Displacement)?;
             let velocity_rad_per_s = means_of(Quantity::Velocity)?;
@@ -112,12 +112,12 @@ impl DecimatedRecord {
     pub async fn try_from<'a>(
         &'a self,
         starts: &[Vec<f64>],
-        subject: &Subject<'a>,
+        task: &'a FitTask<'a>,
         set: &Constraints,
         settings: &IdentifySettings,
         simulator: &BatchSimulator<'a>,
     ) -> Result<Option<Tried>, SolveError> {
-        let residual = self.residual(subject.model, &self.input, settings);
+        let residual = self.residual(&task.model, &self.input, settings);
         let solver = coarse_solver(settings, ROUGH_TOLERANCE);
         let (ends, work) = fit_starts(&residual, starts, set, &solver, RULES, simulator).await?;
         let starts = apart(ends, MOST_ENDS);

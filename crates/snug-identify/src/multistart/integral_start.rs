@@ -9,7 +9,7 @@
 //! One regression over the samples is off by a per cent or so, because the noise is in θ on the left as well. A fit from
 //! there takes about half the sweeps of one from anywhere.
 
-use crate::subject::Subject;
+use crate::task::FitTask;
 use snug_campaign::{Parameter, ParameterSource, Quantity};
 use snug_least_squares::Linearization;
 use snug_least_squares::matrix::{entries_at, submatrix_at};
@@ -17,12 +17,8 @@ use snug_model::{BASE_PARAMETERS, Input, with_processor_instructions};
 
 /// Values of the free parameters among m, c, k, as if no effect acted; `None` when a start was stated, without a measured
 /// displacement, when the simulation does not begin at rest, or when the regression has no sensible answer.
-pub(crate) fn integral_start(subject: &Subject<'_>) -> Option<Vec<f64>> {
-    let Subject {
-        model,
-        input,
-        tightening,
-    } = *subject;
+pub(crate) fn integral_start(task: &FitTask<'_>) -> Option<Vec<f64>> {
+    let (model, input, tightening) = (&*task.model, &*task.input, &*task.tightening);
     let parameters = &model.parameters()[..BASE_PARAMETERS.len()];
     let is_default = |p: &Parameter| p.fixed || p.source == ParameterSource::Default;
     let angle_rad = tightening.motion.get(Quantity::Displacement)?;

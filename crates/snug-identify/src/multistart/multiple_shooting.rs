@@ -10,7 +10,7 @@ use crate::multistart::decimated::{
 };
 use crate::multistart::early_stopping::{EarlyStopping, fit_starts};
 use crate::settings::IdentifySettings;
-use crate::subject::Subject;
+use crate::task::FitTask;
 use snug_least_squares::{Constraints, SolveError};
 
 /// A guided fit has gone far enough when this share of the residual could still be removed.
@@ -27,7 +27,7 @@ const RULES: EarlyStopping = EarlyStopping {
 /// nothing guides.
 pub(crate) async fn try_multiple_shooting<'a>(
     decimated: &'a DecimatedRecord,
-    subject: &Subject<'a>,
+    task: &'a FitTask<'a>,
     starts: &[Vec<f64>],
     set: &Constraints,
     settings: &IdentifySettings,
@@ -36,12 +36,12 @@ pub(crate) async fn try_multiple_shooting<'a>(
     let Some(restarted) = &decimated.restarted else {
         return Ok(None);
     };
-    let residual = decimated.residual(subject.model, restarted, settings);
+    let residual = decimated.residual(&task.model, restarted, settings);
     let solver = coarse_solver(settings, TOLERANCE);
     let (ends, work) = fit_starts(&residual, starts, set, &solver, RULES, simulator).await?;
     let ends = apart(ends, MOST_ENDS);
     let mut tried = decimated
-        .try_from(&ends, subject, set, settings, simulator)
+        .try_from(&ends, task, set, settings, simulator)
         .await?;
     if let Some(tried) = &mut tried {
         tried.work.add(&work);

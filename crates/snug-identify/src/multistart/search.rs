@@ -9,7 +9,7 @@ use crate::multistart::multiple_shooting::try_multiple_shooting;
 use crate::multistart::smoothing::HALF_WIDTHS;
 use crate::residual::tightening::TighteningResidual;
 use crate::settings::IdentifySettings;
-use crate::subject::Subject;
+use crate::task::FitTask;
 use snug_least_squares::{
     Constraints, Fit, ResidualNoise, Settings, SolveError, Status, Work, best,
 };
@@ -50,7 +50,7 @@ pub(crate) struct MultistartSearch<'s, 'a> {
     pub distinct_starts: usize,
     /// On which starts are tried, where there is one.
     pub decimated: Option<&'a DecimatedRecord>,
-    pub subject: &'s Subject<'a>,
+    pub task: &'a FitTask<'a>,
     pub settings: &'s IdentifySettings,
     pub simulator: &'s BatchSimulator<'a>,
 }
@@ -127,8 +127,8 @@ impl<'a> MultistartSearch<'_, 'a> {
                     return Ok(fit);
                 }
             }
-            let (subject, set, settings) = (self.subject, self.set, self.settings);
-            let tried = decimated.try_from(self.starts, subject, set, settings, self.simulator);
+            let (task, set, settings) = (self.task, self.set, self.settings);
+            let tried = decimated.try_from(self.starts, task, set, settings, self.simulator);
             if let Some(tried) = tried.await? {
                 let fit = follow(&tried.starts, &tried.work).await?;
                 if fit.status.is_converged() && !self.is_far_off(&fit) {
@@ -170,8 +170,8 @@ impl<'a> MultistartSearch<'_, 'a> {
             return Ok(None);
         }
         let distinct = &self.starts[..self.distinct_starts];
-        let (subject, set, settings) = (self.subject, self.set, self.settings);
-        try_multiple_shooting(decimated, subject, distinct, set, settings, self.simulator).await
+        let (task, set, settings) = (self.task, self.set, self.settings);
+        try_multiple_shooting(decimated, task, distinct, set, settings, self.simulator).await
     }
 
     /// Whether a fit leaves hardly more than noise, inside the constraints, and the effects are surely there: another

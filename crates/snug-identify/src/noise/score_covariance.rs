@@ -4,7 +4,7 @@ use crate::batch::BatchSimulator;
 use crate::noise::integrated::{IntegratedNoise, drift, to_source};
 use crate::residual::agreement::error_over_noise;
 use crate::residual::tightening::TighteningResidual;
-use crate::subject::Subject;
+use crate::task::FitTask;
 use snug_campaign::Tightening;
 use snug_least_squares::matrix::inner_product;
 use snug_least_squares::{Fit, Residual, ResidualNoise, without_high_leverage};
@@ -87,13 +87,13 @@ impl Source {
 
 impl ScoreCovariance {
     /// About the residual of `fit`.
-    pub fn new(residual: &TighteningResidual<'_>, subject: &Subject<'_>, fit: &Fit) -> Self {
+    pub fn new(residual: &TighteningResidual<'_>, task: &FitTask<'_>, fit: &Fit) -> Self {
         let gain: f64 = residual
             .whitening()
             .map_or(0.0, |w| w.weights().iter().sum());
         let count = residual.residual_count() as f64;
         let beyond_chance = 1.0 + MISFIT * (2.0 / count).sqrt();
-        let (tightening, input) = (subject.tightening, subject.input);
+        let (tightening, input) = (&task.tightening, &task.input);
         Self {
             whitened: residual.is_whitened(),
             has_unilateral_contact: residual.has_unilateral_contact(),
@@ -175,11 +175,11 @@ impl ScoreSums {
 /// What is known of the noise in this residual, from J itself.
 pub(crate) async fn noise_of<'a>(
     residual: &mut TighteningResidual<'a>,
-    subject: &Subject<'_>,
+    task: &FitTask<'_>,
     fit: &Fit,
     simulator: &BatchSimulator<'a>,
 ) -> OwnedNoise {
-    let score_covariance = ScoreCovariance::new(residual, subject, fit);
+    let score_covariance = ScoreCovariance::new(residual, task, fit);
     if score_covariance.is_settled() {
         return OwnedNoise::Unit;
     }
@@ -187,7 +187,7 @@ pub(crate) async fn noise_of<'a>(
     for simulated in simulator.simulate(vec![request]).await {
         residual.prefetch(simulated);
     }
-    match score_sums(residual, &score_covariance, subject.tightening, fit) {
+    match score_sums(residual, &score_covariance, &task.tightening, fit) {
         Some(score_sums) => score_covariance.conclude(&score_sums),
         None => OwnedNoise::Unit,
     }

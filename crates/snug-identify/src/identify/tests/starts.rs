@@ -20,14 +20,15 @@ fn rough_starts_lead_to_the_best_optimum_of_all() {
             .zip(noise);
         one.tightening.motion.acceleration_rad_per_s2 = Some(pairs.map(|(a, n)| a + n).collect());
         one.model = truth.clone();
-        let (subject, settings) = (one.subject(), to_the_end());
-        let whitening = Whitening::of(subject.tightening, settings.fitted_output);
-        let mut attempt = Attempt::new(&subject, whitening.as_ref(), &settings).unwrap();
+        let settings = to_the_end();
+        let task = one.task(&settings);
+        let whitening = Whitening::of(&task.tightening, settings.fitted_output);
+        let mut attempt = Attempt::new(&task, whitening.as_ref(), &settings).unwrap();
         assert!(attempt.starts.len() > 1);
-        let record = attempt.decimated(&subject, settings.fitted_output);
+        let record = attempt.decimated(&task, settings.fitted_output);
         let simulator = BatchSimulator::default();
         let multistart_search =
-            attempt.multistart_search(&subject, record.as_ref(), &settings, &simulator);
+            attempt.multistart_search(&task, record.as_ref(), &settings, &simulator);
         let decimated = alone(&simulator, multistart_search.lowest()).unwrap();
         let mut problem = DenseResidual::new(&mut attempt.residual);
         let all = solve_from_starts(
@@ -55,13 +56,13 @@ fn starts_led_along_the_motion_end_at_an_effect_that_is_there() {
     let settings = IdentifySettings::default();
     for (number, force_n) in [(1, 20.0), (2, -35.0), (3, 0.0)] {
         let one = pushed(number, force_n);
-        let subject = one.subject();
-        let whitening = Whitening::of(subject.tightening, settings.fitted_output);
-        let attempt = Attempt::new(&subject, whitening.as_ref(), &settings).unwrap();
-        let decimated = DecimatedRecord::of(&subject, settings.fitted_output).unwrap();
+        let task = one.task(&settings);
+        let whitening = Whitening::of(&task.tightening, settings.fitted_output);
+        let attempt = Attempt::new(&task, whitening.as_ref(), &settings).unwrap();
+        let decimated = DecimatedRecord::of(&task, settings.fitted_output).unwrap();
         let simulator = BatchSimulator::default();
         let multistart_search =
-            attempt.multistart_search(&subject, Some(&decimated), &settings, &simulator);
+            attempt.multistart_search(&task, Some(&decimated), &settings, &simulator);
         let restarted = alone(&simulator, multistart_search.restarted(&decimated))
             .unwrap()
             .unwrap();
@@ -92,8 +93,9 @@ fn starts_led_along_the_motion_end_at_an_effect_that_is_there() {
 #[test]
 fn what_is_unusual_is_there() {
     let all = all();
-    let subjects: Vec<Subject<'_>> = all.iter().map(Simulated::subject).collect();
-    let found = identify_all(&subjects, &IdentifySettings::default());
+    let settings = IdentifySettings::default();
+    let tasks: Vec<FitTask<'_>> = all.iter().map(|one| one.task(&settings)).collect();
+    let found = identify_all(&tasks);
     let found: Vec<Estimate> = found.into_iter().map(Result::unwrap).collect();
     assert_eq!(found[9].active_constraints, ["light_damping"]);
     assert!(found[9].conic_solves > 0);
@@ -110,9 +112,10 @@ fn what_is_unusual_is_there() {
 fn what_is_simulated_beforehand_has_the_same_bits() {
     let mut one = simulated(1, &plan());
     one.model = Model::new(RIG, &[Effect::MaxwellBranch]).unwrap();
-    let (subject, settings) = (one.subject(), IdentifySettings::default());
-    let whitening = Whitening::of(subject.tightening, settings.fitted_output);
-    let attempt = Attempt::new(&subject, whitening.as_ref(), &settings).unwrap();
+    let settings = IdentifySettings::default();
+    let task = one.task(&settings);
+    let whitening = Whitening::of(&task.tightening, settings.fitted_output);
+    let attempt = Attempt::new(&task, whitening.as_ref(), &settings).unwrap();
     let free = attempt.residual.free().to_vec();
     for with_slopes in [true, false] {
         let evaluate = |mut residual: TighteningResidual<'_>, start: &[f64]| {

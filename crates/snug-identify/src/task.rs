@@ -1,0 +1,131 @@
+//! What is identified: one tightening with all it takes to fit it.
+
+use crate::residual::restarts::motions_at;
+use crate::residual::whitening::Whitening;
+use crate::settings::IdentifySettings;
+use snug_campaign::{Quantity, Tightening};
+use snug_model::{Effect, Input, Model, ModelError};
+use std::borrow::Cow;
+
+/// One tightening with all it takes to fit it; its parts are its own or lent to it.
+#[derive(Debug, Clone)]
+pub struct FitTask<'a> {
+    /// The measurement.
+    pub tightening: Cow<'a, Tightening>,
+    /// The torque, as it behaves between its samples.
+    pub input: Cow<'a, Input>,
+    /// Its free parameters are identified.
+    pub model: Cow<'a, Model>,
+    /// How.
+    pub settings: Cow<'a, IdentifySettings>,
+}
+
+/// From one restart along the measured motion to the next \[s\]: enough for a law to show in the velocity.
+const RESTARTED_EVERY_S: f64 = 3e-3;
+
+impl<'a> FitTask<'a> {
+    /// Of parts that belong to others.
+    pub fn new(
+        tightening: &'a Tightening,
+        input: &'a Input,
+        model: &'a Model,
+        settings: &'a IdentifySettings,
+    ) -> Self {
+        Self {
+            tightening: Cow::Borrowed(tightening),
+            input: Cow::Borrowed(input),
+            model: Cow::Borrowed(model),
+            settings: Cow::Borrowed(settings),
+        }
+    }
+
+    /// The same, lent.
+    pub fn lent(&self) -> FitTask<'_> {
+        FitTask::new(&self.tightening, &self.input, &self.model, &self.settings)
+    }
+
+    /// The same, lent, with another model.
+    pub fn with_model<'b>(&'b self, model: &'b Model) -> FitTask<'b> {
+        FitTask::new(&self.tightening, &self.input, model, &self.settings)
+    }
+
+    /// The output that is fitted.
+    pub fn quantity(&self) -> Quantity {
+        self.settings.fitted_output
+    }
+
+    /// Samples at the window's start that count for nothing.
+    pub fn unscored(&self) -> usize {
+        self.settings.unscored_samples
+    }
+
+    /// The measured output that is fitted; empty where it was not measured.
+    pub fn measured(&self) -> &[f64] {
+        self.tightening.motion.get(self.quantity()).unwrap_or(&[])
+    }
+
+    /// The filter that whitens the measured noise, where that is of the fitted output.
+    pub fn whitening(&self) -> Option<Whitening> {
+        Whitening::of(&self.tightening, self.quantity())
+    }
+
+    /// Its first `samples` samples.
+    pub fn beginning(&self, samples: usize) -> FitTask<'static> {
+        let mut tightening = self.tightening.clone().into_owned();
+        tightening.torque_nm.truncate(samples);
+        for quantity in Quantity::ALL {
+            if let Some(signal) = tightening.motion.get(quantity) {
+                let signal = signal[..samples.min(signal.len())].to_vec();
+                tightening.motion.set(quantity, signal);
+            }
+        }
+        FitTask {
+            tightening: Cow::Owned(tightening),
+            input: Cow::Owned(self.input.beginning(samples)),
+            model: Cow::Owned(self.model.clone().into_owned()),
+            settings: Cow::Owned(self.settings.clone().into_owned()),
+        }
+    }
+
+    /// The same with the simulation led along the measured motion: every few milliseconds it takes up the angle and the
+    /// velocity there (multiple shooting from measured states). `None` where another quantity than the acceleration is
+    /// fitted, which restarts hide, or the rest of the motion is not known.
+    pub fn along_motion(&self) -> Option<FitTask<'_>> {
+        let motion = &self.tightening.motion;
+        let angle_rad = motion.get(Quantity::Displacement)?;
+        let velocity_rad_per_s = motion.get(Quantity::Velocity)?;
+        if self.quantity() != Quantity::Acceleration || self.input.is_restarted() {
+            return None;
+        }
+        let apart = (RESTARTED_EVERY_S / self.tightening.time_base.interval_s).ceil() as usize;
+        let motions = motions_at(angle_rad, velocity_rad_per_s, apart);
+        let input = self
+            .input
+            .clone()
+            .into_owned()
+            .with_restarts(apart, motions);
+        Some(FitTask {
+            input: Cow::Owned(input),
+            ..self.lent()
+        })
+    }
+
+    /// Its model with other effects; what is said of parameters that both have stays.
+    ///
+    /// # Errors
+    /// [`ModelError`] where the effects do not go together.
+    pub fn model_with(&self, effects: &[Effect]) -> Result<Model, ModelError> {
+        let mut model = Model::scaled(*self.model.rig(), effects, self.model.scale())?;
+        for parameter in model.parameters_mut() {
+            let own = self.model.parameters();
+            if let Some(said) = own.iter().find(|own| own.name == parameter.name) {
+                *parameter = said.clone();
+                // A size that was found from all tightenings together is looked for again.
+                if parameter.standard_error.take().is_some() {
+                    parameter.fixed = false;
+                }
+            }
+        }
+        Ok(model)
+    }
+}
