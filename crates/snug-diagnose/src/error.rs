@@ -1,3 +1,5 @@
+//! Why a diagnosis could not be made.
+
 use snug_identify::IdentifyError;
 use snug_least_squares::SolveError;
 use snug_model::ModelError;

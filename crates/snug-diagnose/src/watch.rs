@@ -1,3 +1,5 @@
+//! Whoever watches a diagnosis: hears of its stages, and may end it.
+
 use crate::error::DiagnoseError;
 use std::sync::atomic::{AtomicBool, Ordering};
 

@@ -1,3 +1,5 @@
+//! What must hold of m, c and k, as a study names it and as the solver takes it.
+
 use serde::{Deserialize, Serialize};
 use snug_least_squares::{Affine, Constraints};
 use snug_model::Model;

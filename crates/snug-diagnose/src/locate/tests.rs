@@ -1,3 +1,5 @@
+//! The views of a misfit on made-up residuals whose place is known.
+
 #![allow(clippy::unwrap_used)]
 
 mod drift;

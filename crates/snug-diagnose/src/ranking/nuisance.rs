@@ -1,3 +1,5 @@
+//! What a tightening's own parameters can imitate of an effect, taken out before the effect is scored.
+
 use snug_least_squares::matrix::{SymmetricMatrix, inner_product as dot};
 
 /// Coordinates of each signal in an orthonormal basis of all of them: their inner products are all that it takes.

@@ -1,3 +1,5 @@
+//! Measured minus simulated, whitened, with its sensitivities: a tightening as the solver sees it.
+
 use crate::batch::SimulationRequest;
 use crate::error::IdentifyError;
 use crate::multistart::smoothing::smooth;

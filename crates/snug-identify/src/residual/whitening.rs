@@ -1,3 +1,5 @@
+//! The filter that makes a measured noise white, so that equal residuals are equally unlikely.
+
 use snug_campaign::{NoiseFloor, Quantity, Tightening};
 use snug_model::with_processor_instructions;
 

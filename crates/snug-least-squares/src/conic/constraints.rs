@@ -1,3 +1,5 @@
+//! The convex set that parameters stay in: bounds, linear inequalities and rotated second-order cones, each with a name.
+
 use crate::error::SolveError;
 use crate::matrix::dot;
 

@@ -1,3 +1,5 @@
+//! A residual that is a function alone: its Jacobian by differences.
+
 use crate::error::EvaluationError;
 use crate::problem::residual::Residual;
 

@@ -1,3 +1,5 @@
+//! A problem as the solver sees it.
+
 use crate::error::EvaluationError;
 use crate::problem::linearization::Linearization;
 

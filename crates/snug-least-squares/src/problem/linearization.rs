@@ -1,3 +1,5 @@
+//! The local model of a problem, ½‖q + R d‖²: from J itself, or from JᵀJ where speed counts more.
+
 use crate::error::EvaluationError;
 use crate::matrix::{dot, solve_upper, triangularize, upper_times, upper_transposed_times};
 

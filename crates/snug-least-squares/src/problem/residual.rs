@@ -1,3 +1,5 @@
+//! A residual that stores its Jacobian: the accurate general case.
+
 use crate::error::EvaluationError;
 use crate::matrix::{add_scaled, dot};
 use crate::problem::least_squares::LeastSquares;

@@ -1,3 +1,5 @@
+//! How a fit ended: values, status, active constraints, work.
+
 use crate::matrix::{add_scaled, dot};
 use crate::uncertainty::identifiability::Identifiability;
 

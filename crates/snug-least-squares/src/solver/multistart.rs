@@ -1,3 +1,5 @@
+//! Fits from several starts, the best of which counts.
+
 use crate::conic::constraints::Constraints;
 use crate::error::SolveError;
 use crate::problem::least_squares::LeastSquares;

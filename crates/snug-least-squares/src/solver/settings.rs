@@ -1,3 +1,5 @@
+//! What a user may set of the solver: when it stops, and how it begins.
+
 use crate::error::SolveError;
 use serde::{Deserialize, Serialize};
 

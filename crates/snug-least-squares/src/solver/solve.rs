@@ -1,3 +1,5 @@
+//! One fit, its problem evaluated where the algorithm asks.
+
 use crate::conic::constraints::Constraints;
 use crate::error::SolveError;
 use crate::problem::least_squares::LeastSquares;

@@ -1,3 +1,5 @@
+//! Covariance of an estimate under what is known of the noise; its intervals.
+
 use crate::matrix::{add_scaled, dot};
 use crate::solver::fit::Fit;
 use statrs::distribution::{ContinuousCDF, Normal, StudentsT};

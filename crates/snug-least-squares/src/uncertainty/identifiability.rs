@@ -1,3 +1,5 @@
+//! Rank, condition and correlations of what a residual tells about its parameters.
+
 use crate::matrix::{dot, norm};
 use faer::{Mat, MatRef};
 
