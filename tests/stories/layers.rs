@@ -10,7 +10,7 @@ use std::collections::BTreeSet;
 const ALLOWED: &[(&str, &[&str])] = &[
     ("snug-campaign", &[]),
     ("snug-files", &[]),
-    ("snug-spectrum", &[]),
+    ("snug-signal", &[]),
     ("snug-tidy", &[]),
     ("snug-statistics", &[]),
     ("snug-record", &["snug-campaign"]),
@@ -19,7 +19,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
         &["snug-campaign", "snug-files", "snug-record"],
     ),
     ("snug-preprocess", &["snug-campaign"]),
-    ("snug-model", &["snug-campaign", "snug-spectrum"]),
+    ("snug-model", &["snug-campaign", "snug-signal"]),
     (
         "snug-identify",
         &["snug-campaign", "snug-least-squares", "snug-model"],
@@ -32,7 +32,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "snug-identify",
             "snug-least-squares",
             "snug-model",
-            "snug-spectrum",
+            "snug-signal",
             "snug-statistics",
         ],
     ),

@@ -30,7 +30,7 @@ pub use diagnosis::{
     WorkDone,
 };
 pub use diagnosis_summary::DiagnosisSummary;
-pub use estimate::{Estimate, FitStatus, Identifiability, Interval, ParameterEstimate};
+pub use estimate::{Estimate, FitStatus, Identifiability, Interval, NORMAL_95, ParameterEstimate};
 pub use excerpt::excerpt;
 pub use finding::{Finding, Severity};
 pub use likely_name::did_you_mean;

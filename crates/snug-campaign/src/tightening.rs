@@ -24,6 +24,9 @@ impl fmt::Display for TighteningId {
 pub struct Correction {
     /// The effect of the catalogue it corresponds to, for example `acceleration_bias`.
     pub effect: String,
+    /// The measured quantity whose constant error it is; `None` where it is that of another signal, as the torque.
+    #[serde(default)]
+    pub constant_of: Option<Quantity>,
     /// Size that was subtracted.
     pub value: f64,
     /// Its standard error under the measured (coloured) noise.
@@ -64,6 +67,11 @@ pub struct Tightening {
 }
 
 impl Tightening {
+    /// The constant error of a measured quantity that was taken out before the fit, and is uncertain.
+    pub fn correction_of(&self, quantity: Quantity) -> Option<&Correction> {
+        (self.corrections.iter()).find(|correction| correction.constant_of == Some(quantity))
+    }
+
     /// A tightening from arrays: torque \[Nm\], sampled every `interval_s` from 0 s on, on a rig; what is not said is unknown,
     /// not invented. Peak and target torque are those of the torque given.
     pub fn from_torque(rig: Rig, interval_s: f64, torque_nm: Vec<f64>) -> Self {

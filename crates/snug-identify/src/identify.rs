@@ -242,8 +242,6 @@ fn nearer(usual: &[Vec<f64>], near: &[f64], is_rugged: bool) -> Vec<Vec<f64>> {
 
 /// Of every interval.
 const CONFIDENCE: f64 = 0.95;
-/// Standard errors to either side that hold 95 % of a normal distribution.
-const NORMAL_QUANTILE: f64 = 1.959_963_984_540_054;
 
 /// The fit in the words everyone shares; intervals end where a parameter's own bounds do.
 fn estimate(model: &Model, set: &Constraints, fit: &Fit, covariance: &Covariance) -> Estimate {
@@ -298,11 +296,8 @@ fn as_fixed(parameter: &Parameter) -> ParameterEstimate {
         value,
         standard_error: parameter.standard_error,
         interval: parameter.standard_error.map(|error| {
-            let half = NORMAL_QUANTILE * error;
-            within(
-                (value - half, value + half),
-                (parameter.minimum, parameter.maximum),
-            )
+            let Interval { low, high } = Interval::normal(value, error);
+            within((low, high), (parameter.minimum, parameter.maximum))
         }),
         fixed: true,
     }

@@ -43,6 +43,7 @@ impl Offset {
     /// The correction as it is reported; `None` for a channel that does not enter the model.
     pub(crate) fn correction(&self, channel: Channel) -> Option<Correction> {
         channel.offset_effect().map(|effect| Correction {
+            constant_of: channel.quantity(),
             effect: effect.to_owned(),
             value: self.value,
             standard_error: self.standard_error,

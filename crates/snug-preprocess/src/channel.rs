@@ -31,6 +31,14 @@ impl Channel {
         }
     }
 
+    /// The motion that it is, if it is one.
+    pub(crate) fn quantity(self) -> Option<Quantity> {
+        match self {
+            Self::Motion(quantity) => Some(quantity),
+            Self::Torque | Self::GripForce => None,
+        }
+    }
+
     /// Catalogue name of a constant error of this channel; the grip force does not enter the model.
     pub(crate) fn offset_effect(self) -> Option<&'static str> {
         match self {

@@ -82,6 +82,7 @@ fn result(file: &str, number: u32, estimate: Option<Estimate>) -> TighteningResu
             rejections: vec![Rejection::PoorFit, Rejection::GoesUp],
         },
         corrections: vec![Correction {
+            constant_of: Some(snug_campaign::Quantity::Acceleration),
             effect: "acceleration_bias".into(),
             value: 0.1 + 0.2,
             standard_error: 0.01,

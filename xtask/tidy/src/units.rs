@@ -17,7 +17,7 @@ const DOMAIN_FREE: &[(&str, &str)] = &[
         "its residuals are weighted, and its parameters have the unit of the problem that is put in",
     ),
     (
-        "snug-spectrum",
+        "snug-signal",
         "its numbers have the unit of the signal that is put in; time counts in samples",
     ),
 ];

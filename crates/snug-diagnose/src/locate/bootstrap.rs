@@ -2,15 +2,13 @@
 
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use snug_campaign::Interval;
+use snug_campaign::{Interval, NORMAL_95};
 use snug_statistics::distributions::student_t_quantile;
 
 /// Campaigns drawn; 2.5 % of them are a dozen on each side.
 const CAMPAIGNS: usize = 499;
 /// Fewer tightenings say nothing about their scatter.
 pub const FEWEST: usize = 3;
-/// 97.5 % quantile of the standard normal distribution.
-const NORMAL: f64 = 1.959_963_984_540_054;
 
 /// One tightening's part in a ratio Σ numerator / Σ denominator.
 #[derive(Debug, Clone, Copy)]
@@ -74,7 +72,7 @@ impl Draws {
         let tail = (0.025 * drawn.len() as f64) as usize;
         let (low, high) = (drawn[tail], drawn[drawn.len() - 1 - tail]);
         let n = terms.len() as f64;
-        let wider = student_t_quantile(0.975, n - 1.0) * (n / (n - 1.0)).sqrt() / NORMAL;
+        let wider = student_t_quantile(0.975, n - 1.0) * (n / (n - 1.0)).sqrt() / NORMAL_95;
         Some(Interval {
             low: centre - wider * (centre - low),
             high: centre + wider * (high - centre),

@@ -7,7 +7,7 @@ use super::aspect::{Part, Sum, View};
 use super::grid::{round_up, tidy};
 use super::residual::Residuals;
 use rayon::prelude::*;
-use snug_spectrum::Periodogram;
+use snug_signal::Periodogram;
 use std::collections::BTreeMap;
 
 /// A band this many frequencies wide is the narrowest.

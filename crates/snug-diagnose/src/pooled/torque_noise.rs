@@ -12,24 +12,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 use snug_least_squares::matrix::inner_product as dot;
 use snug_model::Input;
-
-/// Standard deviation of a normal variable over the median of its size.
-const NORMAL_OVER_MEDIAN: f64 = 1.482_602_218_505_602;
-
-/// Standard deviation of the white noise of a signal that is straight over most neighbouring samples: from the median of
-/// y(i − 1) − 2 y(i) + y(i + 1), whose variance is six times the noise's.
-fn noise_level(signal: &[f64]) -> f64 {
-    let mut bends: Vec<f64> = signal
-        .windows(3)
-        .map(|y| (y[0] - 2.0 * y[1] + y[2]).abs())
-        .collect();
-    if bends.is_empty() {
-        return 0.0;
-    }
-    let middle = bends.len() / 2;
-    let (_, median, _) = bends.select_nth_unstable_by(middle, f64::total_cmp);
-    NORMAL_OVER_MEDIAN * *median / 6.0_f64.sqrt()
-}
+use snug_signal::white_noise_level;
 
 /// Expected Σ r² of each unit of every member from torque noise alone, the models at `values`; from one drawn noise, the
 /// same for every model.
@@ -77,7 +60,7 @@ const TOGETHER: usize = 8;
 /// A member's torque with as much noise again as it has.
 fn noisy(hypothesis: &Hypothesis<'_>, member: usize) -> Input {
     let case = &hypothesis.cases[member];
-    let level = noise_level(&case.tightening.torque_nm);
+    let level = white_noise_level(&case.tightening.torque_nm);
     let mut random = ChaCha8Rng::seed_from_u64(0);
     random.set_stream(member as u64);
     let noise: Vec<f64> = (0..case.tightening.torque_nm.len())
@@ -103,7 +86,7 @@ mod tests {
                 pulse + 0.02 * draw
             })
             .collect();
-        let level = noise_level(&signal);
+        let level = white_noise_level(&signal);
         assert!((level - 0.02).abs() < 0.001, "{level}");
     }
 }

@@ -14,6 +14,7 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 use rayon::prelude::*;
+use snug_campaign::Quantity;
 use snug_identify::smooth;
 use snug_least_squares::matrix::inner_product as dot;
 use snug_model::{Effect, Input};
@@ -282,11 +283,8 @@ impl<'a, 'h> Scorer<'a, 'h> {
     /// What one standard error of the bias taken out in the quiet part does to the weighted output.
     fn bias_signature(&self, member: usize, nuisance: &Nuisance) -> Option<Vec<f64>> {
         let case = &self.hypothesis.cases[member];
-        let corrections = &case.tightening.corrections;
-        let bias = corrections
-            .iter()
-            .find(|c| c.effect == "acceleration_bias")?;
-        if case.quantity() != snug_campaign::Quantity::Acceleration || bias.standard_error <= 0.0 {
+        let bias = case.tightening.correction_of(Quantity::Acceleration)?;
+        if case.quantity() != Quantity::Acceleration || bias.standard_error <= 0.0 {
             return None;
         }
         let constant = vec![bias.standard_error; case.measured().len()];

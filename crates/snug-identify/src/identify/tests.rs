@@ -156,6 +156,7 @@ fn simulated(number: u32, plan: &Plan) -> Simulated {
                     samples: 1000,
                 }),
             corrections: vec![Correction {
+                constant_of: Some(snug_campaign::Quantity::Acceleration),
                 effect: "acceleration_bias".to_owned(),
                 value: 0.0,
                 unit: "rad/s²".to_owned(),

@@ -5,7 +5,7 @@ use crate::noise::integrated::{IntegratedNoise, drift, to_source};
 use crate::residual::agreement::error_over_noise;
 use crate::residual::tightening::TighteningResidual;
 use crate::task::FitTask;
-use snug_campaign::Tightening;
+use snug_campaign::{Quantity, Tightening};
 use snug_least_squares::matrix::inner_product;
 use snug_least_squares::{Fit, Residual, ResidualNoise, without_high_leverage};
 
@@ -260,12 +260,8 @@ fn score_sums(
 
 /// Variance of the acceleration bias that was estimated and taken out \[(rad/s²)²\].
 fn bias_variance(tightening: &Tightening) -> f64 {
-    tightening
-        .corrections
-        .iter()
-        .filter(|correction| correction.effect == "acceleration_bias")
-        .map(|correction| correction.standard_error.powi(2))
-        .sum()
+    let bias = tightening.correction_of(Quantity::Acceleration);
+    bias.map_or(0.0, |bias| bias.standard_error.powi(2))
 }
 
 fn add(mut noise: Vec<f64>, more: &[f64]) -> Vec<f64> {

@@ -7,6 +7,8 @@
 //! Goldenshluger & Nemirovski 1997; Katkovnik 1999).
 //! At its ends the signal is taken to go on as it came, reflected in its end points.
 
+use snug_signal::white_noise_level;
+
 /// Reaches on either side \[s\], shortest first: a shut-off takes longer than the shortest, a ramp as long as the longest.
 const REACHES_S: [f64; 8] = [1.8e-3, 2.5e-3, 3.5e-3, 5e-3, 7e-3, 10e-3, 14e-3, 20e-3];
 /// The fewest samples on either side.
@@ -24,7 +26,8 @@ pub(crate) fn slopes(values: &[f64], interval_s: f64, substeps: usize) -> Vec<f6
     let reaches = REACHES_S.map(|reach_s| (reach_s / interval_s).round() as usize);
     let reaches = reaches.map(|reach| reach.max(LEAST_REACH * substeps).min(values.len() - 1));
     let fits = reaches.map(SlopeFit::over);
-    let noise = noise(values, substeps) * (substeps as f64).sqrt();
+    let samples: Vec<f64> = values.iter().copied().step_by(substeps).collect();
+    let noise = white_noise_level(&samples) * (substeps as f64).sqrt();
     let longest = reaches[reaches.len() - 1];
     let sums = sums(&continued(values, longest));
     (longest..longest + values.len())
@@ -119,21 +122,6 @@ pub(crate) fn sums(values: &[f64]) -> Vec<f64> {
     std::iter::once(0.0).chain(all).collect()
 }
 
-/// Standard deviation of the noise of single samples: the median of their second differences, which a smooth signal hardly
-/// moves, over what it is for independent normal values of spread 1.
-fn noise(values: &[f64], substeps: usize) -> f64 {
-    const MEDIAN_SECOND_DIFFERENCE: f64 = 0.674_489_75 * 2.449_489_74;
-    let samples: Vec<f64> = values.iter().copied().step_by(substeps).collect();
-    let mut bends: Vec<f64> = (samples.windows(3))
-        .map(|three| (three[0] - 2.0 * three[1] + three[2]).abs())
-        .collect();
-    if bends.is_empty() {
-        return 0.0;
-    }
-    let middle = bends.len() / 2;
-    *bends.select_nth_unstable_by(middle, f64::total_cmp).1 / MEDIAN_SECOND_DIFFERENCE
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -165,7 +153,7 @@ mod tests {
         let sums = sums(&values);
         let found: Vec<f64> = (5..19_995).map(|i| fit.at(&sums, i)).collect();
         assert!((root_mean_square(&found) / fit.error - 1.0).abs() < 0.05);
-        assert!((noise(&values, 1) - 1.0).abs() < 0.1);
+        assert!((white_noise_level(&values) - 1.0).abs() < 0.1);
     }
 
     /// A ramp of 700 Nm/s that ends in a kink, with a noise of 0.02 Nm at 10 kHz: far from the kink the slope is as sure as

@@ -32,7 +32,7 @@ impl Input {
     pub fn new(samples: &[f64], interval_s: f64, intersample: Intersample) -> Self {
         let (grid, substeps) = match intersample {
             Intersample::BandLimited => (
-                snug_spectrum::straight_pieces(samples, BAND_LIMITED_SUBSTEPS),
+                snug_signal::straight_pieces(samples, BAND_LIMITED_SUBSTEPS),
                 BAND_LIMITED_SUBSTEPS,
             ),
             Intersample::ZeroOrder | Intersample::Linear => (samples.to_vec(), 1),
@@ -75,7 +75,7 @@ impl Input {
     pub fn with_added(&self, noise: &[f64]) -> Self {
         let noise = match self.substeps {
             1 => noise.to_vec(),
-            factor => snug_spectrum::straight_pieces(noise, factor),
+            factor => snug_signal::straight_pieces(noise, factor),
         };
         let sum = self
             .grid
@@ -209,7 +209,7 @@ impl Input {
 
     /// The samples and what lies between them, [`BAND_LIMITED_SUBSTEPS`] to an interval.
     fn between(&self) -> &[f64] {
-        let made = || snug_spectrum::between_samples(&self.grid, BAND_LIMITED_SUBSTEPS);
+        let made = || snug_signal::between_samples(&self.grid, BAND_LIMITED_SUBSTEPS);
         self.between.get_or_init(made)
     }
 

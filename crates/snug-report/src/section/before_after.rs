@@ -7,7 +7,7 @@ use crate::number::{drawn, significant};
 use crate::traces_json::embedded;
 use maud::{Markup, PreEscaped, html};
 use serde_json::json;
-use snug_campaign::{CampaignResult, Diagnosis, Quantity, Showcase};
+use snug_campaign::{CampaignResult, Diagnosis, NORMAL_95, Quantity, Showcase};
 
 /// One tightening with the study's own model and with the final one.
 pub const SECTION: DiagnosisSection = DiagnosisSection {
@@ -157,7 +157,7 @@ fn of_quantity(
                 line("before", "c-rejected", &residual(before)),
                 line("after", "c-simulated", &residual(after)),
             ],
-            band: noise.map(|noise| 1.96 * noise),
+            band: noise.map(|noise| NORMAL_95 * noise),
         },
     ])
 }

@@ -6,7 +6,7 @@ use crate::figure::{Axis, Dot, Figure, Mark, Segment, captioned, legend, linear_
 use crate::number::{missing, percent, share, significant};
 use crate::quartiles::Quartiles;
 use maud::{Markup, html};
-use snug_campaign::{CampaignResult, Correction};
+use snug_campaign::{CampaignResult, Correction, NORMAL_95};
 
 /// What was measured in the quiet part and taken out before the fit.
 pub const SECTION: Section = Section {
@@ -138,7 +138,7 @@ fn drawing(row: &Corrected, result: &CampaignResult) -> Markup {
 }
 
 fn interval(correction: &Correction) -> (f64, f64) {
-    let half = 1.96 * correction.standard_error;
+    let half = NORMAL_95 * correction.standard_error;
     (correction.value - half, correction.value + half)
 }
 

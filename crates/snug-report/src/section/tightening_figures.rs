@@ -9,7 +9,7 @@ use crate::signal_unit;
 use crate::traces_json::{Example, Panel, embedded, examples, panels, residual_quantity};
 use maud::{Markup, PreEscaped, html};
 use serde_json::{Value, json};
-use snug_campaign::{CampaignResult, FitMeasures, Interval, TighteningResult};
+use snug_campaign::{CampaignResult, FitMeasures, Interval, NORMAL_95, TighteningResult};
 
 /// Measured and simulated signals of single tightenings.
 pub const SECTION: Section = Section {
@@ -127,7 +127,7 @@ fn noise_band(tightening: &TighteningResult, result: &CampaignResult) -> Option<
         .noise
         .as_ref()
         .filter(|noise| noise.quantity == residual_quantity(result))
-        .map(|noise| 1.96 * noise.standard_deviation * result.units.output_per_rad)
+        .map(|noise| NORMAL_95 * noise.standard_deviation * result.units.output_per_rad)
         .filter(|band| band.is_finite())
 }
 

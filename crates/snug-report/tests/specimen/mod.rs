@@ -126,6 +126,7 @@ fn tightening(index: usize, noise: &mut Noise) -> (TighteningResult, Traces) {
 fn correction(noise: &mut Noise) -> Correction {
     let value = 0.06 * noise.normal();
     Correction {
+        constant_of: Some(snug_campaign::Quantity::Acceleration),
         effect: "acceleration_bias".into(),
         value,
         standard_error: 0.012,
