@@ -3,11 +3,11 @@
 mod assembly;
 mod base_model;
 mod custom;
-mod effect;
-mod effects;
+mod description;
+pub mod effects;
 mod error;
-mod hooks;
 mod input;
+mod law;
 mod numeric;
 mod reaction;
 mod simulate;
@@ -26,13 +26,11 @@ pub use base_model::oscillation::{
 pub use base_model::sweep::{ScoredRecord, Sweep};
 pub use custom::law::CustomEffect;
 pub use custom::settings::{CustomEffectSettings, CustomParameterSettings, Place};
-pub use effect::{
-    Deflection, Delayed, Description, Instant, Kind, Kinematics, Law, LoggedTorque, ParameterSpec,
-    Scope,
-};
+pub use description::{Description, Kind, ParameterSpec, Scope};
 pub use effects::{Effect, TRENDS};
 pub use error::ModelError;
 pub use input::torque::{Earlier, Input};
+pub use law::{Deflection, Delayed, Instant, Kinematics, Law, LoggedTorque};
 pub use numeric::dual::Dual;
 pub use numeric::number::Number;
 pub use numeric::real::{Real, Task};

@@ -1,6 +1,7 @@
 //! What the person does a reaction time after the pulse: a rise from 0 to 1 that begins at t_on and takes t_rise.
 
-use crate::effect::{Instant, ParameterSpec, Scope};
+use crate::description::{ParameterSpec, Scope};
+use crate::law::Instant;
 use crate::numeric::number::Number;
 
 /// t_on.
@@ -12,6 +13,7 @@ pub(crate) const ONSET: ParameterSpec = ParameterSpec {
     minimum: 0.0,
     maximum: 0.3,
     limits: (0.0, 0.5),
+    vanishes_at: None,
     scope: Scope::Shared,
 };
 
@@ -24,6 +26,7 @@ pub(crate) const RISE: ParameterSpec = ParameterSpec {
     minimum: 0.01,
     maximum: 0.3,
     limits: (0.005, 0.5),
+    vanishes_at: None,
     scope: Scope::Shared,
 };
 

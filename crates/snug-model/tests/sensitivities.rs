@@ -1,7 +1,7 @@
 //! Every sensitivity against central differences of the simulation, for every effect, quantity and input behaviour.
 
 use snug_campaign::{Intersample, Quantity, Rig};
-use snug_model::{Effect, Input, Law, Model};
+use snug_model::{Effect, Input, Law, Model, ParameterSpec};
 
 const RIG: Rig = Rig {
     lever_arm_m: 0.33,
@@ -22,40 +22,49 @@ fn pulse() -> Vec<f64> {
         .collect()
 }
 
-/// A value inside every parameter's range at which its sensitivity is not zero.
-fn inner_value(effect: Effect, index: usize) -> f64 {
-    let spec = &effect.description().parameters[index];
-    match spec.name {
-        "k3_n_per_m3" => 2e5,
-        "delay_s" => 0.00033,
-        "gap_m" => 0.0015,
-        // Off the grid, where nothing has a kink.
-        "onset_s" => 0.0601,
-        "rise_s" => 0.0503,
-        "tau_s" if effect == Effect::StretchReflex => 0.0303,
-        _ if spec.starts[0] != 0.0 => spec.starts[0],
-        _ => 0.05 * spec.maximum,
+/// A value inside a parameter's range at which its sensitivity is not zero, off the grid of samples, where nothing has a kink.
+fn inner_value(spec: &ParameterSpec) -> f64 {
+    match spec.vanishes_at {
+        Some(0.0) => 0.033 * spec.maximum,
+        _ => 1.003 * spec.starts[0],
     }
 }
 
-/// How exact the slopes to `parameter` are meant to be, as a share of the largest.
-fn tolerance(effects: &[Effect], intersample: Intersample, parameter: usize) -> f64 {
+/// m, c, k and the inner values of the effects' parameters.
+fn inner_values(effects: &[Effect]) -> Vec<f64> {
+    let own = effects
+        .iter()
+        .flat_map(|effect| effect.description().parameters)
+        .map(inner_value);
+    [2.0, 60.0, 1800.0].into_iter().chain(own).collect()
+}
+
+/// How exact the slopes to the parameters of an effect are meant to be, as a share of the largest.
+fn tolerance(effect: Effect, intersample: Intersample) -> f64 {
+    let specs = effect.description().parameters;
+    let own: Vec<f64> = specs.iter().map(inner_value).collect();
+    let delays_torque = effect
+        .logged_torque(&own)
+        .is_some_and(|logged| logged.delay_s != 0.0);
     // The torque's slope is that of a line over m = 5 samples on either side, lest noise pass for knowledge of the delay:
     // Δ² (3m² + 3m − 1)/30 of its second derivative off, 0.3 % for this pulse at 2 kHz, and more where the pulse begins
     // and ends with a kink.
-    if (effects, intersample, parameter) == (&[Effect::TorqueDelay], Intersample::Linear, 3) {
+    if delays_torque && intersample == Intersample::Linear {
         return 0.06;
     }
-    2e-6
+    PLAIN_TOLERANCE
 }
+
+const PLAIN_TOLERANCE: f64 = 2e-6;
 
 fn check(effects: &[Effect], intersample: Intersample, quantity: Quantity) {
     let model = Model::new(RIG, effects).expect("a valid rig");
     let input = Input::new(&pulse(), 5e-4, intersample).with_rest_before(0.4);
-    let mut values = vec![2.0, 60.0, 1800.0];
+    let values = inner_values(effects);
+    let mut tolerances = vec![PLAIN_TOLERANCE; 3];
     for &effect in effects {
         let count = effect.description().parameters.len();
-        values.extend((0..count).map(|index| inner_value(effect, index)));
+        tolerances.extend(vec![tolerance(effect, intersample); count]);
     }
     let free: Vec<usize> = (0..values.len()).collect();
     let mut output = vec![0.0; SAMPLES];
@@ -95,14 +104,17 @@ fn check(effects: &[Effect], intersample: Intersample, quantity: Quantity) {
             .fold(0.0_f64, |largest, value| largest.max(value.abs()));
         assert!(
             largest > 0.0,
-            "{effects:?}: parameter {parameter} has no effect"
+            "{effects:?}: `{}` changes nothing at {}; give it, in its ParameterSpec, a range and starts where it acts, and \
+             `vanishes_at` where it does not",
+            model.parameters()[parameter].name,
+            values[parameter]
         );
         for (index, analytic) in column.iter().enumerate() {
             let difference = (up[index] - down[index]) / (2.0 * step);
             assert!(
-                (analytic - difference).abs()
-                    < tolerance(effects, intersample, parameter) * largest,
-                "{effects:?} {quantity:?} {intersample:?} parameter {parameter} sample {index}: {analytic} against {difference}"
+                (analytic - difference).abs() < tolerances[parameter] * largest,
+                "{effects:?} {quantity:?} {intersample:?} `{}` sample {index}: {analytic} against {difference}",
+                model.parameters()[parameter].name
             );
         }
     }
@@ -170,12 +182,8 @@ fn the_order_of_effects_does_not_matter() {
     let input = Input::new(&pulse(), 5e-4, Intersample::Linear);
     let respond = |effects: &[Effect]| {
         let model = Model::new(RIG, effects).expect("a valid rig");
-        let mut values = vec![2.0, 60.0, 1800.0];
-        for &effect in effects {
-            let count = effect.description().parameters.len();
-            values.extend((0..count).map(|index| inner_value(effect, index)));
-        }
         let mut output = vec![0.0; SAMPLES];
+        let values = inner_values(effects);
         model.output(&values, &input, Quantity::Acceleration, &mut output);
         output
     };
@@ -209,25 +217,24 @@ fn an_effect_of_size_zero_is_the_base_model() {
     );
     for &effect in Effect::ALL {
         let model = Model::new(RIG, &[effect]).expect("a valid rig");
-        let mut values = vec![2.0, 60.0, 1800.0];
-        values.extend((0..effect.description().parameters.len()).map(|i| size_zero(effect, i)));
+        let specs = effect.description().parameters;
+        assert!(
+            specs.iter().any(|spec| spec.vanishes_at.is_some()),
+            "{}: say in its file at which value of a parameter it is not there (`vanishes_at: Some(…)`)",
+            effect.name()
+        );
+        let gone = specs
+            .iter()
+            .map(|spec| spec.vanishes_at.unwrap_or(spec.starts[0]));
+        let values: Vec<f64> = [2.0, 60.0, 1800.0].into_iter().chain(gone).collect();
         let mut output = vec![0.0; SAMPLES];
         model.output(&values, &input, Quantity::Acceleration, &mut output);
         for (a, b) in output.iter().zip(&expected) {
-            assert!((a - b).abs() < 1e-7, "{}: {a} against {b}", effect.name());
+            assert!(
+                (a - b).abs() < 1e-7,
+                "{}: {a} against {b} of the base model where every `vanishes_at` of its file says that it is not there",
+                effect.name()
+            );
         }
-    }
-}
-
-/// A value at which the effect vanishes; times and lengths that only shape it, and must not vanish, keep their start.
-fn size_zero(effect: Effect, index: usize) -> f64 {
-    let spec = &effect.description().parameters[index];
-    match (effect, spec.name) {
-        (Effect::TorqueLag | Effect::AccelerationLag, "tau_s") => 0.0,
-        (_, "tau_s" | "rise_s" | "z_max_m") => spec.starts[0],
-        // A grip without limit, and a support that nothing moves.
-        (_, "f_max_n") => 1e9,
-        (_, "m2_kg") => 1e12,
-        _ => 0.0,
     }
 }

@@ -3,9 +3,10 @@
 use crate::assembly::scale::Scale;
 use crate::custom::law::CustomEffect;
 use crate::custom::settings::{CustomEffectSettings, CustomParameterSettings, Place};
-use crate::effect::{Description, Law, ParameterSpec};
+use crate::description::{Description, ParameterSpec};
 use crate::effects::Effect;
 use crate::error::ModelError;
+use crate::law::Law;
 use snug_campaign::Rig;
 
 /// Speed over which dry friction turns, as a share of the rig's typical speed. A hand gives way to friction softly; in a
@@ -60,6 +61,7 @@ fn named_as(
     let both = scaled.iter().zip(own).map(|(scaled, own)| ParameterSpec {
         name: own.name,
         unit: own.unit,
+        vanishes_at: own.vanishes_at,
         ..*scaled
     });
     Box::leak(both.collect::<Vec<_>>().into_boxed_slice())
@@ -69,7 +71,7 @@ fn named_as(
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
-    use crate::effect::Instant;
+    use crate::law::Instant;
 
     #[test]
     fn friction_is_full_at_a_hundredth_of_the_usual_speed() {

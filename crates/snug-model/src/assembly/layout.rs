@@ -1,6 +1,5 @@
-use crate::effect::Law;
 use crate::effects::Effect;
-use crate::hooks::AnsweredHooks;
+use crate::law::AnsweredHooks;
 use snug_campaign::Rig;
 use std::ops::Range;
 
@@ -47,6 +46,6 @@ impl Assembly {
 
     /// The motion itself is the base model's, whatever the sensors add.
     pub(crate) fn moves_as_base(&self) -> bool {
-        self.parts.iter().all(|part| part.effect.measurement_only())
+        self.parts.iter().all(|part| part.answered.are_of_sensors())
     }
 }

@@ -1,9 +1,9 @@
 use crate::assembly::layout::{Assembly, BASE_PARAMETERS, MAXIMUM_FREE, MAXIMUM_OWN_STATES, Part};
 use crate::assembly::scale::{PlausibleRange, Scale};
-use crate::effect::{Law, ParameterSpec};
+use crate::description::ParameterSpec;
 use crate::effects::Effect;
 use crate::error::ModelError;
-use crate::hooks::AnsweredHooks;
+use crate::law::{AnsweredHooks, Law};
 use snug_campaign::{Parameter, ParameterSource, Rig};
 
 /// m, c, k as the thesis starts them \[kg, kg/s, N/m\].
@@ -61,7 +61,7 @@ impl Model {
             let next = states + description.states.len();
             parts.push(Part {
                 effect,
-                answered: AnsweredHooks::of(effect),
+                answered: AnsweredHooks::of(&effect),
                 parameters: first..parameters.len(),
                 states: states..next,
             });

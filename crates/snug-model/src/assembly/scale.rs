@@ -1,4 +1,4 @@
-use crate::effect::ParameterSpec;
+use crate::description::ParameterSpec;
 use serde::{Deserialize, Serialize};
 use snug_campaign::Rig;
 
@@ -136,8 +136,8 @@ impl Scale {
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
-    use crate::effect::Law;
     use crate::effects::Effect;
+    use crate::law::Law;
 
     const RIG: Rig = Rig {
         lever_arm_m: 0.66,
@@ -192,15 +192,26 @@ mod tests {
         for effect in Effect::ALL {
             for spec in effect.description().parameters {
                 let known = SCALE.factor(spec.unit, 1.0).is_some() || spec.unit == "output unit";
-                assert!(known, "{}: {}", effect.name(), spec.unit);
+                assert!(
+                    known,
+                    "{}: nobody knows the unit `{}`; write it in N, Nm, m, rad, s, kg and 1, or add its symbol to `Scale::factor`",
+                    effect.name(),
+                    spec.unit
+                );
                 let range = SCALE.range(spec, &RIG);
                 let inside = |start: &f64| (range.minimum..=range.maximum).contains(start);
-                assert!(range.starts.iter().all(inside), "{}", effect.name());
+                assert!(
+                    range.starts.iter().all(inside),
+                    "{}: `starts` of `{}` leave its range on another rig; move them in its file",
+                    effect.name(),
+                    spec.name
+                );
                 let (lowest, highest) = spec.limits;
                 assert!(
                     lowest <= spec.minimum && spec.maximum <= highest,
-                    "{}",
-                    effect.name()
+                    "{}: `limits` of `{}` must hold its range from `minimum` to `maximum`; widen them in its file",
+                    effect.name(),
+                    spec.name
                 );
             }
         }

@@ -1,9 +1,10 @@
 use crate::custom::expression;
 use crate::custom::expression::{Program, Surroundings};
 use crate::custom::settings::{CustomEffectSettings, Place};
-use crate::effect::{Description, Instant, Kind, Kinematics, Law, ParameterSpec, Scope};
+use crate::description::{Description, Kind, ParameterSpec, Scope};
 use crate::effects::Effect;
 use crate::error::ModelError;
+use crate::law::{Instant, Kinematics, Law};
 use crate::numeric::number::Number;
 use std::hash::{Hash, Hasher};
 use std::sync::{Mutex, PoisonError};
@@ -121,10 +122,6 @@ impl Law for CustomEffect {
             )
         })
     }
-
-    fn measurement_only(&self) -> bool {
-        self.settings.place == Place::Measurement
-    }
 }
 
 /// The expression as a program that has a value at rest and in motion, and that depends on every parameter.
@@ -196,6 +193,7 @@ fn describe(settings: &CustomEffectSettings, program: &Program) -> &'static Desc
             minimum: parameter.minimum,
             maximum: parameter.maximum,
             limits: (parameter.minimum, parameter.maximum),
+            vanishes_at: None,
             scope: if parameter.shared {
                 Scope::Shared
             } else {
@@ -233,6 +231,7 @@ fn describe(settings: &CustomEffectSettings, program: &Program) -> &'static Desc
         },
         shows_as: kept(format!("misfit that follows {expression}")),
         check: "Whether anything at the rig acts as this law says: the study's author knows what is meant.",
+        valid_for: "what the study's author means it for",
         source: "the study file",
     }))
 }

@@ -1,20 +1,32 @@
 //! The accelerometer's zero is off: a + b; in the integrated velocity a slope, in the displacement a parabola.
 //!
-//! Always there; counted from the instant the integration began, which is why a long quiet part before the pulse makes
-//! it grow. Source: sensor zero offset, temperature drift.
+//! b > 0 reads too much. Always there; counted from the instant the integration began, which is why a long quiet part before
+//! the pulse makes it grow. In the residual a constant in the acceleration, a slope in the velocity, a parabola in the
+//! displacement.
+//!
+//! Valid for: a zero that stays the same from the beginning of the integration to the window's end, velocity and displacement
+//! integrated from this very acceleration.
+//!
+//! Source: sensor zero offset, temperature drift.
 
+use crate::description::{Description, Kind, ParameterSpec, Scope, state};
+use crate::law::{Kinematics, Law};
 use crate::numeric::number::Number;
-use crate::effect::{Description, Kind, Kinematics, Law, ParameterSpec, Scope};
 
-pub struct AccelerationBias;
+state! {
+    summary: "The accelerometer does not read zero at rest.",
+    equation: "a + b",
+}
+
+pub(super) struct AccelerationBias;
 
 impl Law for AccelerationBias {
     fn description(&self) -> &'static Description {
         &Description {
             name: "acceleration_bias",
             kind: Kind::Measurement,
-            summary: "The accelerometer does not read zero at rest.",
-            equation: "a + b",
+            summary: SUMMARY,
+            equation: EQUATION,
             parameters: &[ParameterSpec {
                 name: "bias_rad_per_s2",
                 meaning: "bias",
@@ -23,6 +35,7 @@ impl Law for AccelerationBias {
                 minimum: -2.0,
                 maximum: 2.0,
                 limits: (-50.0, 50.0),
+                vanishes_at: Some(0.0),
                 scope: Scope::PerTightening,
             }],
             states: &[],
@@ -30,6 +43,7 @@ impl Law for AccelerationBias {
             excited_by: "nothing: it is there at rest",
             shows_as: "a constant in the acceleration, a parabola in the displacement",
             check: "Read the accelerometer with the tool at rest, cold and warm: it must show zero; if not, record a quiet part before each pulse.",
+            valid_for: "a zero that does not drift from the beginning of the integration to the end of the window",
             source: "sensor zero offset",
         }
     }
@@ -39,16 +53,34 @@ impl Law for AccelerationBias {
         &self,
         p: &[N],
         since_rest_s: N::Real,
-        motion: Kinematics<N>,
+        seen: Kinematics<N>,
     ) -> Option<Kinematics<N>> {
         Some(Kinematics {
-            displacement_rad: motion.displacement_rad + p[0].times(since_rest_s * 0.5 * since_rest_s),
-            velocity_rad_per_s: motion.velocity_rad_per_s + p[0].times(since_rest_s),
-            acceleration_rad_per_s2: motion.acceleration_rad_per_s2 + p[0],
+            displacement_rad: seen.displacement_rad + p[0].times(since_rest_s * 0.5 * since_rest_s),
+            velocity_rad_per_s: seen.velocity_rad_per_s + p[0].times(since_rest_s),
+            acceleration_rad_per_s2: seen.acceleration_rad_per_s2 + p[0],
         })
     }
+}
 
-    fn measurement_only(&self) -> bool {
-        true
+#[cfg(test)]
+mod tests {
+    use crate::effects::Effect;
+    use crate::effects::trial;
+    use crate::effects::trial::Trial;
+
+    /// θ + ½ b t², ω + b t, α + b.
+    #[test]
+    fn adds_a_constant_and_its_integrals() {
+        let (bias, rest_before_s) = (0.3, 1.48);
+        let trial = Trial::ramp().rested_before(rest_before_s);
+        let plain = trial.motion_of(&[], &[]);
+        let biased = trial.motion(Effect::AccelerationBias, &[bias]);
+        let elapsed = rest_before_s + 2000.0 * trial::INTERVAL_S;
+        let expected = [0.5 * bias * elapsed * elapsed, bias * elapsed, bias];
+        for quantity in 0..3 {
+            let found = biased[quantity][2000] - plain[quantity][2000];
+            trial::assert_near(found, expected[quantity]);
+        }
     }
 }

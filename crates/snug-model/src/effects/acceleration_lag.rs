@@ -1,21 +1,30 @@
 //! The measured acceleration a is the true α through a first-order lag: τ a' = α − a.
 //!
 //! The measured velocity and displacement are integrated from a, from rest: ω − τ a, and from it θ − τ (ω − τ a).
-//! Parameter: tau_s \[s\], 0 to 0.02. Excited by fast torque changes. In the residual it follows dα/dt.
+//! Excited by fast torque changes. In the residual it follows dα/dt.
+//!
+//! Valid for: filters of first order, τ ≥ 0, velocity and displacement integrated from this very acceleration. Any amplitude.
+//!
 //! Source: low-pass filter of the accelerometer.
 
+use crate::description::{Description, Kind, ParameterSpec, Scope, state};
+use crate::law::Law;
 use crate::numeric::number::Number;
-use crate::effect::{Description, Kind, Law, ParameterSpec, Scope};
 
-pub struct AccelerationLag;
+state! {
+    summary: "The acceleration channel is filtered more than the torque channel.",
+    equation: "a + tau da/dt = alpha",
+}
+
+pub(super) struct AccelerationLag;
 
 impl Law for AccelerationLag {
     fn description(&self) -> &'static Description {
         &Description {
             name: "acceleration_lag",
             kind: Kind::Measurement,
-            summary: "The acceleration channel is filtered more than the torque channel.",
-            equation: "a + tau da/dt = alpha",
+            summary: SUMMARY,
+            equation: EQUATION,
             parameters: &[ParameterSpec {
                 name: "tau_s",
                 meaning: "time constant of the lag",
@@ -24,6 +33,7 @@ impl Law for AccelerationLag {
                 minimum: 0.0,
                 maximum: 0.02,
                 limits: (0.0, 0.05),
+                vanishes_at: Some(0.0),
                 scope: Scope::Shared,
             }],
             states: &[],
@@ -31,6 +41,7 @@ impl Law for AccelerationLag {
             excited_by: "fast torque changes: shut-off, hard joints",
             shows_as: "misfit that follows the acceleration's slope",
             check: "Look up the low-pass filter of the acceleration channel, and compare its step response with the torque channel's.",
+            valid_for: "filters of first order, velocity and displacement integrated from this very acceleration; any amplitude",
             source: "low-pass filter of the accelerometer",
         }
     }
@@ -39,8 +50,24 @@ impl Law for AccelerationLag {
     fn acceleration_lag_s<N: Number>(&self, p: &[N]) -> Option<N> {
         Some(p[0])
     }
+}
 
-    fn measurement_only(&self) -> bool {
-        true
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::effects::Effect;
+    use crate::effects::trial::Trial;
+
+    #[test]
+    fn what_is_measured_is_behind() {
+        assert_eq!(AccelerationLag.acceleration_lag_s(&[0.003]), Some(0.003));
+        let behind = |tau_s: f64| Trial::ramp().motion(Effect::AccelerationLag, &[tau_s])[2][500];
+        assert!(behind(0.003) < behind(0.0));
+    }
+
+    /// The acceleration is taken as straight between samples.
+    #[test]
+    fn moves_as_scipy_says() {
+        Trial::ramp().agrees_with_scipy(Effect::AccelerationLag, 2e-6);
     }
 }

@@ -1,23 +1,33 @@
-//! Dry friction in grip and joint: +F = F_c tanh(v / v_s) with v_s = 0.01 m/s.
+//! Dry friction in grip and joint: +F = F_c tanh(v / v_s), against the motion for F_c > 0.
 //!
 //! Excited by any motion; relatively strongest in weak pulses. Its residual follows sign(v): a step at every reversal.
+//!
+//! Valid for: a hand on a tool, whose speeds are far above v_s. Below v_s it is a damper F_c / v_s: nothing sticks. On a rig
+//! of another scale, `Scale::effect` turns as sharply as the rig's speed asks.
+//!
 //! Source: Coulomb friction, smoothed as usual in identification so that it is differentiable.
 
+use crate::description::{Description, Kind, ParameterSpec, Scope, state};
+use crate::law::{Instant, Law};
 use crate::numeric::number::Number;
-use crate::effect::{Description, Instant, Kind, Law, ParameterSpec, Scope};
+
+state! {
+    summary: "Dry friction holds against every motion with a constant force.",
+    equation: "F + Fc tanh(v / 0.01 m/s)",
+}
 
 /// v_s, the velocity over which the friction turns \[m/s\].
 const SMOOTHING_M_PER_S: f64 = 0.01;
 
-pub struct CoulombFriction;
+pub(super) struct CoulombFriction;
 
 impl Law for CoulombFriction {
     fn description(&self) -> &'static Description {
         &Description {
             name: "coulomb_friction",
             kind: Kind::Mechanical,
-            summary: "Dry friction holds against every motion with a constant force.",
-            equation: "F + Fc tanh(v / 0.01 m/s)",
+            summary: SUMMARY,
+            equation: EQUATION,
             parameters: &[ParameterSpec {
                 name: "fc_n",
                 meaning: "friction force",
@@ -26,6 +36,7 @@ impl Law for CoulombFriction {
                 minimum: 0.0,
                 maximum: 30.0,
                 limits: (0.0, 300.0),
+                vanishes_at: Some(0.0),
                 scope: Scope::Shared,
             }],
             states: &[],
@@ -33,6 +44,7 @@ impl Law for CoulombFriction {
             excited_by: "any motion; relatively strongest in weak pulses",
             shows_as: "misfit that follows the sign of the velocity, with a step at every reversal",
             check: "Move the handle slowly by hand with the tool off and feel or measure whether it needs a small force to move at all: look for rubbing sleeves, cables, hoses and the suspension.",
+            valid_for: "speeds far above 0.01 m/s; below, it is a damper and nothing sticks",
             source: "Coulomb friction, smoothed",
         }
     }
@@ -40,5 +52,32 @@ impl Law for CoulombFriction {
     #[inline(always)]
     fn force<N: Number>(&self, p: &[N], at: &Instant<N>, _own: &[N]) -> Option<N> {
         Some(p[0] * (at.v_m_per_s * (1.0 / SMOOTHING_M_PER_S)).tanh())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::effects::Effect;
+    use crate::effects::trial;
+    use crate::effects::trial::Trial;
+
+    #[test]
+    fn holds_against_the_motion_and_turns_softly() {
+        for (fc_n, v_m_per_s, expected_n) in [
+            (5.0, 1.0, 5.0),
+            (5.0, -1.0, -5.0),
+            (5.0, 1e-6, 5e-4),
+            (0.0, 1.0, 0.0),
+        ] {
+            let found_n = trial::force(&CoulombFriction, &[fc_n], 0.0, v_m_per_s);
+            trial::assert_near(found_n, expected_n);
+        }
+    }
+
+    /// It turns over within few steps.
+    #[test]
+    fn moves_as_scipy_says() {
+        Trial::ramp().agrees_with_scipy(Effect::CoulombFriction, 1e-7);
     }
 }

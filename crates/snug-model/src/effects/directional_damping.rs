@@ -1,22 +1,32 @@
 //! The way back is damped differently: +F = c_r v where v < 0 (rebound), nothing where v ≥ 0.
 //!
-//! Parameter: c_rebound_kg_per_s \[kg/s\], −200 to 300; passive as long as c + c_r ≥ 0. Excited by the rebound after the
-//! peak. In the residual nothing shows until the peak, then a misfit in proportion to the velocity.
+//! c_r > 0 brakes the rebound more than the way out. Excited by the rebound after the peak. In the residual nothing shows
+//! until the peak, then a misfit in proportion to the velocity.
+//!
+//! Valid for: pulses that push to positive x, so that v < 0 is the way back; passive as long as c + c_r ≥ 0. It follows v
+//! at once: no time scale, any rig.
+//!
 //! Source: muscle resists lengthening and shortening differently (Hill's force–velocity relation).
 
+use crate::description::{Description, Kind, ParameterSpec, Scope, state};
+use crate::law::{Instant, Law};
 use crate::numeric::number::Number;
 use crate::numeric::real::Real;
-use crate::effect::{Description, Instant, Kind, Law, ParameterSpec, Scope};
 
-pub struct DirectionalDamping;
+state! {
+    summary: "The hand damps the way back differently from the way out.",
+    equation: "F + c_r v where v < 0",
+}
+
+pub(super) struct DirectionalDamping;
 
 impl Law for DirectionalDamping {
     fn description(&self) -> &'static Description {
         &Description {
             name: "directional_damping",
             kind: Kind::Mechanical,
-            summary: "The hand damps the way back differently from the way out.",
-            equation: "F + c_r v where v < 0",
+            summary: SUMMARY,
+            equation: EQUATION,
             parameters: &[ParameterSpec {
                 name: "c_rebound_kg_per_s",
                 meaning: "extra damping of the rebound",
@@ -25,6 +35,7 @@ impl Law for DirectionalDamping {
                 minimum: -200.0,
                 maximum: 300.0,
                 limits: (-500.0, 3000.0),
+                vanishes_at: Some(0.0),
                 scope: Scope::Shared,
             }],
             states: &[],
@@ -32,6 +43,7 @@ impl Law for DirectionalDamping {
             excited_by: "the rebound after the peak: a window that goes on long enough",
             shows_as: "misfit that starts at the peak displacement and follows the velocity on the way back only",
             check: "Watch the handle come back after shut-off, on a film or in the recorded velocity: the hand brakes the return differently from the push.",
+            valid_for: "pulses that push to positive x, with c + c_r >= 0; it has no time scale",
             source: "Hill, force-velocity relation of muscle",
         }
     }
@@ -41,5 +53,29 @@ impl Law for DirectionalDamping {
         let v = at.v_m_per_s;
         let back = (-v).value().is_positive();
         Some(N::select(back, p[0] * v, v.constant(0.0)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::effects::Effect;
+    use crate::effects::trial;
+    use crate::effects::trial::Trial;
+
+    #[test]
+    fn brakes_the_way_back_only() {
+        for (c_r, v_m_per_s, expected_n) in
+            [(40.0, 0.5, 0.0), (40.0, -0.5, -20.0), (0.0, -0.5, 0.0)]
+        {
+            let found_n = trial::force(&DirectionalDamping, &[c_r], 0.0, v_m_per_s);
+            trial::assert_near(found_n, expected_n);
+        }
+    }
+
+    /// Its rates have a kink where the velocity changes its sign, in the middle of a step.
+    #[test]
+    fn moves_as_scipy_says() {
+        Trial::ramp().agrees_with_scipy(Effect::DirectionalDamping, 5e-8);
     }
 }

@@ -1,10 +1,14 @@
 //! The arm tires: m, c, k of tightening number n are m0 (1 + s_m n), c0 (1 + s_c n), k0 (1 + s_k n).
 //!
 //! Within one tightening m, c, k are free, so nothing of it shows there: it is no law of motion but a trend of what was
-//! identified, over the tightening's number in its file. Excited by many tightenings in a row. In the residual of one
-//! tightening it leaves nothing; the fitted m, c, k drift. Source: muscle stiffness falls and posture sags as muscles tire.
+//! identified, over the tightening's number in its file. A negative slope is an arm that gives way. Excited by many
+//! tightenings in a row. In the residual of one tightening it leaves nothing; the fitted m, c, k drift.
+//!
+//! Valid for: many tightenings in a row by the same person, few enough that the trend stays straight and 1 + s n positive.
+//!
+//! Source: muscle stiffness falls and posture sags as muscles tire.
 
-use crate::effect::{Description, Kind, ParameterSpec, Scope};
+use crate::description::{Description, Kind, ParameterSpec, Scope};
 
 const fn slope(name: &'static str, meaning: &'static str) -> ParameterSpec {
     ParameterSpec {
@@ -15,6 +19,7 @@ const fn slope(name: &'static str, meaning: &'static str) -> ParameterSpec {
         minimum: -0.1,
         maximum: 0.1,
         limits: (-0.1, 0.1),
+        vanishes_at: Some(0.0),
         scope: Scope::Shared,
     }
 }
@@ -35,5 +40,6 @@ pub const DESCRIPTION: Description = Description {
     excited_by: "many tightenings in a row by the same person",
     shows_as: "no misfit within a tightening; the fitted mass, damping and stiffness drift with its number",
     check: "Repeat the first tightenings after a rest: values that come back to where they began show fatigue, values that stay show learning or a changed setup.",
+    valid_for: "tightenings in a row by the same person, few enough that the trend stays straight and 1 + s n positive",
     source: "muscle fatigue; the pace of work and learning look alike",
 };

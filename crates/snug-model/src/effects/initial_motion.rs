@@ -1,19 +1,31 @@
 //! The tool already moves when the window begins: θ(0) = θ0, ω(0) = ω0.
 //!
-//! Excited by itself; decays with the hand–arm's own time constant. Source: preceding tightening, posture.
+//! Both count in the direction of the torque. Excited by itself; decays with the hand–arm's own time constant. In the residual
+//! a free oscillation from the first sample on, before the pulse.
+//!
+//! Valid for: free motion before the window, without torque that the window does not hold; not in a simulation that takes up
+//! the measured motion.
+//!
+//! Source: preceding tightening, posture.
 
+use crate::description::{Description, Kind, ParameterSpec, Scope, state};
+use crate::law::Law;
 use crate::numeric::number::Number;
-use crate::effect::{Description, Kind, Law, ParameterSpec, Scope};
 
-pub struct InitialMotion;
+state! {
+    summary: "The tool is not at rest when the window begins.",
+    equation: "theta(0) = theta0, omega(0) = omega0",
+}
+
+pub(super) struct InitialMotion;
 
 impl Law for InitialMotion {
     fn description(&self) -> &'static Description {
         &Description {
             name: "initial_motion",
             kind: Kind::Measurement,
-            summary: "The tool is not at rest when the window begins.",
-            equation: "theta(0) = theta0, omega(0) = omega0",
+            summary: SUMMARY,
+            equation: EQUATION,
             parameters: &[
                 ParameterSpec {
                     name: "theta0_rad",
@@ -23,6 +35,7 @@ impl Law for InitialMotion {
                     minimum: -0.2,
                     maximum: 0.2,
                     limits: (-1.0, 1.0),
+                    vanishes_at: Some(0.0),
                     scope: Scope::PerTightening,
                 },
                 ParameterSpec {
@@ -33,6 +46,7 @@ impl Law for InitialMotion {
                     minimum: -5.0,
                     maximum: 5.0,
                     limits: (-50.0, 50.0),
+                    vanishes_at: Some(0.0),
                     scope: Scope::PerTightening,
                 },
             ],
@@ -41,6 +55,7 @@ impl Law for InitialMotion {
             excited_by: "nothing: it is there at the start",
             shows_as: "a free, decaying oscillation from the first sample on, before the pulse",
             check: "Hold the tool still for a second before each start, and check that the window begins before the pulse does.",
+            valid_for: "free motion before the window, without torque that the window does not hold",
             source: "initial conditions",
         }
     }
@@ -48,5 +63,27 @@ impl Law for InitialMotion {
     #[inline(always)]
     fn initial<N: Number>(&self, p: &[N]) -> Option<(N, N)> {
         Some((p[0], p[1]))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::effects::Effect;
+    use crate::effects::trial;
+    use crate::effects::trial::Trial;
+
+    #[test]
+    fn the_window_begins_with_it() {
+        assert_eq!(InitialMotion.initial(&[0.01, -0.3]), Some((0.01, -0.3)));
+        assert!(Effect::InitialMotion.sets_initial_motion());
+        let motion = Trial::ramp().motion(Effect::InitialMotion, &[0.01, -0.3]);
+        trial::assert_near(motion[0][0], 0.01);
+        trial::assert_near(motion[1][0], -0.3);
+    }
+
+    #[test]
+    fn moves_as_scipy_says() {
+        Trial::ramp().agrees_with_scipy(Effect::InitialMotion, 1e-9);
     }
 }

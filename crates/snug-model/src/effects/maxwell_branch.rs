@@ -1,20 +1,31 @@
 //! A spring and a damper in series beside the hand's own: +F = f with f' = k_m v − f/τ.
 //!
-//! Excited by fast changes: the branch is stiff for motion quicker than τ and gone for slower. Its residual follows the
-//! velocity with a decaying tail. Source: standard linear solid (Zener); tissue relaxation.
+//! F has the sign of the base model. Excited by fast changes: the branch is stiff for motion quicker than τ and gone for
+//! slower. Its residual follows the velocity with a decaying tail.
+//!
+//! Valid for: motion with changes around τ. To slower motion it is a damper k_m τ, to much quicker a spring k_m, and then c or
+//! k takes it over. Linear: any amplitude.
+//!
+//! Source: standard linear solid (Zener); tissue relaxation.
 
+use crate::description::{Description, Kind, ParameterSpec, Scope, state};
+use crate::law::{Instant, Law};
 use crate::numeric::number::Number;
-use crate::effect::{Description, Instant, Kind, Law, ParameterSpec, Scope};
 
-pub struct MaxwellBranch;
+state! {
+    summary: "Tissue that is stiff when pushed quickly and gives way within milliseconds.",
+    equation: "F + f,  df/dt = k_m v - f / tau",
+}
+
+pub(super) struct MaxwellBranch;
 
 impl Law for MaxwellBranch {
     fn description(&self) -> &'static Description {
         &Description {
             name: "maxwell_branch",
             kind: Kind::Mechanical,
-            summary: "Tissue that is stiff when pushed quickly and gives way within milliseconds.",
-            equation: "F + f,  df/dt = k_m v - f / tau",
+            summary: SUMMARY,
+            equation: EQUATION,
             parameters: &[
                 ParameterSpec {
                     name: "k_m_n_per_m",
@@ -24,6 +35,7 @@ impl Law for MaxwellBranch {
                     minimum: 0.0,
                     maximum: 2e4,
                     limits: (0.0, 2e5),
+                    vanishes_at: Some(0.0),
                     scope: Scope::Shared,
                 },
                 ParameterSpec {
@@ -34,6 +46,7 @@ impl Law for MaxwellBranch {
                     minimum: 0.005,
                     maximum: 0.2,
                     limits: (0.002, 0.5),
+                    vanishes_at: None,
                     scope: Scope::Shared,
                 },
             ],
@@ -42,6 +55,7 @@ impl Law for MaxwellBranch {
             excited_by: "fast changes: hard joints, short pulses",
             shows_as: "misfit that follows the velocity and decays over tau after each change",
             check: "Repeat with a bare hand, with a glove and with another handle cover: a soft layer in between changes the misfit.",
+            valid_for: "motion that changes over times around tau: for slower it is a damper k_m tau, for quicker a spring k_m; any amplitude",
             source: "Zener, standard linear solid",
         }
     }
@@ -59,7 +73,32 @@ impl Law for MaxwellBranch {
         own: &[N],
         _hand_n: N,
         rates: &mut [N],
-    ) {
+    ) -> Option<()> {
         rates[0] = p[0] * at.v_m_per_s - own[0] / p[1];
+        Some(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::effects::Effect;
+    use crate::effects::trial;
+    use crate::effects::trial::Trial;
+
+    #[test]
+    fn follows_the_velocity_and_relaxes() {
+        for (k_m, expected_n_per_s) in [(800.0, -20.0), (0.0, -100.0)] {
+            let mut rates = [0.0];
+            let at = trial::at(0.0, 0.1);
+            MaxwellBranch.rates(&[k_m, 0.03], &at, &[3.0], 0.0, &mut rates);
+            trial::assert_near(rates[0], expected_n_per_s);
+            assert_eq!(MaxwellBranch.force(&[k_m, 0.03], &at, &[3.0]), Some(3.0));
+        }
+    }
+
+    #[test]
+    fn moves_as_scipy_says() {
+        Trial::ramp().agrees_with_scipy(Effect::MaxwellBranch, 1e-9);
     }
 }

@@ -1,20 +1,31 @@
 //! The fitted output has a constant offset: y + y0, in the output's own unit.
 //!
-//! In acceleration this is the same as `acceleration_bias`. Source: sensor zero of the output channel.
+//! y0 > 0 reads too much. Always there. In the residual a constant. In acceleration this is the same as `acceleration_bias`.
+//!
+//! Valid for: a zero that stays the same in the fitted channel while the tightening lasts; what other channels are integrated
+//! from it does not follow.
+//!
+//! Source: sensor zero of the output channel.
 
+use crate::description::{Description, Kind, ParameterSpec, Scope, state};
+use crate::law::{Kinematics, Law};
 use crate::numeric::number::Number;
-use crate::effect::{Description, Kind, Kinematics, Law, ParameterSpec, Scope};
 use snug_campaign::Quantity;
 
-pub struct OutputOffset;
+state! {
+    summary: "The fitted output channel does not read zero at rest.",
+    equation: "y + y0",
+}
+
+pub(super) struct OutputOffset;
 
 impl Law for OutputOffset {
     fn description(&self) -> &'static Description {
         &Description {
             name: "output_offset",
             kind: Kind::Measurement,
-            summary: "The fitted output channel does not read zero at rest.",
-            equation: "y + y0",
+            summary: SUMMARY,
+            equation: EQUATION,
             parameters: &[ParameterSpec {
                 name: "y0",
                 meaning: "offset",
@@ -23,6 +34,7 @@ impl Law for OutputOffset {
                 minimum: -10.0,
                 maximum: 10.0,
                 limits: (-1000.0, 1000.0),
+                vanishes_at: Some(0.0),
                 scope: Scope::PerTightening,
             }],
             states: &[],
@@ -30,6 +42,7 @@ impl Law for OutputOffset {
             excited_by: "nothing: it is there at rest",
             shows_as: "a constant in the fitted output",
             check: "Read the fitted channel with the tool at rest: it must show zero.",
+            valid_for: "a zero of the fitted channel that does not drift within a tightening",
             source: "sensor zero offset",
         }
     }
@@ -39,20 +52,42 @@ impl Law for OutputOffset {
         &self,
         p: &[N],
         _since_rest_s: N::Real,
-        motion: Kinematics<N>,
+        seen: Kinematics<N>,
     ) -> Option<Kinematics<N>> {
         Some(Kinematics {
-            displacement_rad: motion.displacement_rad + p[0],
-            velocity_rad_per_s: motion.velocity_rad_per_s + p[0],
-            acceleration_rad_per_s2: motion.acceleration_rad_per_s2 + p[0],
+            displacement_rad: seen.displacement_rad + p[0],
+            velocity_rad_per_s: seen.velocity_rad_per_s + p[0],
+            acceleration_rad_per_s2: seen.acceleration_rad_per_s2 + p[0],
         })
-    }
-
-    fn measurement_only(&self) -> bool {
-        true
     }
 
     fn same_as(&self, compared: Quantity) -> Option<&'static str> {
         (compared == Quantity::Acceleration).then_some("acceleration_bias")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::effects::Effect;
+    use crate::effects::trial;
+    use crate::effects::trial::Trial;
+
+    #[test]
+    fn adds_a_constant_whatever_is_compared() {
+        let trial = Trial::ramp();
+        let plain = trial.motion_of(&[], &[]);
+        let shifted = trial.motion(Effect::OutputOffset, &[0.02]);
+        for quantity in 0..3 {
+            trial::assert_near(shifted[quantity][1230] - plain[quantity][1230], 0.02);
+        }
+    }
+
+    #[test]
+    fn is_the_bias_where_acceleration_is_compared() {
+        let same = |compared| OutputOffset.same_as(compared);
+        assert_eq!(same(Quantity::Acceleration), Some("acceleration_bias"));
+        assert_eq!(same(Quantity::Velocity), None);
+        assert_eq!(same(Quantity::Displacement), None);
     }
 }

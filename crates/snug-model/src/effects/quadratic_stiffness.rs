@@ -1,21 +1,31 @@
 //! An asymmetric hand spring: +F = k2 x², stiffer one way (k2 > 0: away from the operator's rest) than the other.
 //!
-//! Parameter: k2_n_per_m2 \[N/m²\], −1e5 to 1e5. Excited by large displacements; its share grows with the amplitude. In the
-//! residual it stands around the peak with one sign on both sides of rest (even harmonics, a shifted mean).
+//! Excited by large displacements; its share grows with the amplitude. In the residual it stands around the peak with one
+//! sign on both sides of rest (even harmonics, a shifted mean).
+//!
+//! Valid for: |x| below k / 2|k2|, where on the soft side the force is largest and the spring would let go. It follows x at
+//! once: no time scale, any rig.
+//!
 //! Source: asymmetric restoring force (Nayfeh and Mook, Nonlinear Oscillations, 1979).
 
+use crate::description::{Description, Kind, ParameterSpec, Scope, state};
+use crate::law::{Instant, Law};
 use crate::numeric::number::Number;
-use crate::effect::{Description, Instant, Kind, Law, ParameterSpec, Scope};
 
-pub struct QuadraticStiffness;
+state! {
+    summary: "The hand's spring is stiffer in one direction than in the other.",
+    equation: "F + k2 x^2",
+}
+
+pub(super) struct QuadraticStiffness;
 
 impl Law for QuadraticStiffness {
     fn description(&self) -> &'static Description {
         &Description {
             name: "quadratic_stiffness",
             kind: Kind::Mechanical,
-            summary: "The hand's spring is stiffer in one direction than in the other.",
-            equation: "F + k2 x^2",
+            summary: SUMMARY,
+            equation: EQUATION,
             parameters: &[ParameterSpec {
                 name: "k2_n_per_m2",
                 meaning: "quadratic stiffness",
@@ -24,6 +34,7 @@ impl Law for QuadraticStiffness {
                 minimum: -1e5,
                 maximum: 1e5,
                 limits: (-2e6, 2e6),
+                vanishes_at: Some(0.0),
                 scope: Scope::Shared,
             }],
             states: &[],
@@ -31,6 +42,7 @@ impl Law for QuadraticStiffness {
             excited_by: "large displacements: high target torque, soft grip",
             shows_as: "misfit around the peak that grows as x^2, with the same sign on both sides of rest",
             check: "Let the tool pull the hand in the other direction once (left-hand thread or reversed tool): an uneven spring is stiffer one way than the other.",
+            valid_for: "displacements below k / (2 abs(k2)), where on the soft side its force is largest; it has no time scale",
             source: "asymmetric spring (Nayfeh and Mook 1979)",
         }
     }
@@ -38,5 +50,28 @@ impl Law for QuadraticStiffness {
     #[inline(always)]
     fn force<N: Number>(&self, p: &[N], at: &Instant<N>, _own: &[N]) -> Option<N> {
         Some(p[0] * at.x_m.power(2))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::effects::Effect;
+    use crate::effects::trial;
+    use crate::effects::trial::Trial;
+
+    #[test]
+    fn acts_one_way_on_both_sides() {
+        for (k2, x_m, expected_n) in [(1e4, 0.01, 1.0), (1e4, -0.01, 1.0), (0.0, 0.01, 0.0)] {
+            trial::assert_near(
+                trial::force(&QuadraticStiffness, &[k2], x_m, 0.0),
+                expected_n,
+            );
+        }
+    }
+
+    #[test]
+    fn moves_as_scipy_says() {
+        Trial::ramp().agrees_with_scipy(Effect::QuadraticStiffness, 1e-9);
     }
 }

@@ -1,20 +1,31 @@
 //! The logged torque is early by d: the torque that acts at time t is the logged torque of t − d.
 //!
-//! Excited by fast torque changes (shut-off). Its residual follows dT/dt. Half a sample of delay already looks like
-//! physics. Source: channel timing of separate amplifiers and filters.
+//! d < 0 is a torque that is logged late. Excited by fast torque changes (shut-off). Its residual follows dT/dt. Half a sample
+//! of delay already looks like physics.
+//!
+//! Valid for: one and the same delay at all frequencies and in all tightenings, and torque sampled finely enough that it is
+//! known between samples. Any amplitude.
+//!
+//! Source: channel timing of separate amplifiers and filters.
 
+use crate::description::{Description, Kind, ParameterSpec, Scope, state};
+use crate::law::{Law, LoggedTorque};
 use crate::numeric::number::Number;
-use crate::effect::{Description, Kind, Law, LoggedTorque, ParameterSpec, Scope};
 
-pub struct TorqueDelay;
+state! {
+    summary: "The torque channel runs ahead of (or behind) the acceleration channel.",
+    equation: "T(t) -> T(t - d)",
+}
+
+pub(super) struct TorqueDelay;
 
 impl Law for TorqueDelay {
     fn description(&self) -> &'static Description {
         &Description {
             name: "torque_delay",
             kind: Kind::Measurement,
-            summary: "The torque channel runs ahead of (or behind) the acceleration channel.",
-            equation: "T(t) -> T(t - d)",
+            summary: SUMMARY,
+            equation: EQUATION,
             parameters: &[ParameterSpec {
                 name: "delay_s",
                 meaning: "delay",
@@ -23,6 +34,7 @@ impl Law for TorqueDelay {
                 minimum: -0.01,
                 maximum: 0.01,
                 limits: (-0.03, 0.03),
+                vanishes_at: Some(0.0),
                 scope: Scope::Shared,
             }],
             states: &[],
@@ -30,6 +42,7 @@ impl Law for TorqueDelay {
             excited_by: "fast torque changes: shut-off, hard joints",
             shows_as: "misfit that follows dT/dt",
             check: "Feed one pulse to both channels and compare their edges; look for different filters or acquisition cards.",
+            valid_for: "a delay that is the same at all frequencies, torque sampled finely enough to be known between samples; any amplitude",
             source: "channel timing",
         }
     }
@@ -40,5 +53,29 @@ impl Law for TorqueDelay {
             delay_s: p[0],
             ..LoggedTorque::faithful(p[0])
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::effects::Effect;
+    use crate::effects::trial::Trial;
+
+    #[test]
+    fn a_positive_one_acts_later_than_it_is_logged() {
+        let logged = TorqueDelay.logged_torque(&[0.004]);
+        let logged = logged.expect("it is how torque is logged");
+        assert_eq!(
+            (logged.delay_s, logged.lag_s, logged.offset_nm),
+            (0.004, 0.0, 0.0)
+        );
+        let late = |delay_s: f64| Trial::ramp().motion(Effect::TorqueDelay, &[delay_s])[0][700];
+        assert!(late(0.004) < late(0.0) && late(0.0) < late(-0.004));
+    }
+
+    #[test]
+    fn moves_as_scipy_says() {
+        Trial::ramp().agrees_with_scipy(Effect::TorqueDelay, 1e-9);
     }
 }

@@ -1,20 +1,31 @@
 //! The torque sensor does not read zero at rest: T − T0 acts where T is logged.
 //!
-//! Parameter: offset_nm \[Nm\], −2 to 2. Excited by itself. In the residual a step at the window's start that the spring turns
-//! into a constant angle T0/(k l²). Source: sensor zero offset.
+//! T0 > 0 is a sensor that reads too much. Excited by itself. In the residual a step at the window's start that the spring
+//! turns into a constant angle −T0/(k l²).
+//!
+//! Valid for: a zero that stays the same while the tightening lasts; a tool that rests before the window, so that the step at
+//! its start is the model's alone.
+//!
+//! Source: sensor zero offset.
 
+use crate::description::{Description, Kind, ParameterSpec, Scope, state};
+use crate::law::{Law, LoggedTorque};
 use crate::numeric::number::Number;
-use crate::effect::{Description, Kind, Law, LoggedTorque, ParameterSpec, Scope};
 
-pub struct TorqueOffset;
+state! {
+    summary: "The torque sensor reads a constant too much.",
+    equation: "T - T0 acts, T is logged",
+}
+
+pub(super) struct TorqueOffset;
 
 impl Law for TorqueOffset {
     fn description(&self) -> &'static Description {
         &Description {
             name: "torque_offset",
             kind: Kind::Measurement,
-            summary: "The torque sensor reads a constant too much.",
-            equation: "T - T0 acts, T is logged",
+            summary: SUMMARY,
+            equation: EQUATION,
             parameters: &[ParameterSpec {
                 name: "offset_nm",
                 meaning: "offset",
@@ -23,6 +34,7 @@ impl Law for TorqueOffset {
                 minimum: -2.0,
                 maximum: 2.0,
                 limits: (-50.0, 50.0),
+                vanishes_at: Some(0.0),
                 scope: Scope::Shared,
             }],
             states: &[],
@@ -30,6 +42,7 @@ impl Law for TorqueOffset {
             excited_by: "nothing: it is there at rest",
             shows_as: "a small free oscillation from the first sample on, around a constant angle",
             check: "Read the torque sensor with no load, before and after the run: it must show zero.",
+            valid_for: "a zero that does not drift within a tightening",
             source: "sensor zero offset",
         }
     }
@@ -40,5 +53,27 @@ impl Law for TorqueOffset {
             offset_nm: p[0],
             ..LoggedTorque::faithful(p[0])
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::effects::Effect;
+    use crate::effects::trial::Trial;
+
+    #[test]
+    fn what_reads_too_much_is_taken_off() {
+        let logged = TorqueOffset.logged_torque(&[0.7]);
+        let logged = logged.expect("it is how torque is logged");
+        assert_eq!(
+            (logged.offset_nm, logged.delay_s, logged.lag_s),
+            (0.7, 0.0, 0.0)
+        );
+    }
+
+    #[test]
+    fn moves_as_scipy_says() {
+        Trial::ramp().agrees_with_scipy(Effect::TorqueOffset, 1e-9);
     }
 }

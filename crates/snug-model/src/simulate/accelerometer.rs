@@ -1,4 +1,4 @@
-use crate::effect::Kinematics;
+use crate::law::Kinematics;
 use crate::numeric::number::Number;
 use crate::numeric::real::Real;
 

@@ -1,6 +1,6 @@
 use crate::assembly::layout::Part;
-use crate::effect::{Instant, Law, LoggedTorque};
 use crate::input::torque::Earlier;
+use crate::law::{Instant, Law, LoggedTorque};
 use crate::numeric::number::Number;
 use crate::numeric::real::Real;
 use crate::simulate::inputs::SimulationInputs;

@@ -35,7 +35,7 @@ impl Model {
     /// `output` gets one value per sample; `sensitivity` gets ∂output/∂values\[free\[j\]\], column-major, samples × free.
     ///
     /// # Panics
-    /// When more than [`MAXIMUM_FREE`] parameters are free, or a slice is too short.
+    /// When more than [`MAXIMUM_FREE`](crate::MAXIMUM_FREE) parameters are free, or a slice is too short.
     pub fn sensitivities(
         &self,
         values: &[f64],

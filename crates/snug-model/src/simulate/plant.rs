@@ -1,6 +1,5 @@
 use crate::assembly::layout::{Assembly, Part};
-use crate::effect::{Deflection, Delayed, Instant, Law};
-use crate::hooks::Hook;
+use crate::law::{Deflection, Delayed, Instant, Law};
 use crate::numeric::number::{Number, OfOne};
 use crate::simulate::history::History;
 use crate::simulate::hook_set::HookSet;
@@ -54,7 +53,7 @@ impl<'a, N: Number> Plant<'a, N> {
             stiffness_n_per_m: p[2].of_one::<STIFFNESS>(),
             mobility: mobility.of_one::<MASS>(),
             lever_mobility: mobility.times(-lever).of_one::<MASS>(),
-            is_torque_known: is_torque_known && hook_set.on(Hook::Torque).is_empty(),
+            is_torque_known: is_torque_known && hook_set.torque.is_empty(),
             hook_set,
             delayed,
             history: History::new(inputs.interval_s),
@@ -75,10 +74,17 @@ impl<'a, N: Number> Plant<'a, N> {
     pub fn drive(&self, at: &mut Instant<N>, position: f64, torque_nm: N) {
         at.since_onset_s = (self.inputs).since_onset_s(self.inputs.interval_s * position);
         at.torque_nm = torque_nm;
-        if !self.hook_set.on(Hook::Torque).is_empty() {
+        if !self.hook_set.torque.is_empty() {
             let mut whole = torque_nm;
-            for hooked in self.hook_set.on(Hook::Torque) {
-                hooked.add_torque(at, &mut whole);
+            for hooked in &self.hook_set.torque {
+                hooked.ask(
+                    #[inline(always)]
+                    |law, p, _| {
+                        if let Some(more) = law.torque(p, at) {
+                            whole += more;
+                        }
+                    },
+                );
             }
             at.torque_nm = whole;
         }
@@ -88,19 +94,38 @@ impl<'a, N: Number> Plant<'a, N> {
     #[inline(always)]
     pub fn rates(&self, position: f64, at: &Instant<N>, own: &[N], own_rates: &mut [N]) -> N {
         let hand_n = self.hand_force(at, own);
-        for hooked in self.hook_set.on(Hook::Moving) {
-            hooked.set_rates(at, own, hand_n, own_rates);
+        for hooked in &self.hook_set.rates {
+            hooked.ask(
+                #[inline(always)]
+                |law, p, states| {
+                    law.rates(p, at, &own[states.clone()], hand_n, &mut own_rates[states]);
+                },
+            );
         }
         let mut force = hand_n;
-        for hooked in self.hook_set.on(Hook::Force) {
-            hooked.add_force(at, own, &mut force);
+        for hooked in &self.hook_set.force {
+            hooked.ask(
+                #[inline(always)]
+                |law, p, states| {
+                    if let Some(more) = law.force(p, at, &own[states]) {
+                        force += more;
+                    }
+                },
+            );
         }
         let time_s = self.inputs.interval_s * position;
         for spring in &self.delayed {
             force += spring.stiffness_n_per_m * self.history.x_m(time_s, spring.delay_s);
         }
-        for hooked in self.hook_set.on(Hook::Limit) {
-            hooked.limit(&mut force);
+        for hooked in &self.hook_set.limit {
+            hooked.ask(
+                #[inline(always)]
+                |law, p, _| {
+                    if let Some(passed_on) = law.limit(p, force) {
+                        force = passed_on;
+                    }
+                },
+            );
         }
         // dv/dt = l (T − l F) / (I_n + m l²).
         let by_force = force.times_one::<MASS>(self.lever_mobility);
@@ -114,27 +139,45 @@ impl<'a, N: Number> Plant<'a, N> {
     /// What the hand's spring and damper exert \[N\]: k (1 + Σ stiffening) d + c dd/dt.
     #[inline(always)]
     fn hand_force(&self, at: &Instant<N>, own: &[N]) -> N {
-        let (supports, deflecting) = (
-            self.hook_set.on(Hook::Support),
-            self.hook_set.on(Hook::Deflection),
-        );
-        let stiffening = self.hook_set.on(Hook::Stiffening);
-        if supports.is_empty() && deflecting.is_empty() && stiffening.is_empty() {
+        let hooks = &self.hook_set;
+        if hooks.support.is_empty() && hooks.deflection.is_empty() && hooks.stiffening.is_empty() {
             return self.spring_and_damper(at.x_m, at.v_m_per_s);
         }
         let mut seen = Deflection {
             x_m: at.x_m,
             v_m_per_s: at.v_m_per_s,
         };
-        for hooked in supports {
-            hooked.subtract_support(own, &mut seen);
+        for hooked in &hooks.support {
+            hooked.ask(
+                #[inline(always)]
+                |law, p, states| {
+                    if let Some(support) = law.support(p, &own[states]) {
+                        seen.x_m = seen.x_m - support.x_m;
+                        seen.v_m_per_s = seen.v_m_per_s - support.v_m_per_s;
+                    }
+                },
+            );
         }
-        for hooked in deflecting {
-            hooked.deflect(&mut seen);
+        for hooked in &hooks.deflection {
+            hooked.ask(
+                #[inline(always)]
+                |law, p, _| {
+                    if let Some(left) = law.deflection(p, seen) {
+                        seen = left;
+                    }
+                },
+            );
         }
         let mut stretched = seen.x_m;
-        for hooked in stiffening {
-            hooked.add_stiffening(at, seen.x_m, &mut stretched);
+        for hooked in &hooks.stiffening {
+            hooked.ask(
+                #[inline(always)]
+                |law, p, _| {
+                    if let Some(growth) = law.stiffening(p, at) {
+                        stretched += growth * seen.x_m;
+                    }
+                },
+            );
         }
         self.spring_and_damper(stretched, seen.v_m_per_s)
     }

@@ -4,7 +4,7 @@
 use crate::assembly::layout::Assembly;
 use crate::base_model::exact;
 use crate::base_model::exact::{Oscillator, Response};
-use crate::effect::Kinematics;
+use crate::law::Kinematics;
 use crate::numeric::number::Number;
 use crate::numeric::real::{Real, Task};
 use crate::simulate::acting_torque::ActingTorque;

@@ -4,7 +4,7 @@
 //! brings its own finer grid.
 
 use crate::assembly::layout::{Assembly, MAXIMUM_OWN_STATES};
-use crate::effect::{Instant, Kinematics};
+use crate::law::{Instant, Kinematics};
 use crate::numeric::number::Number;
 use crate::simulate::acting_torque::ActingTorque;
 use crate::simulate::inputs::SimulationInputs;

@@ -1,5 +1,5 @@
 use crate::assembly::layout::{Assembly, Part};
-use crate::effect::{Instant, Kinematics, Law};
+use crate::law::{Instant, Kinematics, Law};
 use crate::numeric::number::Number;
 use crate::simulate::accelerometer::Accelerometer;
 use crate::simulate::acting_torque::{ActingTorque, with_added_torque};
@@ -68,7 +68,7 @@ impl<'a, N: Number> Sensors<'a, N> {
 
     /// Whether an effect of the assembly changes what is measured of the motion.
     pub fn are_heard(&self) -> bool {
-        self.parts.iter().any(|part| part.effect.measurement_only())
+        self.parts.iter().any(|part| part.answered.are_of_sensors())
     }
 
     #[inline(always)]

@@ -1,8 +1,8 @@
 use crate::assembly::layout::{Assembly, BASE_PARAMETERS, MAXIMUM_FREE};
 use crate::assembly::model::Model;
 use crate::base_model::exact;
-use crate::effect::Kinematics;
 use crate::input::torque::Input;
+use crate::law::Kinematics;
 use crate::numeric::dual::Dual;
 use crate::numeric::number::Number;
 use crate::numeric::real::{Real, Task};

@@ -1,6 +1,6 @@
 use super::name::{Function, Variable};
 use super::tree::{Binary, Tree};
-use crate::effect::Instant;
+use crate::law::Instant;
 use crate::numeric::number::Number;
 use crate::numeric::real::{Real, Task};
 

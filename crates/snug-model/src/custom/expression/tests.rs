@@ -2,7 +2,7 @@
 
 use super::name::Function;
 use super::*;
-use crate::effect::Instant;
+use crate::law::Instant;
 use crate::numeric::dual::Dual;
 use crate::numeric::number::Number;
 

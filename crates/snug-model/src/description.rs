@@ -1,0 +1,119 @@
+//! What an effect says of itself: name, equation, parameters with their ranges, and how it shows; never a number of a fit.
+
+/// Where in the chain from bolt to sample an effect sits.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Kind {
+    /// Passive mechanics of hand, arm and grip.
+    Mechanical,
+    /// Muscles and nerves.
+    Muscular,
+    /// Sensors and their alignment.
+    Measurement,
+    /// Change from tightening to tightening.
+    Trend,
+    /// A law that the study wrote itself.
+    Custom,
+}
+
+impl Kind {
+    /// What it is called in texts and files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Mechanical => "mechanical",
+            Self::Muscular => "muscular",
+            Self::Measurement => "measurement",
+            Self::Trend => "trend",
+            Self::Custom => "custom",
+        }
+    }
+}
+
+/// Over what an effect's parameter is constant.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Scope {
+    /// A property of the rig or the sensor: may be shared by tightenings.
+    Shared,
+    /// Each tightening has its own.
+    PerTightening,
+}
+
+/// One parameter of an effect; its numbers are in its unit.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+pub struct ParameterSpec {
+    /// Name with unit suffix.
+    pub name: &'static str,
+    /// What it is, in a few words.
+    pub meaning: &'static str,
+    /// Unit as people write it.
+    pub unit: &'static str,
+    /// Starting values, the usual one first; more than one where the cost has several minima.
+    pub starts: &'static [f64],
+    /// Smallest plausible value.
+    pub minimum: f64,
+    /// Largest plausible value.
+    pub maximum: f64,
+    /// What a fit may reach: beyond what is plausible, where the law still means something. An estimate there says that
+    /// something is wrong, and how much; one held at the edge of the plausible would hide it.
+    pub limits: (f64, f64),
+    /// Value at which the effect is not there, to computing precision; none for a parameter that only shapes it: a time or a
+    /// length whose zero would mean something else.
+    pub vanishes_at: Option<f64>,
+    /// Over what it is constant.
+    pub scope: Scope,
+}
+
+/// States what an effect is and its equation once: `SUMMARY` and `EQUATION` for its [`Description`], and both as `page!()` for
+/// the documentation of its variant of the catalogue's enum, which takes literals only.
+macro_rules! state {
+    (summary: $summary:literal, equation: $equation:literal,) => {
+        const SUMMARY: &str = $summary;
+        const EQUATION: &str = $equation;
+
+        macro_rules! page {
+            () => {
+                concat!($summary, "\n\n```text\n", $equation, "\n```")
+            };
+        }
+        pub(super) use page;
+    };
+}
+pub(crate) use state;
+
+/// What people read about an effect; the catalogue's text, bounds, columns and help all come from here.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+pub struct Description {
+    /// Fixed name in snake case.
+    pub name: &'static str,
+    /// Where it sits.
+    pub kind: Kind,
+    /// One sentence in plain words.
+    pub summary: &'static str,
+    /// What is added to the model's equations.
+    pub equation: &'static str,
+    /// Its parameters.
+    pub parameters: &'static [ParameterSpec],
+    /// Names of its own states, all zero at the start.
+    pub states: &'static [&'static str],
+    /// Effects that look alike in data.
+    pub twins: &'static [&'static str],
+    /// What has to happen in a tightening for it to show.
+    pub excited_by: &'static str,
+    /// How it shows in the residual of a model without it.
+    pub shows_as: &'static str,
+    /// What to check at the bench when it is suspected.
+    pub check: &'static str,
+    /// What the law holds for and where it stops: amplitude, time scale, rig.
+    pub valid_for: &'static str,
+    /// Where it comes from in the literature.
+    pub source: &'static str,
+}
+
+impl Description {
+    /// Whether its sizes are accelerations, or it comes of how an acceleration is measured.
+    pub fn of_accelerometer(&self) -> bool {
+        let is_acceleration = |spec: &ParameterSpec| spec.unit == "rad/s^2";
+        self.parameters.iter().any(is_acceleration) || self.equation.starts_with("a ")
+    }
+}
