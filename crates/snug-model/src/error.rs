@@ -1,3 +1,5 @@
+//! Why a model cannot be assembled, in words that name what is allowed.
+
 use snug_campaign::{did_you_mean, excerpt};
 use thiserror::Error;
 

@@ -1,3 +1,5 @@
+//! Which parameters and states belong to which effect of a model: the only place that knows their indices.
+
 use crate::effects::Effect;
 use crate::law::AnsweredHooks;
 use snug_campaign::Rig;

@@ -1,3 +1,5 @@
+//! The base model with effects on one rig, and the parameters that a fit, a ranking or a report sees.
+
 use crate::assembly::layout::{Assembly, BASE_PARAMETERS, MAXIMUM_FREE, MAXIMUM_OWN_STATES, Part};
 use crate::assembly::scale::{PlausibleRange, Scale};
 use crate::description::ParameterSpec;

@@ -1,3 +1,5 @@
+//! Starts and bounds of effects on rigs that are no hand on a tool, by what their units make of torque, angle and time.
+
 use crate::description::ParameterSpec;
 use serde::{Deserialize, Serialize};
 use snug_campaign::Rig;
@@ -35,7 +37,7 @@ const HAND_LEVER_ARM_M: f64 = 0.33;
 /// How much wider bounds are on a rig that the catalogue was not made for.
 const WIDER: f64 = 10.0;
 
-/// Starts and bounds of one parameter on one rig.
+/// Starts and bounds of one parameter on one rig, in the parameter's unit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlausibleRange {
     /// Starting values, the usual one first.

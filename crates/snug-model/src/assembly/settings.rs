@@ -1,3 +1,5 @@
+//! What a study file says about the model, and the model it makes.
+
 use crate::assembly::model::Model;
 use crate::assembly::scale::Scale;
 use crate::custom::law::CustomEffect;
@@ -31,9 +33,9 @@ pub struct ModelSettings {
 pub struct ParameterSettings {
     /// Starting value, or the value of a fixed parameter, in the parameter's unit.
     pub value: Option<f64>,
-    /// Smallest allowed value.
+    /// Smallest allowed value, in the parameter's unit.
     pub minimum: Option<f64>,
-    /// Largest allowed value.
+    /// Largest allowed value, in the parameter's unit.
     pub maximum: Option<f64>,
     /// Held at its value instead of identified; default false.
     pub fixed: bool,

@@ -1,3 +1,5 @@
+//! Errors of the rig's numbers that m, c and k absorb, so that no fit can tell them: named, never ranked.
+
 /// An error of the rig's numbers that no recording can show, because m, c and k absorb it exactly.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
 pub struct Invisible {

@@ -1,3 +1,5 @@
+//! The base model as the original program stepped it, for comparison with its results.
+
 use snug_campaign::Rig;
 
 /// Displacement θ \[rad\] of the base model by the explicit Euler method, as in the original program.

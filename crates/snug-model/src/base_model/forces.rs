@@ -1,3 +1,5 @@
+//! Forces between tool and hand, from parameters and from a measured motion.
+
 use snug_campaign::{Motion, Rig};
 
 /// F1 = l (c ω + k θ) \[N\]: spring and damper of the base model under the given motion.

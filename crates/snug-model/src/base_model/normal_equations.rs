@@ -1,6 +1,6 @@
 //! The base model's normal equations, accumulated in one sweep over the samples without storing a sensitivity.
 //!
-//! With the derivatives of [`linear`](crate::linear) the residual is r = y − b1 g⁽ⁱ⁾ and, the factor b1² l² left out until
+//! With the derivatives of [`exact`](crate::base_model::exact) the residual is r = y − b1 g⁽ⁱ⁾ and, the factor b1² l² left out until
 //! the end, its derivatives by m, c, k are z⁽ⁱ⁺²⁾, z⁽ⁱ⁺¹⁾, z⁽ⁱ⁾, with i = 0 for the displacement, 1 for the velocity, 2 for the
 //! acceleration. Ten inner products of these four are all that a Gauss–Newton step needs; three plain sums more go
 //! almost for nothing through the adders beside them and spare the covariance a sweep of its own.
@@ -12,13 +12,13 @@ use snug_campaign::Quantity;
 /// Cost, gradient and curvature of ½‖r‖² over m, c, k.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct NormalEquations {
-    /// ‖r‖².
+    /// ‖r‖², in the square of the residual's unit.
     pub squares: f64,
-    /// Jᵀr.
+    /// Jᵀr, in that unit per unit of m \[kg\], c \[kg/s\] and k \[N/m\].
     pub gradient: [f64; 3],
-    /// JᵀJ.
+    /// JᵀJ, in that unit per unit of two of them.
     pub matrix: [[f64; 3]; 3],
-    /// Jᵀ1: what an error that is the same in every sample does to the gradient.
+    /// Jᵀ1: what an error that is the same in every sample does to the gradient, in the residual's unit per unit of m, c and k.
     pub sums: [f64; 3],
 }
 

@@ -1,3 +1,5 @@
+//! Natural frequency and damping ratio of m, c, k, as reports and the thesis give them.
+
 use snug_campaign::Rig;
 use std::f64::consts::PI;
 

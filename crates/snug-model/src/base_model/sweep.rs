@@ -19,13 +19,14 @@ pub struct ScoredRecord<'a> {
     pub rig: Rig,
     /// The torque, as logged.
     pub input: &'a Input,
-    /// f_0, f_1, …: the weighed signal is Σ f_j s_{t−j} with j in samples.
+    /// f_0, f_1, …: the weighed signal is Σ f_j s_{t−j} with j in samples; where it whitens, in one over
+    /// the measurement's unit.
     pub filter: Vec<f64>,
     /// Number of the first scored sample, at least the filter's order.
     pub first: usize,
     /// Filtered torque at every grid point from there on.
     pub torque_nm: Cow<'a, [f64]>,
-    /// Filtered measurement at every sample from there on.
+    /// Filtered measurement at every sample from there on, in its unit times the filter's.
     pub measured: Cow<'a, [f64]>,
 }
 

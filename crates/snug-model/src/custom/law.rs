@@ -1,3 +1,5 @@
+//! A study's own law: its expression compiled, checked at rest and in motion, and kept for the program's life.
+
 use crate::custom::expression;
 use crate::custom::expression::{Program, Surroundings};
 use crate::custom::settings::{CustomEffectSettings, Place};

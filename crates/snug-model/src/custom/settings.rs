@@ -1,3 +1,5 @@
+//! What a study file says of a law of its own, and which names and ranges it may have.
+
 use crate::custom::expression;
 use crate::custom::expression::Variable;
 use crate::effects::Effect;

@@ -1,3 +1,5 @@
+//! The logged torque as a simulation uses it: between samples, before the first, and a delay ago.
+
 use crate::input::restart::Restarts;
 use crate::input::slope;
 use snug_campaign::Intersample;

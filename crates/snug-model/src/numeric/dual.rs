@@ -1,3 +1,5 @@
+//! Numbers that carry partial derivatives: every law gets its sensitivities from them.
+
 use crate::numeric::number::{Number, OfOne};
 use crate::numeric::real::Real;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};

@@ -1,3 +1,5 @@
+//! The exponential of a small matrix, for exact steps of linear equations.
+
 /// e^M for a small square matrix, by scaling and squaring of its Taylor series.
 ///
 /// After scaling, ‖M‖₁ ≤ 1/2 and the remainder of sixteen terms is below rounding (0.5¹⁷/17! < 1e−19).

@@ -1,3 +1,5 @@
+//! The arithmetic that laws are written in, over plain numbers and over those that carry derivatives.
+
 use crate::numeric::elementary::{exponential_function, hyperbolic_tangent};
 use crate::numeric::real::Real;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};

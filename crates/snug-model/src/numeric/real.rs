@@ -1,3 +1,5 @@
+//! Real numbers, one or several side by side, whose every operation has the same bits on every processor.
+
 use crate::numeric::number::Number;
 use std::borrow::Cow;
 

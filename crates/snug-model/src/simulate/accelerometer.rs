@@ -1,3 +1,5 @@
+//! An accelerometer with cross-sensitivities and a lag, and the velocity and displacement integrated from its signal.
+
 use crate::law::Kinematics;
 use crate::numeric::number::Number;
 use crate::numeric::real::Real;

@@ -1,3 +1,5 @@
+//! From the torque that is logged to the one that acts on the joint: delay, lag, offset, and what effects add.
+
 use crate::assembly::layout::Part;
 use crate::input::torque::Earlier;
 use crate::law::{Instant, Law, LoggedTorque};

@@ -1,3 +1,5 @@
+//! The motion so far, at any time between grid points, with the derivative to the delay: for laws that look back.
+
 use crate::numeric::number::Number;
 use crate::numeric::real::Real;
 

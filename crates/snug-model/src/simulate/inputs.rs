@@ -1,3 +1,5 @@
+//! What a simulation is given from outside, lane by lane: rigs, torques, and measured motions to take up again.
+
 use crate::assembly::layout::Assembly;
 use crate::input::torque::Input;
 use crate::numeric::real::Real;

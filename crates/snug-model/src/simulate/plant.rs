@@ -1,3 +1,5 @@
+//! The equations of motion: tool, hand and arm with everything that effects add, evaluated at one stage of a step.
+
 use crate::assembly::layout::{Assembly, Part};
 use crate::law::{Deflection, Delayed, Instant, Law};
 use crate::numeric::number::{Number, OfOne};

@@ -1,3 +1,5 @@
+//! Sorts what is simulated side by side into the output and the sensitivities of each run.
+
 use crate::numeric::real::Real;
 use crate::simulate::side_by_side::Run;
 

@@ -80,12 +80,7 @@ pub fn respond<N: Number>(
             let acceleration =
                 plant.rates(position, &at, &own_at[..states], &mut own_rates[..states]);
             if stage == 0 && point == index * inputs.substeps {
-                let motion = Kinematics {
-                    displacement_rad: x.times(per_lever),
-                    velocity_rad_per_s: v.times(per_lever),
-                    acceleration_rad_per_s2: acceleration.times(per_lever),
-                };
-                sample(index, motion);
+                sample(index, of_tool(x, v, acceleration, per_lever));
                 index += 1;
             }
             if point == last {
@@ -104,5 +99,15 @@ pub fn respond<N: Number>(
         (x, v) = (x_after, v_after);
         own[..states].copy_from_slice(&own_after[..states]);
         torque = next;
+    }
+}
+
+/// The tool's motion when the grip has displacement `x`, velocity `v` and this acceleration; `per_lever` is 1/l.
+#[inline(always)]
+fn of_tool<N: Number>(x: N, v: N, acceleration: N, per_lever: N::Real) -> Kinematics<N> {
+    Kinematics {
+        displacement_rad: x.times(per_lever),
+        velocity_rad_per_s: v.times(per_lever),
+        acceleration_rad_per_s2: acceleration.times(per_lever),
     }
 }

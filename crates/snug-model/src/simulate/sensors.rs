@@ -1,3 +1,5 @@
+//! From the true motion to the measured one, sample by sample.
+
 use crate::assembly::layout::{Assembly, Part};
 use crate::law::{Instant, Kinematics, Law};
 use crate::numeric::number::Number;

@@ -1,3 +1,5 @@
+//! Runs many simulations at once, each in its own lane of a vector register, with as many derivatives as are asked for.
+
 use crate::assembly::layout::{Assembly, BASE_PARAMETERS, MAXIMUM_FREE};
 use crate::assembly::model::Model;
 use crate::base_model::exact;
@@ -15,15 +17,16 @@ use snug_campaign::Quantity;
 pub struct Run<'a> {
     /// Rig and effects.
     pub model: &'a Model,
-    /// All parameters of the model.
+    /// All parameters of the model, each in its unit.
     pub values: &'a [f64],
     /// The torque.
     pub input: &'a Input,
     /// What is measured.
     pub quantity: Quantity,
-    /// Gets the measured quantity, one value per sample.
+    /// Gets the measured quantity, one value per sample, in its unit \[rad\], \[rad/s\] or \[rad/s²\].
     pub output: &'a mut [f64],
-    /// Gets ∂output/∂values\[free\[j\]\], column-major, samples × free.
+    /// Gets ∂output/∂values\[free\[j\]\], column-major, samples × free, in the quantity's unit per the
+    /// parameter's.
     pub sensitivity: &'a mut [f64],
 }
 

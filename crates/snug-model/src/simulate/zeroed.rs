@@ -1,3 +1,5 @@
+//! Counts a simulated displacement from where preprocessing took the zero of the measured one.
+
 use crate::law::Kinematics;
 use crate::numeric::number::Number;
 use crate::numeric::real::Real;

@@ -1,3 +1,5 @@
+//! The variables and functions that an expression may name.
+
 use crate::numeric::number::Number;
 use crate::numeric::real::Real;
 

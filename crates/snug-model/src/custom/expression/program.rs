@@ -1,3 +1,5 @@
+//! An expression compiled to instructions, evaluated over any kind of number.
+
 use super::name::{Function, Variable};
 use super::tree::{Binary, Tree};
 use crate::law::Instant;

@@ -1,3 +1,5 @@
+//! Expressions against closed forms, their derivatives, their temporaries, and what is said of those that cannot be read.
+
 #![allow(clippy::unwrap_used)]
 
 use super::name::Function;

@@ -1,3 +1,5 @@
+//! Cuts an expression into numbers, names and symbols.
+
 use super::Fault;
 
 /// One piece of an expression's text.

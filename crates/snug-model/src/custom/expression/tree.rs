@@ -1,3 +1,5 @@
+//! An expression as the parser builds it, before it is compiled.
+
 use super::name::{Function, Variable};
 use crate::numeric::number::Number;
 
