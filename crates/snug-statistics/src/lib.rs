@@ -2,7 +2,6 @@
 
 pub mod assumptions;
 pub mod clustered;
-pub mod correlation;
 pub mod descriptive;
 pub mod distributions;
 mod double_double;

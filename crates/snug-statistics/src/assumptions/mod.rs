@@ -1,7 +1,7 @@
 //! Do the samples fit what a test presumes: normality, equal variances?
 
-mod levene;
+mod brown_forsythe;
 mod shapiro_wilk;
 
-pub use levene::{Center, levene};
+pub use brown_forsythe::brown_forsythe;
 pub use shapiro_wilk::shapiro_wilk;

@@ -1,9 +1,9 @@
 //! Tests for rows that come in clusters (repeats of one participant) and are not independent.
 //!
 //! Which one: [`fit_random_intercept`] when clusters differ in level only; [`fit_cluster_robust`]
-//! when they may also differ in how they respond, or in spread; [`permutation_test`] and
-//! [`sign_flip_test`] when nothing is to be presumed about the distribution. With few clusters
-//! the first is the most powerful and trusts its model most.
+//! when they may also differ in how they respond, or in spread; [`permutation_test`] when nothing
+//! is to be presumed about the distribution. With few clusters the first is the most powerful and
+//! trusts its model most.
 
 mod arrangements;
 mod cluster_robust;
@@ -14,7 +14,6 @@ mod orthonormal;
 mod partition;
 mod permutation;
 mod permutation_settings;
-mod sign_flip;
 mod spectrum;
 
 pub use cluster_robust::{ClusterRobustFit, fit_cluster_robust};
@@ -23,4 +22,3 @@ pub use design::Design;
 pub use mixed_model::{DenominatorFreedom, RandomInterceptFit, fit_random_intercept};
 pub use permutation::{PermutationTest, permutation_test};
 pub use permutation_settings::{PermutationSettings, Scheme};
-pub use sign_flip::sign_flip_test;

@@ -16,7 +16,7 @@ pub enum Scheme {
     BetweenClusters,
 }
 
-/// Settings of [`super::permutation_test`] and [`super::sign_flip_test`].
+/// Settings of [`super::permutation_test`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct PermutationSettings {

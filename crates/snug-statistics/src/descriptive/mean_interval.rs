@@ -42,20 +42,15 @@ pub fn one_sample_t(values: &[f64], null_mean: f64, confidence: f64) -> Result<O
     }
     let mean = moments.mean.to_f64();
     let t = (moments.mean - null_mean.into()).to_f64() / standard_error;
+    let reach = student_t_quantile(0.5 + 0.5 * confidence, df) * standard_error;
     Ok(OneSampleT {
         test: TestResult::of_t(METHOD, t, df),
         mean,
         standard_error,
-        interval: t_interval(mean, standard_error, df, confidence),
+        interval: Interval {
+            low: mean - reach,
+            high: mean + reach,
+            confidence,
+        },
     })
-}
-
-/// `estimate ± t_df · standard_error`.
-pub(crate) fn t_interval(estimate: f64, standard_error: f64, df: f64, confidence: f64) -> Interval {
-    let reach = student_t_quantile(0.5 + 0.5 * confidence, df) * standard_error;
-    Interval {
-        low: estimate - reach,
-        high: estimate + reach,
-        confidence,
-    }
 }

@@ -1,6 +1,6 @@
+use crate::Result;
 use crate::double_double::{self, DoubleDouble};
 use crate::sample::{check_sample, is_constant};
-use crate::{Result, StatisticsError};
 
 /// Count, mean and sum of squared deviations, accumulated with 106 bits.
 #[derive(Debug, Clone, Copy)]
@@ -51,7 +51,7 @@ impl Moments {
 /// Arithmetic mean, rounded once.
 ///
 /// # Errors
-/// [`StatisticsError::TooFew`] for an empty sample, [`StatisticsError::NotFinite`].
+/// [`crate::StatisticsError::TooFew`] for an empty sample, [`crate::StatisticsError::NotFinite`].
 pub fn mean(values: &[f64]) -> Result<f64> {
     check_sample("values", values, "mean", 1)?;
     Ok(Moments::of(values).mean.to_f64())
@@ -60,42 +60,17 @@ pub fn mean(values: &[f64]) -> Result<f64> {
 /// Standard deviation with divisor n − 1.
 ///
 /// # Errors
-/// [`StatisticsError::TooFew`] below two values, [`StatisticsError::NotFinite`].
+/// [`crate::StatisticsError::TooFew`] below two values, [`crate::StatisticsError::NotFinite`].
 pub fn standard_deviation(values: &[f64]) -> Result<f64> {
     check_sample("values", values, "standard deviation", 2)?;
     Ok(Moments::of(values).variance().sqrt())
-}
-
-/// Adjusted Fisher–Pearson skewness `G₁ = √(n(n−1))/(n−2) · m₃/m₂^{3/2}`.
-///
-/// # Errors
-/// [`StatisticsError::TooFew`] below three values, [`StatisticsError::NotFinite`],
-/// [`StatisticsError::ZeroVariance`].
-pub fn skewness(values: &[f64]) -> Result<f64> {
-    const METHOD: &str = "skewness";
-    check_sample("values", values, METHOD, 3)?;
-    let moments = Moments::of(values);
-    // Scaled by the standard deviation first, so that neither the cube nor the root underflows.
-    let scale = (moments.sum_of_squares / moments.count).sqrt();
-    if scale == 0.0 {
-        return Err(StatisticsError::ZeroVariance {
-            sample: "values".into(),
-            method: METHOD,
-        });
-    }
-    let n = moments.count;
-    let third = double_double::sum(
-        values
-            .iter()
-            .map(|value| ((DoubleDouble::from(*value) - moments.mean).to_f64() / scale).powi(3)),
-    );
-    Ok((n * (n - 1.0)).sqrt() / (n - 2.0) * third.to_f64() / n)
 }
 
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
+    use crate::StatisticsError;
 
     #[test]
     fn textbook_values() {
@@ -105,9 +80,6 @@ mod tests {
             standard_deviation(&sample).unwrap(),
             (32.0_f64 / 7.0).sqrt()
         );
-        // m₃ = 42/8 = 5.25, m₂ = 4.
-        let exact = 56.0_f64.sqrt() / 6.0 * 5.25 / 8.0;
-        assert!((skewness(&sample).unwrap() - exact).abs() < 1e-15);
     }
 
     #[test]
@@ -130,10 +102,6 @@ mod tests {
         assert!(matches!(
             standard_deviation(&[1.0, f64::NAN]),
             Err(StatisticsError::NotFinite { index: 1, .. })
-        ));
-        assert!(matches!(
-            skewness(&[0.1; 5]),
-            Err(StatisticsError::ZeroVariance { .. })
         ));
     }
 }

@@ -16,7 +16,13 @@ pub fn quantile(values: &[f64], q: f64) -> Result<f64> {
             allowed: "0 to 1",
         });
     }
-    Ok(sorted_quantile(&sorted(values), q))
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let position = (sorted.len() - 1) as f64 * q;
+    let below = position.floor();
+    let index = below as usize;
+    let next = sorted[(index + 1).min(sorted.len() - 1)];
+    Ok(sorted[index] + (position - below) * (next - sorted[index]))
 }
 
 /// The middle value, or the mean of the two middle ones.
@@ -25,22 +31,6 @@ pub fn quantile(values: &[f64], q: f64) -> Result<f64> {
 /// As [`quantile`].
 pub fn median(values: &[f64]) -> Result<f64> {
     quantile(values, 0.5)
-}
-
-/// The finite values in ascending order.
-pub(crate) fn sorted(values: &[f64]) -> Vec<f64> {
-    let mut sorted = values.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    sorted
-}
-
-/// Type 7 quantile of a sorted, non-empty sample.
-pub(crate) fn sorted_quantile(sorted: &[f64], q: f64) -> f64 {
-    let position = (sorted.len() - 1) as f64 * q;
-    let below = position.floor();
-    let index = below as usize;
-    let next = sorted[(index + 1).min(sorted.len() - 1)];
-    sorted[index] + (position - below) * (next - sorted[index])
 }
 
 #[cfg(test)]

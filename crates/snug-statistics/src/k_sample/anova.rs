@@ -18,8 +18,6 @@ pub struct OneWayAnova {
     pub residual_standard_deviation: f64,
     /// η²: share of the sum of squares between the groups (R² of the group means).
     pub eta_squared: f64,
-    /// ω²: η² without most of its upward bias; may be slightly negative.
-    pub omega_squared: f64,
 }
 
 /// One-way analysis of variance of `k` groups with a common variance.
@@ -82,7 +80,6 @@ pub fn one_way_anova_extended<G: AsRef<[DoubleDouble]>>(groups: &[G]) -> Result<
     }
     let mean_square = within / df_within;
     let f = between / df_between / mean_square;
-    let whole = between + within;
     Ok(OneWayAnova {
         test: TestResult {
             method: METHOD,
@@ -94,8 +91,7 @@ pub fn one_way_anova_extended<G: AsRef<[DoubleDouble]>>(groups: &[G]) -> Result<
         between_sum_of_squares: between,
         within_sum_of_squares: within,
         residual_standard_deviation: mean_square.sqrt(),
-        eta_squared: between / whole,
-        omega_squared: (between - df_between * mean_square) / (whole + mean_square),
+        eta_squared: between / (between + within),
     })
 }
 

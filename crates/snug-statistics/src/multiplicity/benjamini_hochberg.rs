@@ -1,21 +1,36 @@
-use super::step_up;
-use crate::Result;
+use crate::{Result, StatisticsError};
 
 /// Benjamini–Hochberg (1995) adjusted p values in the order given.
 ///
-/// `p̃₍ᵢ₎ = min over j ≥ i of m p₍ⱼ₎/j`, at most 1. An empty slice gives an empty answer.
+/// `p̃₍ᵢ₎ = min over j ≥ i of m p₍ⱼ₎/j`, at most 1: below α they keep the false-discovery rate at
+/// α for independent or positively dependent tests. An empty slice gives an empty answer.
 ///
 /// # Errors
-/// [`crate::StatisticsError::OutOfRange`] for a p value outside 0 to 1 or NaN.
+/// [`StatisticsError::OutOfRange`] for a p value outside 0 to 1 or NaN.
 pub fn benjamini_hochberg(p: &[f64]) -> Result<Vec<f64>> {
-    step_up(p, 1.0)
+    if let Some(value) = p.iter().find(|value| !(0.0..=1.0).contains(*value)) {
+        return Err(StatisticsError::OutOfRange {
+            argument: "p",
+            value: *value,
+            allowed: "0 to 1",
+        });
+    }
+    let mut order: Vec<usize> = (0..p.len()).collect();
+    order.sort_by(|a, b| p[*a].total_cmp(&p[*b]));
+    let count = p.len() as f64;
+    let mut adjusted = vec![0.0; p.len()];
+    let mut smallest = 1.0_f64;
+    for (position, index) in order.iter().enumerate().rev() {
+        smallest = smallest.min(count / (position + 1) as f64 * p[*index]);
+        adjusted[*index] = smallest;
+    }
+    Ok(adjusted)
 }
 
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
-    use crate::StatisticsError;
 
     #[test]
     fn worked_by_hand() {

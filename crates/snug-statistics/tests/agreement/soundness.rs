@@ -1,17 +1,14 @@
 //! Whatever the input, an answer is sound or there is an error: no panic, no NaN.
 
 use proptest::prelude::*;
-use snug_statistics::assumptions::{Center, levene, shapiro_wilk};
+use snug_statistics::assumptions::{brown_forsythe, shapiro_wilk};
 use snug_statistics::clustered::{
     DenominatorFreedom, Design, PermutationSettings, fit_cluster_robust, fit_random_intercept,
-    permutation_test, sign_flip_test,
+    permutation_test,
 };
-use snug_statistics::correlation::{pearson, spearman};
-use snug_statistics::descriptive::{histogram, one_sample_t, summarize};
+use snug_statistics::descriptive::{mean, median, one_sample_t, standard_deviation};
 use snug_statistics::k_sample::{kruskal_wallis, one_way_anova, welch_anova};
-use snug_statistics::two_sample::{
-    brunner_munzel, mann_whitney, standardized_difference, student_t, welch_t, wilcoxon_signed_rank,
-};
+use snug_statistics::two_sample::{mann_whitney, standardized_difference, student_t, welch_t};
 use snug_statistics::{Result, TestResult};
 
 /// Values as bad data brings them: ties, zeros, extremes, holes.
@@ -51,24 +48,15 @@ proptest! {
         check("Student", student_t(&a, &b, 0.95).map(|r| r.test));
         check("Welch", welch_t(&a, &b, 0.95).map(|r| r.test));
         check("U", mann_whitney(&a, &b).map(|r| r.test));
-        check("Brunner–Munzel", brunner_munzel(&a, &b).map(|r| r.test));
-        check("Wilcoxon", wilcoxon_signed_rank(&a).map(|r| r.test));
         check("Shapiro", shapiro_wilk(&a));
-        check("Pearson", pearson(&a, &b, 0.95).map(|r| r.test));
-        check("Spearman", spearman(&a, &b, 0.95).map(|r| r.test));
-        check("sign flips", sign_flip_test(&a, &PermutationSettings::default()));
         let groups = [a.clone(), b.clone(), c.clone()];
         check("F", one_way_anova(&groups).map(|r| r.test));
         check("Welch F", welch_anova(&groups));
         check("H", kruskal_wallis(&groups).map(|r| r.test));
-        check("Brown–Forsythe", levene(&groups, Center::Median));
-        check("Levene", levene(&groups, Center::Mean));
-        if let Ok(found) = summarize(&a, 0.9) {
-            prop_assert!(!found.mean.is_nan() && found.skewness.is_none_or(|s| !s.is_nan()));
-            prop_assert!(found.standard_deviation.is_none_or(|sd| sd >= 0.0));
-            let counted = histogram(&a).unwrap();
-            prop_assert_eq!(counted.counts.iter().sum::<usize>(), a.len());
-        }
+        check("Brown–Forsythe", brown_forsythe(&groups));
+        prop_assert!(mean(&a).map_or(true, |mean| !mean.is_nan()));
+        prop_assert!(median(&a).map_or(true, |middle| !middle.is_nan()));
+        prop_assert!(standard_deviation(&a).map_or(true, |spread| spread >= 0.0));
     }
 
     #[test]
