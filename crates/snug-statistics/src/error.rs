@@ -125,9 +125,6 @@ pub enum StatisticsError {
         /// Number of clusters.
         clusters: usize,
     },
-    /// The labels admit one arrangement only, so nothing can be permuted.
-    #[error("the labels can be arranged in one way only: no permutation test")]
-    SingleArrangement,
 }
 
 /// Result of this crate's functions.

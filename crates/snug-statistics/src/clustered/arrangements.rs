@@ -1,7 +1,6 @@
 use rand::seq::SliceRandom;
 
 use super::permutation_settings::PermutationSettings;
-use crate::{Result, StatisticsError};
 
 /// Units whose labels may be exchanged with each other.
 pub(super) struct Block {
@@ -47,14 +46,11 @@ pub(super) fn run(
     labels: usize,
     bar: f64,
     settings: &PermutationSettings,
-) -> Result<Outcome> {
+) -> Outcome {
     let total: f64 = blocks
         .iter()
         .map(|block| arrangements(block, labels))
         .product();
-    if total < 1.5 {
-        return Err(StatisticsError::SingleArrangement);
-    }
     let reaches = |blocks: &[Block]| usize::from(between_labels(blocks, labels) >= bar);
     if total <= settings.exact_limit as f64 {
         blocks
@@ -73,7 +69,7 @@ pub(super) fn run(
                 .iter_mut()
                 .any(|block| next_arrangement(&mut block.labels))
             {
-                return Ok(outcome);
+                return outcome;
             }
         }
     }
@@ -85,11 +81,11 @@ pub(super) fn run(
             .for_each(|block| block.labels.shuffle(&mut generator));
         reached += reaches(blocks);
     }
-    Ok(Outcome {
+    Outcome {
         reached,
         arrangements: settings.permutations,
         exact: false,
-    })
+    }
 }
 
 /// Number of distinct arrangements of a block's labels, as a float that may be huge.

@@ -1,7 +1,7 @@
 use faer::Mat;
 
 use super::Design;
-use super::contrast::{ContrastEstimate, LEAST_FREEDOM, in_basis, inverse, t_contrast};
+use super::contrast::{LEAST_FREEDOM, in_basis, inverse};
 use super::orthonormal::{Orthonormal, dot};
 use super::partition::check_clustered;
 use super::spectrum::{Spectrum, add_outer};
@@ -111,44 +111,6 @@ fn adjustment(product: &Mat<f64>) -> Mat<f64> {
 }
 
 impl ClusterRobustFit {
-    /// Every coefficient with standard error, interval and t test.
-    ///
-    /// # Errors
-    /// [`StatisticsError::OutOfRange`] for `confidence`;
-    /// [`StatisticsError::DependentContrasts`] for a coefficient that one cluster alone decides;
-    /// [`StatisticsError::ZeroVariance`].
-    pub fn coefficients(&self, confidence: f64) -> Result<Vec<ContrastEstimate>> {
-        (0..self.design.names().len())
-            .map(|column| {
-                let found = self.contrast(&self.design.unit(column), confidence)?;
-                Ok(ContrastEstimate {
-                    name: self.design.names()[column].clone(),
-                    ..found
-                })
-            })
-            .collect()
-    }
-
-    /// Estimate and t test of `weights'β`, with Bell–McCaffrey (Satterthwaite) degrees of
-    /// freedom.
-    ///
-    /// # Errors
-    /// [`StatisticsError::LengthMismatch`]; [`StatisticsError::NotFinite`];
-    /// [`StatisticsError::OutOfRange`] for `confidence`; [`StatisticsError::DependentContrasts`];
-    /// [`StatisticsError::ZeroVariance`].
-    pub fn contrast(&self, weights: &[f64], confidence: f64) -> Result<ContrastEstimate> {
-        let rows = [weights.to_vec()];
-        let axes = self.axes(&rows)?;
-        let variance = axes.transpose() * &self.covariance * &axes;
-        self.check_spread(&axes, &variance)?;
-        let df = self.freedom(&axes)?;
-        if df < LEAST_FREEDOM {
-            return Err(self.dependent(1));
-        }
-        let pair = (self.estimate(&axes, &rows, 0), variance[(0, 0)].sqrt());
-        t_contrast("cluster-robust t test (CR2)", "", pair, df, confidence)
-    }
-
     /// Test that all coefficients of a term are zero.
     ///
     /// # Errors

@@ -1,54 +1,13 @@
 use faer::Mat;
-use serde::Serialize;
 
 use super::Design;
 use super::orthonormal::Orthonormal;
 use super::spectrum::Spectrum;
-use crate::distributions::student_t_quantile;
-use crate::sample::{check_confidence, check_finite, check_lengths};
-use crate::{Interval, Result, StatisticsError, TestResult};
+use crate::sample::{check_finite, check_lengths};
+use crate::{Result, StatisticsError};
 
 /// Approximate degrees of freedom below this mean that the data hold no test of the contrast.
 pub(super) const LEAST_FREEDOM: f64 = 0.1;
-
-/// Estimate of a linear combination `l'β` of coefficients.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct ContrastEstimate {
-    /// Name of the coefficient, or empty for a combination.
-    pub name: String,
-    /// `l'β`.
-    pub estimate: f64,
-    /// Its standard error.
-    pub standard_error: f64,
-    /// Its t interval.
-    pub interval: Interval,
-    /// t test of `l'β = 0`.
-    pub test: TestResult,
-}
-
-/// t test and interval once standard error and degrees of freedom are known.
-pub(super) fn t_contrast(
-    method: &'static str,
-    name: &str,
-    (estimate, standard_error): (f64, f64),
-    df: f64,
-    confidence: f64,
-) -> Result<ContrastEstimate> {
-    check_confidence(confidence)?;
-    let t = estimate / standard_error;
-    let reach = student_t_quantile(0.5 + 0.5 * confidence, df) * standard_error;
-    Ok(ContrastEstimate {
-        name: name.to_owned(),
-        estimate,
-        standard_error,
-        interval: Interval {
-            low: estimate - reach,
-            high: estimate + reach,
-            confidence,
-        },
-        test: TestResult::of_t(method, t, df),
-    })
-}
 
 /// Contrasts in the orthonormal basis, as columns (coefficients × contrasts).
 ///

@@ -7,8 +7,7 @@ use crate::{Result, StatisticsError};
 /// Design matrix of a linear model, built term by term; its first column is the intercept.
 ///
 /// Factors are treatment-coded: one 0/1 column per level but the first in sort order, so a
-/// coefficient is a level's difference from that reference level. In a design with interactions
-/// the test of a main effect is then the effect at the other factor's reference level.
+/// coefficient is a level's difference from that reference level.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Design {
     rows: usize,
@@ -70,25 +69,6 @@ impl Design {
         self.with_term(name, columns)
     }
 
-    /// Adds the products of the columns of two terms, as term `first:second`.
-    ///
-    /// # Errors
-    /// [`StatisticsError::UnknownTerm`], [`StatisticsError::DuplicateTerm`].
-    pub fn interaction(self, first: &str, second: &str) -> Result<Self> {
-        let mut products = Vec::new();
-        for a in self.term(first)? {
-            for b in self.term(second)? {
-                let values = self.columns[a]
-                    .iter()
-                    .zip(&self.columns[b])
-                    .map(|(x, y)| x * y)
-                    .collect();
-                products.push((format!("{}:{}", self.names[a], self.names[b]), values));
-            }
-        }
-        self.with_term(&format!("{first}:{second}"), products)
-    }
-
     fn with_term(mut self, name: &str, columns: Vec<(String, Vec<f64>)>) -> Result<Self> {
         if self.terms.iter().any(|(term, _)| term == name) {
             return Err(StatisticsError::DuplicateTerm {
@@ -139,14 +119,12 @@ impl Design {
 
     /// The contrasts that are all zero when a term has no effect: one unit row per column.
     pub(super) fn term_contrasts(&self, name: &str) -> Result<Vec<Vec<f64>>> {
-        Ok(self.term(name)?.map(|column| self.unit(column)).collect())
-    }
-
-    /// The contrast that picks one coefficient.
-    pub(super) fn unit(&self, column: usize) -> Vec<f64> {
-        let mut row = vec![0.0; self.columns.len()];
-        row[column] = 1.0;
-        row
+        let unit = |column: usize| {
+            let mut row = vec![0.0; self.columns.len()];
+            row[column] = 1.0;
+            row
+        };
+        Ok(self.term(name)?.map(unit).collect())
     }
 }
 
@@ -161,16 +139,11 @@ mod tests {
             .factor("joint", &["soft", "hard", "soft", "hard"])
             .unwrap()
             .covariate("pace", &[8.0, 8.0, 12.0, 12.0])
-            .unwrap()
-            .interaction("joint", "pace")
             .unwrap();
-        assert_eq!(
-            design.names(),
-            ["intercept", "joint[soft]", "pace", "joint[soft]:pace"]
-        );
+        assert_eq!(design.names(), ["intercept", "joint[soft]", "pace"]);
         assert_eq!(design.columns()[1], [1.0, 0.0, 1.0, 0.0]);
-        assert_eq!(design.columns()[3], [8.0, 0.0, 12.0, 0.0]);
-        assert_eq!(design.term("joint:pace").unwrap(), 3..4);
+        assert_eq!(design.columns()[2], [8.0, 8.0, 12.0, 12.0]);
+        assert_eq!(design.term("pace").unwrap(), 2..3);
     }
 
     #[test]

@@ -17,8 +17,7 @@ mod permutation_settings;
 mod spectrum;
 
 pub use cluster_robust::{ClusterRobustFit, fit_cluster_robust};
-pub use contrast::ContrastEstimate;
 pub use design::Design;
-pub use mixed_model::{DenominatorFreedom, RandomInterceptFit, fit_random_intercept};
-pub use permutation::{PermutationTest, permutation_test};
-pub use permutation_settings::{PermutationSettings, Scheme};
+pub use mixed_model::{RandomInterceptFit, fit_random_intercept};
+pub use permutation::{PermutationTest, Scheme, permutation_test};
+pub use permutation_settings::PermutationSettings;

@@ -1,8 +1,8 @@
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::arrangements::{Block, between_labels, run};
 use super::partition::Partition;
-use super::permutation_settings::{PermutationSettings, Scheme};
+use super::permutation_settings::PermutationSettings;
 use crate::descriptive::Moments;
 use crate::sample::{check_lengths, check_sample, is_constant};
 use crate::{DoubleDouble, Result, StatisticsError, TestResult};
@@ -12,12 +12,22 @@ const METHOD: &str = "cluster-wise permutation test";
 /// A permuted statistic this little (relative to the total) below the observed one equals it.
 const TIE: f64 = 1e-12;
 
+/// What a permutation test exchanges.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Scheme {
+    /// Labels among the rows of each cluster.
+    WithinClusters,
+    /// Labels among whole clusters.
+    BetweenClusters,
+}
+
 /// Result of a permutation test.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PermutationTest {
     /// Statistic and p; no degrees of freedom.
     pub test: TestResult,
-    /// What was exchanged (never `automatic`).
+    /// What was exchanged.
     pub scheme: Scheme,
     /// Arrangements tried, beside the observed one when random.
     pub arrangements: usize,
@@ -27,20 +37,18 @@ pub struct PermutationTest {
 
 /// Permutation test that labels have no effect on the response, for rows in clusters.
 ///
-/// `label` and `cluster` hold an id per row. Within clusters, the response is centred in each
-/// cluster and labels are exchanged among its rows: valid when rows of a cluster are
-/// exchangeable if labels do nothing. Between clusters, each cluster counts once with its mean,
-/// and labels are exchanged among clusters. The statistic is η², the share of those
-/// values' sum of squares between the labels, which orders arrangements as F does. `p` is the
+/// `label` and `cluster` hold an id per row. When a cluster holds more than one label, the
+/// response is centred in each cluster and labels are exchanged among its rows: valid when rows of
+/// a cluster are exchangeable if labels do nothing. Otherwise each cluster counts once with its
+/// mean, and labels are exchanged among clusters. The statistic is η², the share of those values'
+/// sum of squares between the labels, which orders arrangements as F does. `p` is the
 /// share of all arrangements with an η² at least as large, or
 /// `(1 + count)/(1 + permutations)` with random ones. Same seed, same bits.
 ///
 /// # Errors
 /// [`StatisticsError::LengthMismatch`]; [`StatisticsError::TooFew`];
 /// [`StatisticsError::NotFinite`]; [`StatisticsError::TooFewGroups`] below two labels;
-/// [`StatisticsError::SingleArrangement`]; [`StatisticsError::ZeroVariance`];
-/// [`StatisticsError::OutOfRange`] without permutations, or for the scheme `BetweenClusters`
-/// when a cluster holds two labels.
+/// [`StatisticsError::ZeroVariance`]; [`StatisticsError::OutOfRange`] without permutations.
 pub fn permutation_test(
     response: &[f64],
     label: &[usize],
@@ -57,22 +65,12 @@ pub fn permutation_test(
         let mut first = vec![None; clusters.count()];
         move |(cluster, label)| *first[*cluster].get_or_insert(*label) != *label
     });
-    let (scheme, mut blocks) = match (settings.scheme, mixed) {
-        (Scheme::BetweenClusters, true) => {
-            return Err(StatisticsError::OutOfRange {
-                argument: "scheme",
-                value: clusters.count() as f64,
-                allowed: "between clusters only when each cluster holds one label",
-            });
-        }
-        (Scheme::Automatic, true) | (Scheme::WithinClusters, _) => (
-            Scheme::WithinClusters,
-            blocks_within(response, &labels, &clusters),
-        ),
-        (Scheme::Automatic | Scheme::BetweenClusters, false) => (
-            Scheme::BetweenClusters,
-            vec![block_between(response, &labels, &clusters)],
-        ),
+    let (scheme, mut blocks) = if mixed {
+        let blocks = blocks_within(response, &labels, &clusters);
+        (Scheme::WithinClusters, blocks)
+    } else {
+        let block = block_between(response, &labels, &clusters);
+        (Scheme::BetweenClusters, vec![block])
     };
     let spread: f64 = blocks
         .iter()
@@ -86,7 +84,7 @@ pub fn permutation_test(
     }
     let observed = between_labels(&blocks, labels.count());
     let bar = observed - TIE * spread;
-    let outcome = run(&mut blocks, labels.count(), bar, settings)?;
+    let outcome = run(&mut blocks, labels.count(), bar, settings);
     Ok(PermutationTest {
         test: TestResult {
             method: METHOD,

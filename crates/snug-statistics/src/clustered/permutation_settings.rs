@@ -3,25 +3,10 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use serde::{Deserialize, Serialize};
 
-/// What is exchanged in [`super::permutation_test`].
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Scheme {
-    /// Within clusters when any cluster holds more than one label, else between clusters.
-    #[default]
-    Automatic,
-    /// Labels are exchanged among the rows of each cluster.
-    WithinClusters,
-    /// Labels are exchanged among whole clusters.
-    BetweenClusters,
-}
-
 /// Settings of [`super::permutation_test`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct PermutationSettings {
-    /// What is exchanged. Default: automatic.
-    pub scheme: Scheme,
     /// Random arrangements when there are too many to try all. Default: 9999.
     pub permutations: usize,
     /// Up to this many arrangements, all of them are tried instead. Default: 20000.
@@ -33,7 +18,6 @@ pub struct PermutationSettings {
 impl Default for PermutationSettings {
     fn default() -> Self {
         Self {
-            scheme: Scheme::Automatic,
             permutations: 9999,
             exact_limit: 20_000,
             seed: 1,

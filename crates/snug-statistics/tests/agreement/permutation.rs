@@ -67,24 +67,6 @@ fn unusable_labels_are_named() {
         one,
         Err(StatisticsError::TooFewGroups { what: "labels", .. })
     ));
-    let fixed = PermutationSettings {
-        scheme: Scheme::WithinClusters,
-        ..settings
-    };
-    let fixed = permutation_test(&y, &[1, 1, 2, 2], &[1, 1, 2, 2], &fixed);
-    assert!(matches!(fixed, Err(StatisticsError::SingleArrangement)));
-    let mixed = PermutationSettings {
-        scheme: Scheme::BetweenClusters,
-        ..settings
-    };
-    let mixed = permutation_test(&y, &[1, 2, 2, 2], &[1, 1, 2, 2], &mixed);
-    assert!(matches!(
-        mixed,
-        Err(StatisticsError::OutOfRange {
-            argument: "scheme",
-            ..
-        })
-    ));
     let flat = permutation_test(&[0.1; 4], &[1, 2, 1, 2], &[1, 1, 2, 2], &settings);
     assert!(matches!(flat, Err(StatisticsError::ZeroVariance { .. })));
     let none = PermutationSettings {

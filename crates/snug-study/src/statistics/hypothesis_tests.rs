@@ -5,8 +5,7 @@ use super::factor::Factor;
 use super::quantity;
 use snug_campaign::{EffectSize, SignalUnits, TestRow, TighteningResult};
 use snug_statistics::clustered::{
-    DenominatorFreedom, Design, PermutationSettings, fit_cluster_robust, fit_random_intercept,
-    permutation_test,
+    Design, PermutationSettings, fit_cluster_robust, fit_random_intercept, permutation_test,
 };
 use snug_statistics::{StatisticsError, TestResult, k_sample, multiplicity, two_sample};
 use std::collections::BTreeMap;
@@ -190,7 +189,7 @@ fn design(sample: &Sample) -> Result<Design, StatisticsError> {
 fn mixed_model(sample: &Sample, _seed: u64) -> Outcome {
     let design = design(sample)?;
     let fit = fit_random_intercept(&design, &sample.participants, &sample.values)?;
-    let test = fit.test_term(FACTOR, DenominatorFreedom::BetweenWithin)?;
+    let test = fit.test_term(FACTOR)?;
     Ok((
         test,
         size("intraclass_correlation", fit.intraclass_correlation),

@@ -1,42 +1,24 @@
 use faer::Mat;
-use serde::{Deserialize, Serialize};
 
 use super::cluster_moments::ClusterMoments;
-use super::freedom::{Satterthwaite, combined};
-use super::likelihood::{Profile, minimise, multiply};
+use super::likelihood::{Profile, minimise};
 use crate::clustered::Design;
-use crate::clustered::contrast::{ContrastEstimate, LEAST_FREEDOM, in_basis, inverse, t_contrast};
+use crate::clustered::contrast::{LEAST_FREEDOM, in_basis, inverse};
 use crate::clustered::orthonormal::{Orthonormal, dot};
 use crate::clustered::partition::check_clustered;
 use crate::clustered::spectrum::Spectrum;
 use crate::descriptive::Moments;
-use crate::distributions::{chi_squared_upper, f_upper};
+use crate::distributions::f_upper;
 use crate::sample::is_constant;
 use crate::{Result, StatisticsError, TestResult};
 
 const METHOD: &str = "random-intercept model";
-
-/// Where the denominator degrees of freedom of t and F tests come from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum DenominatorFreedom {
-    /// Satterthwaite's approximation from the observed information. When the cluster variance
-    /// is estimated as zero it falls back to `n − p`, as if rows were independent.
-    Satterthwaite,
-    /// Between–within (Schluchter and Elashoff 1990): a coefficient whose column has one value
-    /// per cluster gets `clusters − number of such columns`; any other `rows − clusters −
-    /// number of the others`. A contrast takes the smallest among its coefficients. Conservative
-    /// for effects between clusters whatever the estimated cluster variance.
-    #[default]
-    BetweenWithin,
-}
 
 /// A fitted random-intercept model.
 pub struct RandomInterceptFit {
     design: Design,
     basis: Orthonormal,
     profile: Profile,
-    satterthwaite: Satterthwaite,
     /// γ: coefficients in the basis.
     coordinates: Vec<f64>,
     /// Mean taken off the response before the fit.
@@ -57,8 +39,6 @@ pub struct RandomInterceptFit {
     pub intraclass_correlation: f64,
     /// −2 ln restricted likelihood, constants included (lme4's REML criterion).
     pub restricted_deviance: f64,
-    /// [`Self::restricted_deviance`] with σ_b = 0.
-    independent_deviance: f64,
 }
 
 /// Fits `y = Xβ + b_cluster + e` by restricted maximum likelihood, `σ_b² ≥ 0`.
@@ -107,7 +87,6 @@ pub fn fit_random_intercept(
         .map(|(plain, shift)| plain + shift)
         .collect();
     Ok(RandomInterceptFit {
-        satterthwaite: Satterthwaite::of(&moments, &profile, residual_variance),
         coordinates,
         offset,
         unit,
@@ -122,7 +101,6 @@ pub fn fit_random_intercept(
         residual_variance: residual_variance * unit * unit,
         intraclass_correlation: profile.ratio / (1.0 + profile.ratio),
         restricted_deviance: constant + profile.deviance(&moments),
-        independent_deviance: constant + Profile::at(&moments, 0.0).deviance(&moments),
         design: design.clone(),
         basis,
         profile,
@@ -141,90 +119,25 @@ fn binary_unit(moments: &Moments) -> f64 {
 }
 
 impl RandomInterceptFit {
-    /// Every coefficient with standard error, interval and t test.
-    ///
-    /// # Errors
-    /// [`StatisticsError::OutOfRange`] for `confidence`; [`StatisticsError::NoFreedomLeft`].
-    pub fn coefficients(
-        &self,
-        freedom: DenominatorFreedom,
-        confidence: f64,
-    ) -> Result<Vec<ContrastEstimate>> {
-        (0..self.design.names().len())
-            .map(|column| {
-                let found = self.contrast(&self.design.unit(column), freedom, confidence)?;
-                Ok(ContrastEstimate {
-                    name: self.design.names()[column].clone(),
-                    ..found
-                })
-            })
-            .collect()
-    }
-
-    /// Covariance of the coefficients, p × p.
-    #[must_use]
-    pub fn covariance(&self) -> Vec<Vec<f64>> {
-        let units: Vec<Vec<f64>> = (0..self.design.names().len())
-            .map(|column| self.basis.contrast(&self.design.unit(column)))
-            .collect();
-        let entry = |a: &[f64], b: &[f64]| {
-            self.residual_variance * dot(a, &multiply(&self.profile.inverse, b))
-        };
-        units
-            .iter()
-            .map(|a| units.iter().map(|b| entry(a, b)).collect())
-            .collect()
-    }
-
-    /// Estimate and t test of `weights'β`, one weight per coefficient.
-    ///
-    /// # Errors
-    /// [`StatisticsError::LengthMismatch`]; [`StatisticsError::NotFinite`];
-    /// [`StatisticsError::DependentContrasts`] for all-zero weights;
-    /// [`StatisticsError::OutOfRange`] for `confidence`; [`StatisticsError::NoFreedomLeft`].
-    pub fn contrast(
-        &self,
-        weights: &[f64],
-        freedom: DenominatorFreedom,
-        confidence: f64,
-    ) -> Result<ContrastEstimate> {
-        let rows = [weights.to_vec()];
-        let axes = in_basis(&self.design, &self.basis, &rows, self.clusters)?;
-        let axis: Vec<f64> = (0..axes.nrows()).map(|row| axes[(row, 0)]).collect();
-        let variance = self.residual_variance * dot(&axis, &multiply(&self.profile.inverse, &axis));
-        let df = match freedom {
-            DenominatorFreedom::Satterthwaite => self.enough(self.satterthwaite.freedom(&axis))?,
-            DenominatorFreedom::BetweenWithin => self.between_within(&rows)?,
-        };
-        let estimate = self.unit * dot(&axis, &self.coordinates) + weights[0] * self.offset;
-        t_contrast(
-            "random-intercept t test",
-            "",
-            (estimate, variance.sqrt()),
-            df,
-            confidence,
-        )
-    }
-
     /// F test that all coefficients of a term are zero.
     ///
     /// # Errors
     /// [`StatisticsError::UnknownTerm`] and those of [`Self::test_contrasts`].
-    pub fn test_term(&self, term: &str, freedom: DenominatorFreedom) -> Result<TestResult> {
-        self.test_contrasts(&self.design.term_contrasts(term)?, freedom)
+    pub fn test_term(&self, term: &str) -> Result<TestResult> {
+        self.test_contrasts(&self.design.term_contrasts(term)?)
     }
 
     /// Wald F test that all of several contrasts (rows of L) are zero:
-    /// `F = (Lβ)'(L Cov L')⁻¹ Lβ/q`.
+    /// `F = (Lβ)'(L Cov L')⁻¹ Lβ/q` on between–within degrees of freedom (Schluchter and Elashoff
+    /// 1990): a coefficient whose column has one value per cluster gets `clusters − number of such
+    /// columns`, any other `rows − clusters − number of the others`; several contrasts take the
+    /// smallest among their coefficients. Conservative for effects between clusters whatever the
+    /// estimated cluster variance.
     ///
     /// # Errors
     /// [`StatisticsError::LengthMismatch`]; [`StatisticsError::NotFinite`];
     /// [`StatisticsError::DependentContrasts`]; [`StatisticsError::NoFreedomLeft`].
-    pub fn test_contrasts(
-        &self,
-        contrasts: &[Vec<f64>],
-        freedom: DenominatorFreedom,
-    ) -> Result<TestResult> {
+    pub fn test_contrasts(&self, contrasts: &[Vec<f64>]) -> Result<TestResult> {
         let axes = in_basis(&self.design, &self.basis, contrasts, self.clusters)?;
         let estimates: Vec<f64> = (0..contrasts.len())
             .map(|column| {
@@ -242,19 +155,15 @@ impl RandomInterceptFit {
         }
         // Independent t tests along the covariance's own axes.
         let spectrum = Spectrum::of(&covariance);
-        let (mut sum, mut freedoms) = (0.0, Vec::new());
+        let mut sum = 0.0;
         for (column, variance) in spectrum.values.iter().enumerate() {
             let direction: Vec<f64> = (0..contrasts.len())
                 .map(|row| spectrum.vectors[(row, column)])
                 .collect();
             sum += dot(&direction, &estimates).powi(2) / variance;
-            freedoms.push(self.satterthwaite.freedom(&multiply(&axes, &direction)));
         }
         let q = contrasts.len() as f64;
-        let df = match freedom {
-            DenominatorFreedom::Satterthwaite => self.enough(combined(&freedoms))?,
-            DenominatorFreedom::BetweenWithin => self.between_within(contrasts)?,
-        };
+        let df = self.between_within(contrasts)?;
         Ok(TestResult {
             method: "random-intercept F test",
             statistic_name: "F",
@@ -264,25 +173,8 @@ impl RandomInterceptFit {
         })
     }
 
-    /// Likelihood-ratio test of σ_b = 0: half of chi-squared with one degree of freedom, because
-    /// the null hypothesis lies on the boundary (Self and Liang 1987).
-    #[must_use]
-    pub fn test_between_variance(&self) -> TestResult {
-        let statistic = (self.independent_deviance - self.restricted_deviance).max(0.0);
-        TestResult {
-            method: "restricted likelihood-ratio test of the cluster variance",
-            statistic_name: "χ²",
-            statistic,
-            degrees_of_freedom: vec![1.0],
-            p: if statistic == 0.0 {
-                1.0
-            } else {
-                0.5 * chi_squared_upper(statistic, 1.0)
-            },
-        }
-    }
-
-    /// Smallest between–within degrees of freedom among the coefficients the contrasts use.
+    /// Smallest between–within degrees of freedom among the coefficients the contrasts use, unless
+    /// no test can be built on them.
     fn between_within(&self, contrasts: &[Vec<f64>]) -> Result<f64> {
         let between = self
             .constant_within
@@ -305,13 +197,8 @@ impl RandomInterceptFit {
             .filter(|(column, _)| used(*column))
             .map(|(_, constant)| freedom(*constant))
             .fold(f64::INFINITY, f64::min);
-        self.enough(least)
-    }
-
-    /// Refuses degrees of freedom that no test can be built on.
-    fn enough(&self, freedom: f64) -> Result<f64> {
-        if freedom >= LEAST_FREEDOM {
-            return Ok(freedom);
+        if least >= LEAST_FREEDOM {
+            return Ok(least);
         }
         Err(StatisticsError::NoFreedomLeft {
             what: "denominator degrees of freedom",

@@ -109,13 +109,13 @@ impl Profile {
 }
 
 /// Squares of the residuals' deviations from their cluster means.
-pub(super) fn within_squares(moments: &ClusterMoments, shift: &[f64]) -> f64 {
+fn within_squares(moments: &ClusterMoments, shift: &[f64]) -> f64 {
     let bent = dot(shift, &multiply(&moments.q_within, shift));
     moments.r_within - 2.0 * dot(shift, &moments.qr_within) + bent
 }
 
 /// Matrix times vector.
-pub(super) fn multiply(matrix: &Mat<f64>, vector: &[f64]) -> Vec<f64> {
+fn multiply(matrix: &Mat<f64>, vector: &[f64]) -> Vec<f64> {
     (0..matrix.nrows())
         .map(|row| {
             vector

@@ -7,7 +7,6 @@
 
 mod cluster_moments;
 mod fit;
-mod freedom;
 mod likelihood;
 
-pub use fit::{DenominatorFreedom, RandomInterceptFit, fit_random_intercept};
+pub use fit::{RandomInterceptFit, fit_random_intercept};
