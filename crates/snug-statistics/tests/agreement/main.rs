@@ -1,6 +1,7 @@
 //! The crate against certified values, closed forms and other programs.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
+mod assumptions;
 mod clustered;
 mod invariance;
 mod mixed_model_exact;

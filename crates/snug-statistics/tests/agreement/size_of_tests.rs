@@ -2,6 +2,7 @@
 
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+use snug_statistics::assumptions::{brown_forsythe, residuals, shapiro_wilk};
 use snug_statistics::clustered::{
     Design, PermutationSettings, fit_cluster_robust, fit_random_intercept, permutation_test,
 };
@@ -88,4 +89,45 @@ fn participants_that_respond_differently() {
     let [_, mixed, robust, _] = false_alarms(|_, row| row % 2, 1.0);
     assert!(mixed > CAMPAIGNS / 5, "random intercept alone: {mixed}");
     assert!(robust <= MOST, "{robust}");
+}
+
+/// Four groups of twelve values with different means: how often normality of the residuals and
+/// equality of the variances are doubted.
+fn doubts(value: impl Fn(usize, f64) -> f64) -> [usize; 2] {
+    let mut generator = ChaCha8Rng::seed_from_u64(7);
+    let mut doubts = [0; 2];
+    for _ in 0..CAMPAIGNS {
+        let groups: Vec<Vec<f64>> = (0..4)
+            .map(|group| {
+                (0..12)
+                    .map(|_| 3.0 * group as f64 + value(group, normal(&mut generator)))
+                    .collect()
+            })
+            .collect();
+        let checks = [
+            shapiro_wilk(&residuals(&groups)).unwrap().p,
+            brown_forsythe(&groups).unwrap().p,
+        ];
+        doubts
+            .iter_mut()
+            .zip(checks)
+            .for_each(|(count, p)| *count += usize::from(p <= 0.05));
+    }
+    doubts
+}
+
+/// A check doubts what holds in 5 % of the cases or less, and mostly finds what does not.
+#[test]
+fn assumptions_are_doubted_where_they_do_not_hold() {
+    let [residuals, variances] = doubts(|_, z| z);
+    println!("{residuals} and {variances} of {CAMPAIGNS} sound campaigns doubted");
+    assert!((5..=MOST).contains(&residuals), "{residuals}");
+    assert!((5..=MOST).contains(&variances), "{variances}");
+    let [skewed, _] = doubts(|_, z| z.exp());
+    assert!(skewed > CAMPAIGNS * 9 / 10, "log-normal values: {skewed}");
+    let [_, unequal] = doubts(|group, z| if group == 0 { 4.0 * z } else { z });
+    assert!(
+        unequal > CAMPAIGNS * 3 / 4,
+        "one group four times as wide: {unequal}"
+    );
 }

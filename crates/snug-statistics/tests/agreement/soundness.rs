@@ -1,7 +1,7 @@
 //! Whatever the input, an answer is sound or there is an error: no panic, no NaN.
 
 use proptest::prelude::*;
-use snug_statistics::assumptions::{brown_forsythe, shapiro_wilk};
+use snug_statistics::assumptions::{brown_forsythe, replicated, residuals, shapiro_wilk, tied};
 use snug_statistics::clustered::{
     Design, PermutationSettings, fit_cluster_robust, fit_random_intercept, permutation_test,
 };
@@ -53,6 +53,11 @@ proptest! {
         check("Welch F", welch_anova(&groups));
         check("H", kruskal_wallis(&groups).map(|r| r.test));
         check("Brown–Forsythe", brown_forsythe(&groups));
+        let groups = replicated(&groups);
+        let left = residuals(&groups);
+        prop_assert!(tied(&left) <= left.len());
+        check("Shapiro of residuals", shapiro_wilk(&left));
+        check("Brown–Forsythe of replicated groups", brown_forsythe(&groups));
         prop_assert!(mean(&a).map_or(true, |mean| !mean.is_nan()));
         prop_assert!(median(&a).map_or(true, |middle| !middle.is_nan()));
         prop_assert!(standard_deviation(&a).map_or(true, |spread| spread >= 0.0));
