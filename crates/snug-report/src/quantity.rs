@@ -31,7 +31,7 @@ impl QuantityName {
 }
 
 /// The quantities of the thesis' tables.
-const KNOWN: [(&str, &str, &str, &str); 12] = [
+const KNOWN: &[(&str, &str, &str, &str)] = &[
     ("mass_kg", "mass", "m", "kg"),
     ("damping_kg_per_s", "damping", "c", "kg/s"),
     ("stiffness_n_per_m", "stiffness", "k", "N/m"),

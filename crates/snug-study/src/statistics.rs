@@ -3,7 +3,10 @@
 mod conditions;
 mod factor;
 mod hypothesis_tests;
+mod methods;
 mod quantity;
+mod sample;
+mod stated;
 
 pub use conditions::summaries;
 pub use hypothesis_tests::rows;

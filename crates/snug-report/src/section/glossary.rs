@@ -12,7 +12,7 @@ pub const SECTION: Section = Section {
     render,
 };
 
-const TERMS: [(&str, &str); 22] = [
+const TERMS: &[(&str, &str)] = &[
     (
         "Tightening",
         "One run of the tool on one bolt: torque builds up, then drops, and the tool kicks the hand.",

@@ -128,7 +128,7 @@ fn moments(name: &str, group: &[&TighteningResult], selected: bool) -> Option<Mo
     })
 }
 
-const METHODS: [(&str, &str); 8] = [
+const METHODS: &[(&str, &str)] = &[
     ("student_t", "t"),
     ("welch_t", "t"),
     ("mann_whitney", "U"),
@@ -152,7 +152,7 @@ pub fn tests() -> Vec<TestRow> {
             .into_iter()
             .enumerate()
         {
-            for (m, (method, statistic)) in METHODS.into_iter().enumerate() {
+            for (m, (method, statistic)) in METHODS.iter().copied().enumerate() {
                 if (factor == "participant") != (m == 4 || m == 5) && m != 3 {
                     continue;
                 }
