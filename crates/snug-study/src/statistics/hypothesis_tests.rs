@@ -1,5 +1,3 @@
-//! The table of tests. A new one is an entry in `METHODS`, which also says whether it respects participants.
-
 //! The table of p values: every quantity against every factor by every method.
 
 use super::factor::Factor;
