@@ -8,12 +8,12 @@ use serde::{Deserialize, Serialize};
 pub struct DiagnoseSettings {
     /// Sign flips of whole tightenings behind a family-wise p; default 1999.
     pub sign_flips: usize,
-    /// Largest family-wise p at which an effect counts as supported; default 0.05.
+    /// Largest family-wise p at which an effect counts as supported \[–\]; default 0.05.
     pub level: f64,
     /// Smallest share of the squared residual that an effect must remove in held-out tightenings to matter; default 0.01
     /// (half a percent of the error). Less than that may be a piece of what else is missing.
     pub smallest_gain: f64,
-    /// The same where the model already comes down to the noise, and nothing else is missing; default 0.003. Less than that
+    /// The same where the model already comes down to the noise, and nothing else is missing \[–\]; default 0.003. Less than that
     /// is within reach of torque noise and of how samples are held.
     pub smallest_gain_at_noise: f64,
     /// Starts from which each effect is tried along the measured motion, the most promising freely as well; default 8.

@@ -11,7 +11,7 @@ const HELD_RATIO: f64 = 1e-6;
 /// A quantity that follows from the estimated parameters.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Derived {
-    /// Its value.
+    /// Its value, in the unit that its function states.
     pub value: f64,
     /// 95 % interval; `None` where the data do not decide the value (parameters fixed, or held by a constraint).
     pub interval: Option<Interval>,

@@ -1,3 +1,5 @@
+//! Why a statistic cannot be computed.
+
 use crate::Sample;
 
 /// Why a statistic could not be computed.

@@ -1,3 +1,5 @@
+//! Ranks with ties shared out evenly.
+
 /// Mid-ranks (1-based; equal values share the mean of their ranks) and the tie term `Σ(t³ − t)`.
 pub(crate) struct Ranks {
     /// Rank of each value, in the order given.

@@ -1,3 +1,5 @@
+//! The root of a function of one variable between two bounds.
+
 /// Root of a continuous function that changes sign between `low` and `high` (Brent 1973).
 ///
 /// Runs until the bracket is a few units in the last place wide, so the root is as good as

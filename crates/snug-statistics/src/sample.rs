@@ -1,3 +1,5 @@
+//! What a sample must be for a test to say anything: long enough, finite, not constant.
+
 use std::fmt;
 
 use serde::Serialize;

@@ -1,3 +1,5 @@
+//! What a test says: statistic, degrees of freedom, p value.
+
 use crate::distributions::student_t_two_sided;
 use serde::Serialize;
 

@@ -37,13 +37,14 @@ pub struct Residuals<'a> {
     pub noise_known: bool,
     /// What is compared.
     pub quantity: Quantity,
-    /// What the residual was multiplied with where the noise is not known; 1 where it is.
+    /// What the residual was multiplied with where the noise is not known, one over the residual's
+    /// unit; 1 where it is, no unit.
     pub scale: f64,
     /// Whether some tightening has an onset; then those without are left out of everything that counts from it.
     pub has_onset: bool,
     /// √(Σ w² / n) over everything.
     pub error_over_noise: f64,
-    /// Σ (w² − 1), or Σ w² where the noise is not known.
+    /// Σ (w² − 1), or Σ w² where the noise is not known; no unit.
     pub excess: f64,
     /// Whether the excess is more than chance and an imperfectly known floor give.
     pub beyond_noise: bool,

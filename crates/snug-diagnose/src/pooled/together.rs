@@ -15,7 +15,8 @@ pub struct Together {
     pub shared: Vec<(String, f64)>,
     /// What every tightening has of its own, in the order of the cases: m, c, k first.
     pub own: Vec<Vec<(String, f64)>>,
-    /// Root mean square of the residual: over noise, where that is known of every tightening.
+    /// Root mean square of the residual: over noise, where that is known of every tightening, else in the output's
+    /// unit.
     pub error: f64,
     /// Whether no step promised more.
     pub converged: bool,

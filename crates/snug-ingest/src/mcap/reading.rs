@@ -1,6 +1,6 @@
 //! An MCAP file to recordings: whole measurements that Snug recorded, or declared channels on one time grid.
 
-use super::McapLayout;
+use super::{McapChannel, McapLayout};
 use crate::csv::assemble;
 use crate::finding_log::{About, FindingLog};
 use crate::memory::Budget;
@@ -9,7 +9,9 @@ use crate::{IngestError, Ingested, range};
 use snug_campaign::excerpt;
 use snug_campaign::{Conditions, Recording, TimeBase};
 use snug_record::RecordError;
-use snug_record::read::{Completeness, Extent, numeric_channels_within, recordings_within};
+use snug_record::read::{
+    Completeness, Extent, NumericChannel, numeric_channels_within, recordings_within,
+};
 use std::path::Path;
 
 /// The recordings in an MCAP file's content; `path` names it, `lever_arm_m` turns lengths of the grip into angles.
@@ -139,28 +141,9 @@ fn declared(
     for channel in &read.channels {
         budget.spend_on::<[f64; 2]>("a channel", channel.values.len())?;
     }
-    let mut tracks = Vec::with_capacity(layout.channels.len());
-    for wanted in &layout.channels {
-        let found = read
-            .channels
-            .iter_mut()
-            .find(|channel| channel.topic == wanted.topic && channel.field == wanted.field);
-        let Some(found) = found else {
-            return Err(IngestError::MissingChannel {
-                channel: format!("{:?}", wanted.signal).to_lowercase(),
-                accepted: vec![format!("{} {}", wanted.topic, wanted.field)],
-                present: read
-                    .channels
-                    .iter()
-                    .map(|c| format!("{} {}", c.topic, c.field))
-                    .collect(),
-            });
-        };
-        tracks.push(Track {
-            times_s: found.log_time_s.clone(),
-            values: std::mem::take(&mut found.values),
-        });
-    }
+    let tracks = (layout.channels.iter())
+        .map(|wanted| track(wanted, &mut read.channels))
+        .collect::<Result<Vec<Track>, IngestError>>()?;
     let (time_base, channels) = match layout.rate_hz {
         Some(hz) => {
             let time_base = TimeBase {
@@ -198,6 +181,25 @@ fn declared(
             layout.declared().zip(channels),
             lever_arm_m,
         )
+    })
+}
+
+/// The values of a declared channel, taken out of those that were read.
+fn track(wanted: &McapChannel, channels: &mut [NumericChannel]) -> Result<Track, IngestError> {
+    let is_it =
+        |channel: &NumericChannel| channel.topic == wanted.topic && channel.field == wanted.field;
+    let Some(place) = channels.iter().position(is_it) else {
+        let name = |channel: &NumericChannel| format!("{} {}", channel.topic, channel.field);
+        return Err(IngestError::MissingChannel {
+            channel: format!("{:?}", wanted.signal).to_lowercase(),
+            accepted: vec![format!("{} {}", wanted.topic, wanted.field)],
+            present: channels.iter().map(name).collect(),
+        });
+    };
+    let found = &mut channels[place];
+    Ok(Track {
+        times_s: found.log_time_s.clone(),
+        values: std::mem::take(&mut found.values),
     })
 }
 

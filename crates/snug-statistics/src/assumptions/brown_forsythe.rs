@@ -1,3 +1,5 @@
+//! Whether groups scatter alike, as analysis of variance presumes.
+
 use crate::descriptive::median;
 use crate::k_sample::one_way_anova;
 use crate::sample::check_groups;

@@ -1,3 +1,5 @@
+//! Whether values may come from a normal distribution, as t and F tests presume of small samples.
+
 use crate::descriptive::Moments;
 use crate::distributions::{normal_quantile, normal_upper};
 use crate::sample::check_sample;

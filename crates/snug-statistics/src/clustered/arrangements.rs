@@ -1,3 +1,5 @@
+//! Every way in which labels could have fallen to clusters, or a sample of the ways: what a permutation test counts.
+
 use rand::seq::SliceRandom;
 
 use super::permutation_settings::PermutationSettings;

@@ -1,3 +1,5 @@
+//! Regression with a sandwich covariance over clusters, and the degrees of freedom that few clusters leave.
+
 use faer::Mat;
 
 use super::Design;

@@ -1,3 +1,5 @@
+//! What is asked of regression coefficients: that linear combinations of them vanish.
+
 use faer::Mat;
 
 use super::Design;

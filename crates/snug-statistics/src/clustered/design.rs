@@ -1,3 +1,5 @@
+//! Observations with their levels and clusters, as a design matrix.
+
 use std::fmt::Display;
 use std::ops::Range;
 

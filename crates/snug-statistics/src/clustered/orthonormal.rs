@@ -1,3 +1,5 @@
+//! An orthonormal basis of a design's columns, so that what they share counts once.
+
 use super::Design;
 use crate::{Result, StatisticsError};
 

@@ -1,3 +1,5 @@
+//! Observations sorted into their clusters.
+
 use std::collections::BTreeMap;
 
 use super::Design;

@@ -1,3 +1,5 @@
+//! A test that asks how labels could have fallen, cluster by cluster.
+
 use serde::{Deserialize, Serialize};
 
 use super::arrangements::{Block, between_labels, run};

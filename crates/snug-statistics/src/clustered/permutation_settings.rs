@@ -1,3 +1,5 @@
+//! How many arrangements a permutation test looks at, and from which seed.
+
 use crate::{Result, StatisticsError};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;

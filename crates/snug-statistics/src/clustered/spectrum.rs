@@ -1,3 +1,5 @@
+//! Eigenvalues of a small symmetric matrix.
+
 use faer::{Mat, Side};
 
 /// Eigenvalues and eigenvectors of a small symmetric matrix.

@@ -1,3 +1,5 @@
+//! The confidence interval of a mean by Student's t.
+
 use serde::Serialize;
 
 use super::Moments;

@@ -1,3 +1,5 @@
+//! Mean, variance, skewness and kurtosis, accumulated without cancellation.
+
 use crate::Result;
 use crate::double_double::{self, DoubleDouble};
 use crate::sample::{check_sample, is_constant};

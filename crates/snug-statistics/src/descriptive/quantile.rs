@@ -1,3 +1,5 @@
+//! Quantiles and the median, by linear interpolation between order statistics.
+
 use crate::sample::check_sample;
 use crate::{Result, StatisticsError};
 

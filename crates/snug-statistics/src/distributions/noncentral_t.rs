@@ -1,3 +1,5 @@
+//! Noncentral t, which the confidence interval of a standardised difference needs.
+
 use super::normal_upper;
 use crate::root::bracketed_root;
 

@@ -1,3 +1,5 @@
+//! Student's t: tails and quantiles.
+
 use super::{LARGE_FREEDOM, normal_quantile, normal_two_sided, regularized_beta};
 use crate::root::bracketed_root;
 

@@ -1,3 +1,5 @@
+//! One-way analysis of variance: whether groups have one mean.
+
 use serde::Serialize;
 
 use crate::distributions::f_upper;

@@ -1,3 +1,5 @@
+//! Whether groups have one location, by ranks.
+
 use serde::Serialize;
 
 use crate::distributions::chi_squared_upper;

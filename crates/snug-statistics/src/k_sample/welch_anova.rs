@@ -1,3 +1,5 @@
+//! Whether groups that scatter differently have one mean.
+
 use crate::descriptive::Moments;
 use crate::distributions::f_upper;
 use crate::double_double::DoubleDouble;

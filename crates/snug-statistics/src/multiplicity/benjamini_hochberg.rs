@@ -1,3 +1,5 @@
+//! p values of many tests, adjusted so that the share of false discoveries stays below a level.
+
 use crate::{Result, StatisticsError};
 
 /// Benjamini–Hochberg (1995) adjusted p values in the order given.

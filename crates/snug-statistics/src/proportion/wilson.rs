@@ -1,3 +1,5 @@
+//! The confidence interval of a proportion that behaves near 0 and 1.
+
 use serde::Serialize;
 
 use crate::distributions::normal_quantile;

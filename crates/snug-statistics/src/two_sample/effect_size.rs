@@ -1,3 +1,5 @@
+//! How far apart two groups are, in standard deviations, with its confidence interval.
+
 use serde::Serialize;
 use statrs::function::gamma::ln_gamma;
 

@@ -1,3 +1,5 @@
+//! Whether two groups have one location, by ranks.
+
 use serde::Serialize;
 
 use crate::distributions::normal_two_sided;

@@ -1,3 +1,5 @@
+//! Whether two groups that scatter alike have one mean.
+
 use serde::Serialize;
 
 use crate::descriptive::Moments;

@@ -1,3 +1,5 @@
+//! Whether two groups that scatter differently have one mean.
+
 use super::student::{TwoSampleT, t_test};
 use crate::descriptive::Moments;
 use crate::sample::check_sample;

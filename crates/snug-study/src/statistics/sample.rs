@@ -7,13 +7,13 @@ use std::collections::BTreeMap;
 
 /// Values of one quantity by level of one factor, with the participant of every value.
 pub struct Sample {
-    /// Values by level.
+    /// Values by level, in the quantity's unit.
     pub groups: Vec<Vec<f64>>,
     /// The level of every value.
     pub levels: Vec<usize>,
     /// The participant of every value.
     pub participants: Vec<usize>,
-    /// Every value, level after level.
+    /// Every value, level after level, in the quantity's unit.
     pub values: Vec<f64>,
 }
 

@@ -1,3 +1,5 @@
+//! Sums over clusters from which a mixed model's likelihood follows for any ratio of variances.
+
 use faer::Mat;
 
 use crate::clustered::orthonormal::{Orthonormal, dot};

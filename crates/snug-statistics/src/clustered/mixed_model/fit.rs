@@ -1,3 +1,5 @@
+//! A random intercept per cluster, fitted by restricted maximum likelihood.
+
 use faer::Mat;
 
 use super::cluster_moments::ClusterMoments;

@@ -1,3 +1,5 @@
+//! The restricted likelihood of a random intercept, with its derivative, over the ratio of variances.
+
 use faer::linalg::solvers::DenseSolveCore;
 use faer::{Mat, Side};
 
