@@ -1,7 +1,7 @@
-//! Many starts tried roughly: on the same tightening with every few samples replaced by their mean.
+//! Many starts tried on a decimated record: the same tightening with every few samples replaced by their mean.
 //!
-//! Which valley a start leads to shows on a record of a few hundred samples as well as on the whole one, for a fraction of
-//! the work. Only the ends of the best rough fits are worth a fit of every sample.
+//! Which minimum a start leads to shows on a record of a few hundred samples as well as on the whole one, for a fraction of
+//! the work. Only the ends of the best decimated fits are worth a fit of every sample.
 
 use crate::batch::BatchSimulator;
 use crate::multistart::early_stopping::{EarlyStopping, fit_starts};
@@ -13,30 +13,30 @@ use snug_campaign::{Intersample, Quantity};
 use snug_least_squares::{Constraints, Fit, Settings, SolveError, Work};
 use snug_model::{Input, Model};
 
-/// Samples that a rough record should have: its noise is then still small beside a whole tightening's motion.
+/// Samples that a decimated record should have: its noise is then still small beside a whole tightening's motion.
 const ENOUGH_SAMPLES: usize = 375;
-/// Longest interval between rough samples \[s\]: a shut-off, the fastest event of a tightening, takes several of them.
+/// Longest interval between decimated samples \[s\]: a shut-off, the fastest event of a tightening, takes several of them.
 const LONGEST_INTERVAL_S: f64 = 1e-3;
-/// A rough fit has gone far enough when this share of the residual could still be removed.
+/// A decimated fit has gone far enough when this share of the residual could still be removed.
 const ROUGH_TOLERANCE: f64 = 1e-2;
 /// Most steps of any fit that need not go far: what takes longer crawls.
 const MOST_STEPS: usize = 20;
-/// Ends are worth a fit of every sample up to this multiple of the lowest rough cost, and at most so many.
+/// Ends are worth a fit of every sample up to this multiple of the lowest decimated cost, and at most so many.
 pub(crate) const COST_RATIO_LIMIT: f64 = 1.2;
 const MOST_ENDS: usize = 2;
-/// Of the race between rough fits.
+/// When a start on the decimated record is stopped.
 const RULES: EarlyStopping = EarlyStopping {
     warm_up_steps: 12,
     cost_ratio_limit: COST_RATIO_LIMIT,
 };
-/// Rough costs that agree to this share are those of one valley.
+/// Decimated costs that agree to this share are those of one minimum.
 const SAME_VALLEY: f64 = 1e-3;
 
 /// Where fits of every sample should begin.
 pub(crate) struct Tried {
     /// Best first.
     pub starts: Vec<Vec<f64>>,
-    /// Steps and simulations on the rough record; of these every one is a fraction of one on the whole.
+    /// Steps and simulations on the decimated record; of these every one is a fraction of one on the whole.
     pub work: Work,
 }
 
@@ -108,7 +108,7 @@ impl DecimatedRecord {
         TighteningResidual::new(model, input, &self.measured, quantity, None, unscored)
     }
 
-    /// The ends of rough fits from `starts` that are worth a fit of every sample; `None` where no fit has one.
+    /// The ends of decimated fits from `starts` that are worth a fit of every sample; `None` where no fit has one.
     pub async fn try_from<'a>(
         &'a self,
         starts: &[Vec<f64>],
@@ -125,10 +125,10 @@ impl DecimatedRecord {
     }
 }
 
-/// Rough samples from one restart to the next, some 3 ms: enough for a law to show in the velocity.
+/// Decimated samples from one restart to the next, some 3 ms: enough for a law to show in the velocity.
 const APART: usize = 4;
 
-/// A rough record's torque with restarts from the measured motion.
+/// A decimated record's torque with restarts from the measured motion.
 fn along_motion(input: Input, angle_rad: &[f64], velocity_rad_per_s: &[f64]) -> Input {
     input.with_restarts(APART, motions_at(angle_rad, velocity_rad_per_s, APART))
 }
@@ -142,7 +142,7 @@ pub(crate) fn coarse_solver(settings: &IdentifySettings, tolerance: f64) -> Sett
     }
 }
 
-/// Of `ends`, lowest first, one of every valley whose cost is worth it, at most so many.
+/// Of `ends`, lowest first, one of every minimum whose cost is worth it, at most so many.
 pub(crate) fn apart(mut ends: Vec<Fit>, most: usize) -> Vec<Vec<f64>> {
     ends.retain(|end| end.cost.is_finite());
     ends.dedup_by(|next, kept| (next.cost / kept.cost - 1.0).abs() < SAME_VALLEY);

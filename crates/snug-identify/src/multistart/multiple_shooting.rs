@@ -1,8 +1,8 @@
-//! Starts led along the measured motion: every few milliseconds the simulation takes up the measured angle and velocity.
+//! Multiple shooting from measured states: every few milliseconds the simulation takes up the measured angle and velocity.
 //!
 //! No error grows beyond the next restart, so the cost is smooth, and a few steps lead from far away to where the laws agree
-//! with the motion that was measured (multiple shooting with known states). If the effect is really at work, the lowest valley
-//! of the free run lies close by. If it is not, that is one valley of many.
+//! with the motion that was measured (multiple shooting with known states). If the effect is really at work, the lowest minimum
+//! of the free run lies close by. If it is not, that is one minimum of many.
 
 use crate::batch::BatchSimulator;
 use crate::multistart::decimated::{
@@ -13,17 +13,17 @@ use crate::settings::IdentifySettings;
 use crate::task::FitTask;
 use snug_least_squares::{Constraints, SolveError};
 
-/// A guided fit has gone far enough when this share of the residual could still be removed.
+/// A restarted fit has gone far enough when this share of the residual could still be removed.
 const TOLERANCE: f64 = 0.1;
 /// Most ends that go on freely.
 const MOST_ENDS: usize = 3;
-/// Of the race between guided fits.
+/// When a start along the measured motion is stopped.
 const RULES: EarlyStopping = EarlyStopping {
     warm_up_steps: 8,
     cost_ratio_limit: COST_RATIO_LIMIT,
 };
 
-/// Tries `starts` along the measured motion, and what that leads to on the rough record without guidance; `None` where
+/// Tries `starts` along the measured motion, and what that leads to on the decimated record, run freely; `None` where
 /// nothing guides.
 pub(crate) async fn try_multiple_shooting<'a>(
     decimated: &'a DecimatedRecord,

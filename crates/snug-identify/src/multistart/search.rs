@@ -1,4 +1,4 @@
-//! One tightening's fit where its cost has valley beside valley: an effect with several starts, or one that lets go.
+//! One tightening's fit where its cost has minimum beside minimum: an effect with several starts, or one with unilateral contact.
 
 use crate::batch::BatchSimulator;
 use crate::multistart::decimated::{
@@ -16,7 +16,7 @@ use snug_least_squares::{
 use snug_model::BASE_PARAMETERS;
 use std::iter::once;
 
-/// Of the race between fits of every sample.
+/// When a start with every sample is stopped.
 const RULES: EarlyStopping = EarlyStopping {
     warm_up_steps: 12,
     cost_ratio_limit: 1.0,
@@ -24,13 +24,13 @@ const RULES: EarlyStopping = EarlyStopping {
 
 /// Samples to either side over which the residual is averaged on the way to where it is not: less than a millisecond.
 const NEAR: usize = 8;
-/// Of the race between averaged fits: the same valley may be lower by as much when it is seen as it is.
+/// When a start with the smoothed residual is stopped: the same minimum may be lower by as much without smoothing.
 const NEAR_RULES: EarlyStopping = EarlyStopping {
     warm_up_steps: 12,
     cost_ratio_limit: COST_RATIO_LIMIT,
 };
 
-/// Mean square of a whitened residual beyond which a fit may have ended in the wrong valley.
+/// Mean square of a whitened residual beyond which a fit may have ended in the wrong minimum.
 const FAR_OFF: f64 = 2.0;
 /// Mean square of a whitened residual up to which it is hardly more than noise.
 const CLOSE: f64 = 1.1;
@@ -109,8 +109,8 @@ impl<'a> MultistartSearch<'_, 'a> {
     }
 
     /// The best of the ends that the starts lead to. Of several starts, what they lead to along the measured motion is tried
-    /// first; that is the answer where it leaves no doubt. Otherwise those that lead on in a rough fit are followed to the
-    /// end as well; all of them where that comes to nothing, or leaves so much that a lower valley may have been missed.
+    /// first; that is the answer where it leaves no doubt. Otherwise those that lead on in a decimated fit are followed to the
+    /// end as well; all of them where that comes to nothing, or leaves so much that a lower minimum may have been missed.
     async fn searched(&self) -> Result<Fit, SolveError> {
         let (mut ends, mut work): (Vec<Fit>, Work) = Default::default();
         let mut follow = async |starts: &[Vec<f64>], before: &Work| {
@@ -175,7 +175,7 @@ impl<'a> MultistartSearch<'_, 'a> {
     }
 
     /// Whether a fit leaves hardly more than noise, inside the constraints, and the effects are surely there: another
-    /// valley may then be as low by chance, but not lower by much.
+    /// minimum may then be as low by chance, but not lower by much.
     pub fn is_beyond_doubt(&self, fit: &Fit) -> bool {
         let is_close = fit.sum_of_squares() < CLOSE * fit.residual_count as f64;
         let errors = fit.covariance(ResidualNoise::Unit).standard_errors;

@@ -4,7 +4,7 @@ use super::*;
 use crate::multistart::decimated::DecimatedRecord;
 use snug_least_squares::{DenseResidual, Residual, ResidualNoise, best, solve_from_starts};
 
-/// Where an effect has several starts, trying them on a rough record leads to the optimum that all of them together find.
+/// Where an effect has several starts, trying them on a decimated record leads to the optimum that all of them together find.
 #[test]
 fn rough_starts_lead_to_the_best_optimum_of_all() {
     let truth = Model::new(RIG, &[Effect::MaxwellBranch]).unwrap();
