@@ -32,7 +32,7 @@ use std::iter::once;
 ///
 /// # Errors
 /// [`IdentifyError::MissingOutput`] when the tightening does not hold the fitted output, [`IdentifyError::TooShort`]
-/// when fewer samples are scored than parameters are free, and what [`crate::solve`] refuses.
+/// when fewer samples are scored than parameters are free, and what [`snug_least_squares::solve`] refuses.
 pub fn identify(
     model: &Model,
     input: &Input,
