@@ -2,7 +2,7 @@
 //! few shapes the field knows.
 
 use crate::error::DiagnoseError;
-use snug_model::{CustomEffect, CustomEffectSettings, CustomParameterSettings, Effect, Place};
+use snug_model::{CustomEffectSettings, CustomParameterSettings, Effect, Place};
 
 /// One candidate: name, what it is in words, and expression of force \[N\].
 struct Term {
@@ -242,7 +242,7 @@ const TERMS: &[Term] = &[
 pub(crate) fn terms(is_machine: bool) -> Result<Vec<Effect>, DiagnoseError> {
     let can_act = |term: &&Term| !is_machine || term.parameters.len() == 1;
     let able = TERMS.iter().filter(can_act);
-    able.map(|term| Ok(CustomEffect::intern(&term.settings())?))
+    able.map(|term| Ok(Effect::custom(&term.settings())?))
         .collect()
 }
 

@@ -1,7 +1,9 @@
 //! The catalogue: one file per effect, here its `mod` line and its line in the list.
 
 use crate::custom::law::CustomEffect;
+use crate::custom::settings::CustomEffectSettings;
 use crate::description::Description;
+use crate::error::ModelError;
 use crate::law::{
     AnsweredHooks, Deflection, Delayed, Instant, Kinematics, Law, LoggedTorque, hooks,
 };
@@ -141,9 +143,30 @@ impl Effect {
             .find(|effect| effect.description().name == name)
     }
 
+    /// The effect that a study's own law is.
+    ///
+    /// # Errors
+    /// [`ModelError::CustomName`], [`ModelError::CustomParameter`], [`ModelError::CustomRange`],
+    /// [`ModelError::Expression`] and [`ModelError::ExpressionValue`] say what is wrong with the declaration and what is
+    /// allowed.
+    pub fn custom(settings: &CustomEffectSettings) -> Result<Self, ModelError> {
+        if Self::named(&settings.name).is_some() {
+            return Err(ModelError::CustomName {
+                name: settings.name.clone(),
+                problem: "is an effect of the catalogue; a custom effect needs a name of its own",
+            });
+        }
+        CustomEffect::intern(settings).map(Self::Custom)
+    }
+
     /// Its fixed name.
     pub fn name(&self) -> &'static str {
         self.description().name
+    }
+
+    /// True when the effect only changes what is measured, so that the motion itself stays the base model's.
+    pub fn measurement_only(&self) -> bool {
+        AnsweredHooks::of(self).are_of_sensors()
     }
 
     /// Whether it says with which motion the window begins.

@@ -169,14 +169,6 @@ macro_rules! declare_law {
                 let _ = compared;
                 None
             }
-
-            /// True when the effect only changes what is measured, so that the motion itself stays the base model's.
-            fn measurement_only(&self) -> bool
-            where
-                Self: Sized,
-            {
-                AnsweredHooks::of(self).are_of_sensors()
-            }
         }
     };
 }
@@ -236,6 +228,9 @@ macro_rules! declare_answered_hooks {
 
         impl AnsweredHooks {
             /// Asks once at rest: whether a law answers a hook depends on the law alone.
+            ///
+            /// Out of line: every law of the catalogue is worked out in it.
+            #[inline(never)]
             pub fn of(law: &impl Law) -> Self {
                 let description = law.description();
                 let p: Vec<f64> = (description.parameters.iter())

@@ -27,6 +27,7 @@ pub use base_model::sweep::{ScoredRecord, Sweep};
 pub use custom::law::CustomEffect;
 pub use custom::settings::{CustomEffectSettings, CustomParameterSettings, Place};
 pub use description::{Description, Kind, ParameterSpec, Scope};
+#[doc(inline)]
 pub use effects::{Effect, TRENDS};
 pub use error::ModelError;
 pub use input::torque::{Earlier, Input};
@@ -34,5 +35,5 @@ pub use law::{Deflection, Delayed, Instant, Kinematics, Law, LoggedTorque};
 pub use numeric::dual::Dual;
 pub use numeric::number::Number;
 pub use numeric::real::{Real, Task};
-pub use numeric::simd::{LaneTask, Lanes, in_lanes, with_processor_instructions};
+pub use numeric::simd::{LaneTask, in_lanes, with_processor_instructions};
 pub use simulate::side_by_side::{Run, simulate_side_by_side};

@@ -4,8 +4,8 @@
 
 use snug_campaign::{Intersample, Motion, Quantity, Rig};
 use snug_model::{
-    CustomEffect, CustomEffectSettings, CustomParameterSettings, Effect, Input, Kind, Law, Model,
-    ModelError, ModelSettings, Place, Scope,
+    CustomEffectSettings, CustomParameterSettings, Effect, Input, Kind, Law, Model, ModelError,
+    ModelSettings, Place, Scope,
 };
 
 const RIG: Rig = Rig {
@@ -36,7 +36,7 @@ fn settings(place: Place, expression: &str, parameters: &[&str]) -> CustomEffect
 }
 
 fn custom(place: Place, expression: &str, parameters: &[&str]) -> Effect {
-    CustomEffect::intern(&settings(place, expression, parameters)).unwrap()
+    Effect::custom(&settings(place, expression, parameters)).unwrap()
 }
 
 fn input() -> Input {
@@ -180,7 +180,7 @@ fn what_is_added_to_the_acceleration_shows_in_what_is_integrated_from_it() {
 #[test]
 fn an_addition_to_the_torque_is_in_the_torque_that_others_see() {
     let pushed = custom(Place::Torque, "p*step(t)", &["p"]);
-    let seen = CustomEffect::intern(&CustomEffectSettings {
+    let seen = Effect::custom(&CustomEffectSettings {
         name: "seen".to_owned(),
         ..settings(Place::Force, "q*T", &["q"])
     })
@@ -343,7 +343,7 @@ fn what_cannot_be_an_effect_says_why() {
     let with = |change: fn(&mut CustomEffectSettings)| {
         let mut bad = good.clone();
         change(&mut bad);
-        CustomEffect::intern(&bad).unwrap_err().to_string()
+        Effect::custom(&bad).unwrap_err().to_string()
     };
     type Case = (fn(&mut CustomEffectSettings), &'static str);
     let cases: [Case; 12] = [

@@ -4,8 +4,8 @@
 
 use snug_campaign::{Intersample, Quantity, Rig};
 use snug_model::{
-    CustomEffect, CustomEffectSettings, CustomParameterSettings, Effect, Input, Law, Model, Place,
-    Run, simulate_side_by_side,
+    CustomEffectSettings, CustomParameterSettings, Effect, Input, Law, Model, Place, Run,
+    simulate_side_by_side,
 };
 
 /// More than any register holds, and not a multiple of it.
@@ -152,7 +152,7 @@ fn laws_of_a_study() {
             maximum: 5.0,
             ..Default::default()
         };
-        CustomEffect::intern(&CustomEffectSettings {
+        Effect::custom(&CustomEffectSettings {
             name: name.to_owned(),
             place,
             expression: expression.to_owned(),

@@ -7,8 +7,8 @@ use snug_campaign::{
 };
 use snug_identify::{FitTask, IdentifyError, agreement, derived, identify_all};
 use snug_model::{
-    BASE_PARAMETERS, Input, Law, Model, euler_displacement, inverse_dynamics_force,
-    spring_damper_force, thesis_damping_ratio,
+    BASE_PARAMETERS, Input, Model, euler_displacement, inverse_dynamics_force, spring_damper_force,
+    thesis_damping_ratio,
 };
 use snug_preprocess::{Prepared, Preset, ThesisChecks, target_torque_nm};
 use std::borrow::Cow;

@@ -123,6 +123,10 @@ fn in_full(description: &Description) -> String {
     );
     line(
         &mut text,
+        format_args!("  Valid for   {}", description.valid_for),
+    );
+    line(
+        &mut text,
         format_args!("  Source      {}\n", description.source),
     );
     line(

@@ -45,11 +45,13 @@ impl Scale {
                 ..CustomParameterSettings::default()
             }],
         };
-        CustomEffect::intern_as(&settings, |written: &'static Description| Description {
-            equation: written.equation,
-            parameters: named_as(written.parameters, description.parameters),
-            ..*description
-        })
+        let sharp =
+            CustomEffect::intern_as(&settings, |written: &'static Description| Description {
+                equation: written.equation,
+                parameters: named_as(written.parameters, description.parameters),
+                ..*description
+            });
+        sharp.map(Effect::Custom)
     }
 }
 

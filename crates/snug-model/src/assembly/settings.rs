@@ -2,7 +2,6 @@
 
 use crate::assembly::model::Model;
 use crate::assembly::scale::Scale;
-use crate::custom::law::CustomEffect;
 use crate::custom::settings::CustomEffectSettings;
 use crate::effects::Effect;
 use crate::error::ModelError;
@@ -87,11 +86,11 @@ impl ModelSettings {
     /// The study's own effects, whether the model has them or not.
     ///
     /// # Errors
-    /// [`ModelError::CustomName`] when two have one name; otherwise as [`CustomEffect::intern`].
+    /// [`ModelError::CustomName`] when two have one name; otherwise as [`Effect::custom`].
     pub fn custom_effects(&self) -> Result<Vec<Effect>, ModelError> {
         let mut effects: Vec<Effect> = Vec::new();
         for settings in &self.custom {
-            let effect = CustomEffect::intern(settings)?;
+            let effect = Effect::custom(settings)?;
             if effects.iter().any(|known| known.name() == effect.name()) {
                 return Err(ModelError::CustomName {
                     name: settings.name.clone(),

@@ -4,7 +4,6 @@ use crate::custom::expression;
 use crate::custom::expression::{Program, Surroundings};
 use crate::custom::settings::{CustomEffectSettings, Place};
 use crate::description::{Description, Kind, ParameterSpec, Scope};
-use crate::effects::Effect;
 use crate::error::ModelError;
 use crate::law::{Instant, Kinematics, Law};
 use crate::numeric::number::Number;
@@ -21,19 +20,19 @@ pub struct CustomEffect {
 
 /// Every custom effect of this program.
 ///
-/// They are kept until the program ends, so that an [`Effect`] stays a small word that can be copied, compared and sent
+/// They are kept until the program ends, so that an effect stays a small word that can be copied, compared and sent
 /// between threads, with texts that live as long as the catalogue's. The same declaration is kept once, so the memory
 /// grows with the number of different laws only, not with the number of models.
 static KNOWN: Mutex<Vec<&'static CustomEffect>> = Mutex::new(Vec::new());
 
 impl CustomEffect {
-    /// The effect that `settings` declare.
+    /// The law that `settings` declare.
     ///
     /// # Errors
     /// [`ModelError::CustomName`], [`ModelError::CustomParameter`], [`ModelError::CustomRange`],
     /// [`ModelError::Expression`] and [`ModelError::ExpressionValue`] say what is wrong with the declaration and what is
     /// allowed.
-    pub fn intern(settings: &CustomEffectSettings) -> Result<Effect, ModelError> {
+    pub(crate) fn intern(settings: &CustomEffectSettings) -> Result<&'static Self, ModelError> {
         settings.check()?;
         Self::intern_as(settings, |written| *written)
     }
@@ -42,10 +41,10 @@ impl CustomEffect {
     pub(crate) fn intern_as(
         settings: &CustomEffectSettings,
         description: impl FnOnce(&'static Description) -> Description,
-    ) -> Result<Effect, ModelError> {
+    ) -> Result<&'static Self, ModelError> {
         let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(effect) = known.iter().find(|effect| effect.settings == *settings) {
-            return Ok(Effect::Custom(effect));
+            return Ok(effect);
         }
         let program = compile(settings)?;
         let written = describe(settings, &program);
@@ -55,7 +54,7 @@ impl CustomEffect {
             program,
         }));
         known.push(effect);
-        Ok(Effect::Custom(effect))
+        Ok(effect)
     }
 
     /// What declared it.

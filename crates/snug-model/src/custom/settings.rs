@@ -2,7 +2,6 @@
 
 use crate::custom::expression;
 use crate::custom::expression::Variable;
-use crate::effects::Effect;
 use crate::error::ModelError;
 use serde::{Deserialize, Serialize};
 use std::iter::once;
@@ -88,17 +87,11 @@ impl Default for CustomParameterSettings {
 impl CustomEffectSettings {
     /// Checks names and ranges; the expression is checked where it is compiled.
     pub(crate) fn check(&self) -> Result<(), ModelError> {
-        let name = |problem| {
-            Err(ModelError::CustomName {
-                name: self.name.clone(),
-                problem,
-            })
-        };
         if !expression::is_name(&self.name) {
-            return name("must be a letter, then letters, digits and underscores");
-        }
-        if Effect::named(&self.name).is_some() {
-            return name("is an effect of the catalogue; a custom effect needs a name of its own");
+            return Err(ModelError::CustomName {
+                name: self.name.clone(),
+                problem: "must be a letter, then letters, digits and underscores",
+            });
         }
         for (index, parameter) in self.parameters.iter().enumerate() {
             let reject = |problem| {

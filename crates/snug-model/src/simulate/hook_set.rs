@@ -39,7 +39,7 @@ hooks!(declare_hook_set);
 
 impl<'a, N: Number> HookedEffect<'a, N> {
     /// Those of the effects `parts` that answer what is asked.
-    fn of(parts: &[Part], p: &'a [N], answers: impl Fn(&AnsweredHooks) -> bool) -> Vec<Self> {
+    fn of(parts: &[Part], p: &'a [N], answers: fn(&AnsweredHooks) -> bool) -> Vec<Self> {
         let answering = parts.iter().filter(|part| answers(&part.answered));
         answering
             .map(|part| Self {
