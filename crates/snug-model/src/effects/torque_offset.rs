@@ -3,8 +3,7 @@
 //! T0 > 0 is a sensor that reads too much. Excited by itself. In the residual a step at the window's start that the spring
 //! turns into a constant angle −T0/(k l²).
 //!
-//! Valid for: a zero that stays the same while the tightening lasts; a tool that rests before the window, so that the step at
-//! its start is the model's alone.
+//! Valid for: a zero that does not drift within a tightening.
 //!
 //! Source: sensor zero offset.
 
