@@ -192,7 +192,7 @@ fn sort(candidates: &mut [Candidate]) {
 fn possible(refitted: Result<Fitted, DiagnoseError>) -> Result<Option<Fitted>, DiagnoseError> {
     match refitted {
         Ok(fitted) if fitted.squares().is_finite() => Ok(Some(fitted)),
-        Ok(_) | Err(DiagnoseError::Identify(_)) => Ok(None),
+        Ok(_) | Err(DiagnoseError::Identify(_) | DiagnoseError::Solve(_)) => Ok(None),
         Err(other) => Err(other),
     }
 }
@@ -205,4 +205,24 @@ pub(crate) fn gains(heldout: &[f64], fitted: &Fitted) -> Vec<f64> {
         .zip(with)
         .map(|(before, after)| before - after)
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use snug_identify::IdentifyError;
+    use snug_least_squares::SolveError;
+
+    /// A law that is infinite at its start is no reason to end a diagnosis, whichever fit finds out; an end that was asked for
+    /// is.
+    #[test]
+    fn a_candidate_that_cannot_be_simulated_is_left_out() {
+        for refused in [
+            DiagnoseError::Solve(SolveError::NoStart),
+            DiagnoseError::Identify(IdentifyError::Solve(SolveError::NoStart)),
+        ] {
+            assert!(matches!(possible(Err(refused)), Ok(None)));
+        }
+        assert!(possible(Err(DiagnoseError::Interrupted)).is_err());
+    }
 }

@@ -35,7 +35,7 @@ const MOST_PASSES: usize = 4;
 /// `own_starts` and `own_sets` hold one entry per member; starts outside their set are projected into it.
 ///
 /// # Errors
-/// [`SolveError::Start`] when the residual is not finite at the start, [`SolveError::NoStart`] without a member.
+/// [`SolveError::NoStart`] without a member, and where the residual is not finite at the start.
 pub fn solve_pooled(
     residual: &mut dyn PooledResidual,
     own_starts: &[Vec<f64>],
