@@ -25,7 +25,7 @@ pub struct Correction {
     /// The effect of the catalogue it corresponds to, for example `acceleration_bias`.
     pub effect: String,
     /// The measured quantity whose constant error it is; `None` where it is that of another signal, as the torque.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub constant_of: Option<Quantity>,
     /// Size that was subtracted.
     pub value: f64,

@@ -142,6 +142,12 @@ const CORRECTION: &[Field] = &[
         "",
         "Differs from zero beyond chance",
     ),
+    field(
+        "constant_of",
+        Kind::Text,
+        "",
+        "Measured quantity of which it is a constant error",
+    ),
 ];
 
 /// The message's table.
