@@ -126,7 +126,8 @@ fn a_tightening_without_a_measured_noise_does_not_take_the_others_theirs() {
     let said = diagnosis
         .reasons
         .iter()
-        .find(|r| r.contains("took no part"));
+        .map(ToString::to_string)
+        .find(|reason| reason.contains("took no part"));
     let said = said.expect("the diagnosis says that one is missing");
     assert!(said.contains("1 of 8"), "{said}");
     let mut findings = outcome.result.findings.iter();

@@ -70,7 +70,8 @@ fn a_climb_stopped_on_its_way_tells_the_rungs_it_reached() {
         let diagnosis = outcome.result.diagnosis.as_ref().unwrap();
         assert!(diagnosis.interrupted && diagnosis.ranking.is_empty());
         assert_eq!(diagnosis.verdict, Verdict::Undecided);
-        let (headline, stopped) = (&diagnosis.headline, diagnosis.stopped.as_ref().unwrap());
+        let headline = diagnosis.headline.to_string();
+        let stopped = diagnosis.stopped.as_ref().unwrap().to_string();
         assert!(headline.starts_with(told), "{headline}");
         assert!(stopped.starts_with("You ended it"), "{stopped}");
         let rungs = &diagnosis.ladder;

@@ -59,9 +59,17 @@ fn the_reasons_say_how_many_were_taken() {
     assert_eq!((some.tightenings, all), (8, 24));
     let told = some.reasons.iter();
     let told: Vec<_> = told
-        .filter(|one| one.contains("learnt from 8, taken evenly from 4 of the 12 files"))
+        .filter(|one| {
+            one.to_string()
+                .contains("learnt from 8, taken evenly from 4 of the 12 files")
+        })
         .collect();
     assert_eq!(told.len(), 1, "{:?}", some.reasons);
     let (every, _) = compare(240);
-    assert!(every.reasons.iter().all(|one| !one.contains("learnt from")));
+    assert!(
+        every
+            .reasons
+            .iter()
+            .all(|one| !one.to_string().contains("learnt from"))
+    );
 }

@@ -118,7 +118,7 @@ fn a_pendulum_asks_for_gravity() {
             diagnosis
                 .reasons
                 .iter()
-                .any(|reason| reason.contains("Restarted"))
+                .any(|reason| reason.to_string().contains("Restarted"))
         );
         let written = std::fs::read_to_string(out.path().join("study.ron")).unwrap();
         assert!(written.contains("Restarted"), "the choice is written out");

@@ -2,13 +2,14 @@
 
 mod ladder;
 mod ranking;
-mod size;
 #[cfg(test)]
 mod tests;
 
 use ladder::ladder;
 use ranking::ranking;
-use size::{by_chance, significant, sized};
+use snug_campaign::words::chance::by_chance;
+use snug_campaign::words::effect_name::{called, names_in};
+use snug_campaign::words::size::sizes;
 use snug_campaign::{Diagnosis, Location, RankedEffect, Verdict};
 use std::fmt::Write as _;
 use std::io::IsTerminal as _;
@@ -88,51 +89,10 @@ impl Page {
 }
 
 fn verdict(page: &mut Page, diagnosis: &Diagnosis) {
-    let known = diagnosis
-        .ladder
-        .iter()
-        .any(|rung| rung.error_over_noise.is_some());
-    let word = match diagnosis.verdict {
-        _ if diagnosis.interrupted => "stopped by you before there was one",
-        Verdict::Adequate => "the model is adequate",
-        Verdict::MissingEffect => "an effect is missing",
-        Verdict::UnlistedEffect => "something is missing that is in no catalogue",
-        // A comparison asks how much is missing, not what.
-        Verdict::Undecided if diagnosis.verb == "compare" && known => {
-            "the model leaves more than the noise"
-        }
-        Verdict::Undecided if diagnosis.verb == "compare" => {
-            "the model leaves an error, and the noise is not known"
-        }
-        Verdict::Undecided => "too little data to say",
-    };
-    page.heading(&format!("Verdict: {word}"));
-    page.paragraph("  ", &diagnosis.headline);
+    page.heading(&format!("Verdict: {}", diagnosis.word()));
+    page.paragraph("  ", &diagnosis.headline.to_string());
     for reason in &diagnosis.reasons {
-        page.paragraph("  - ", reason);
-    }
-    let told = |name: &str| {
-        let words = name.replace('_', " ");
-        diagnosis
-            .reasons
-            .iter()
-            .any(|reason| reason.contains(&words) && reason.contains("taken out"))
-    };
-    for corrected in diagnosis
-        .corrected
-        .iter()
-        .filter(|corrected| !told(&corrected.effect))
-    {
-        page.paragraph(
-            "  - ",
-            &format!(
-                "Taken out before the fit: {}, typically {} {}, in {:.0} % of the tightenings.",
-                corrected.effect,
-                significant(corrected.size),
-                corrected.unit,
-                100.0 * corrected.share
-            ),
-        );
+        page.paragraph("  - ", &reason.to_string());
     }
 }
 
@@ -146,7 +106,7 @@ fn missing(page: &mut Page, diagnosis: &Diagnosis) {
     let twins = diagnosis.ranking.iter().filter(is_twin);
     for one in std::iter::once(first).chain(twins) {
         let name = called(&one.effect, one.expression.as_ref());
-        page.heading(&format!("What {} is", name.replace('_', " ")));
+        page.heading(&format!("What {name} is"));
         for sentence in &one.explanation {
             page.paragraph("  - ", sentence);
         }
@@ -166,25 +126,6 @@ fn not_yet_added(diagnosis: &Diagnosis) -> Option<&RankedEffect> {
     }
 }
 
-/// `cubic_stiffness`; a term in no catalogue by what it is: `force p*x^2*v`.
-fn called(effect: &str, expression: Option<&String>) -> String {
-    expression.map_or_else(
-        || effect.to_owned(),
-        |expression| format!("force {expression}"),
-    )
-}
-
-/// An effect of the model by its name, a term in no catalogue by what it is.
-fn called_in(diagnosis: &Diagnosis, effect: &str) -> String {
-    called(effect, diagnosis.expression(effect))
-}
-
-/// Effects that a diagnosis knows as a sentence lists them.
-fn names_in(diagnosis: &Diagnosis, effects: &[String]) -> String {
-    let names = effects.iter().map(|effect| called_in(diagnosis, effect));
-    names.collect::<Vec<_>>().join(", ")
-}
-
 fn shortened(text: &str, columns: usize) -> String {
     if text.chars().count() <= columns {
         return text.to_owned();
@@ -199,9 +140,8 @@ fn added(page: &mut Page, diagnosis: &Diagnosis) {
     }
     page.heading("In the model now");
     for effect in &diagnosis.added {
-        let sizes: Vec<String> = effect.parameters.iter().map(sized).collect();
         let name = called(&effect.effect, effect.expression.as_ref());
-        page.paragraph("  ", &format!("{name}: {}", sizes.join("; ")));
+        page.paragraph("  ", &format!("{name}: {}", sizes(&effect.parameters)));
         let mut evidence = Vec::new();
         if let Some(gain) = effect.heldout_gain {
             evidence.push(format!(
@@ -234,7 +174,7 @@ fn places(page: &mut Page, diagnosis: &Diagnosis) {
         }
         page.heading(heading);
         for remark in &location.remarks {
-            page.paragraph("  - ", remark);
+            page.paragraph("  - ", &remark.to_string());
         }
     };
     match &diagnosis.final_location {

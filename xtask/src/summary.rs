@@ -1,5 +1,7 @@
 //! What a run prints at its end: presets, means, agreement, findings, and which files were written, kept or left.
 
+use snug_campaign::words::counted;
+use snug_campaign::words::number::significant;
 use snug_campaign::{
     CampaignResult, Finding, Moments, PresetSummary, Rejection, Severity, TighteningResult,
 };
@@ -134,7 +136,7 @@ fn corrections(text: &mut String, result: &CampaignResult) {
                 "  corrected from the quiet part: {effect} in {} of {} tightenings, median size {} {unit}",
                 sizes.len(),
                 result.tightenings.len(),
-                significant(sizes[sizes.len() / 2])
+                four_digits(sizes[sizes.len() / 2])
             ),
         );
     }
@@ -163,16 +165,16 @@ fn parameters(text: &mut String, result: &CampaignResult) {
     for (name, moments) in rows {
         let sd = moments
             .standard_deviation
-            .map_or_else(|| "–".to_owned(), significant);
+            .map_or_else(|| "–".to_owned(), four_digits);
         let interval = moments.mean_interval.map_or_else(
             || "–".to_owned(),
-            |i| format!("{} to {}", significant(i.low), significant(i.high)),
+            |i| format!("{} to {}", four_digits(i.low), four_digits(i.high)),
         );
         line(
             text,
             format_args!(
                 "  {name:<width$} {:>11} {sd:>11} {interval:>25}",
-                significant(moments.mean)
+                four_digits(moments.mean)
             ),
         );
     }
@@ -198,13 +200,8 @@ fn called(column: &str, result: &CampaignResult) -> String {
 }
 
 /// Four significant digits.
-fn significant(value: f64) -> String {
-    if value == 0.0 || (1e-3..1e6).contains(&value.abs()) {
-        let digits = 3 - value.abs().max(1e-9).log10().floor() as i32;
-        format!("{value:.*}", digits.clamp(0, 8) as usize)
-    } else {
-        format!("{value:.3e}")
-    }
+fn four_digits(value: f64) -> String {
+    significant(value, 4)
 }
 
 fn validation(text: &mut String, result: &CampaignResult) {
@@ -216,19 +213,11 @@ fn validation(text: &mut String, result: &CampaignResult) {
                 format_args!(
                     "  validation {}: rms residual of the displacement {} {}",
                     tightening.id,
-                    significant(rms * result.units.output_per_rad),
+                    four_digits(rms * result.units.output_per_rad),
                     result.units.output
                 ),
             );
         }
-    }
-}
-
-/// "1 file", "2 files".
-fn counted(count: usize, one: &str) -> String {
-    match count {
-        1 => format!("1 {one}"),
-        _ => format!("{count} {one}s"),
     }
 }
 

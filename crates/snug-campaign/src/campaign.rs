@@ -133,7 +133,7 @@ impl ParameterMeaning {
 }
 
 /// A campaign, evaluated.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct CampaignResult {
     /// Title of the study.
     pub title: String,

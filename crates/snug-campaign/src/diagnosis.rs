@@ -1,5 +1,8 @@
 //! What was found out about the model itself: where it fails, which effect is missing, and how the error falls.
 
+use crate::words::headline::Headline;
+use crate::words::reason::Reason;
+use crate::words::stopped::Stopped;
 use crate::{Comparison, Drift, Location, TighteningId, Traces};
 use serde::{Deserialize, Serialize};
 
@@ -90,6 +93,9 @@ pub struct RankedEffect {
     pub error_over_noise: Option<f64>,
     /// Standard deviations by which the first of the ranking explains more, over tightenings; 0 for the first.
     pub behind_first: f64,
+    /// Whether the data support it: beyond chance at the diagnosis' level, and a gain in held-out tightenings beyond its
+    /// scatter.
+    pub supported: bool,
     /// Effects that these data cannot tell from it.
     pub twins: Vec<String>,
     /// Whether its size is physically plausible: the fit settled, every estimate within its range.
@@ -291,18 +297,20 @@ pub struct WorkDone {
 }
 
 /// Model against measurement, as far as a verb looked.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Diagnosis {
     /// `compare`, `diagnose`, `add` or `improve`.
     pub verb: String,
     /// The verdict.
     pub verdict: Verdict,
-    /// The verdict in one sentence.
-    pub headline: String,
-    /// Why, in plain words.
-    pub reasons: Vec<String>,
-    /// Why the climb stopped; `None` for verbs that do not climb.
-    pub stopped: Option<String>,
+    /// The verdict, to be said in one sentence.
+    pub headline: Headline,
+    /// Why.
+    pub reasons: Vec<Reason>,
+    /// Why nothing more was added; `None` for verbs that add nothing.
+    pub stopped: Option<Stopped>,
+    /// Family-wise p up to which an effect is believed.
+    pub level: f64,
     /// Whether whoever asked ended the climb: what is told is what was known by then.
     pub interrupted: bool,
     /// Tightenings that took part.

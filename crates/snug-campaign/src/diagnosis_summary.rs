@@ -1,5 +1,8 @@
 //! The part of a diagnosis that verdict.json and the recording share, so that both say the same of it.
 
+use crate::words::headline::Headline;
+use crate::words::reason::Reason;
+use crate::words::stopped::Stopped;
 use crate::{
     AddedEffect, CorrectedEffect, Detectability, Diagnosis, Drift, Experiment, NegativeControl,
     NoiseStatement, Removal, UnlistedTerm, WorkDone,
@@ -11,9 +14,10 @@ use serde::Serialize;
 #[derive(Debug, Clone, Copy, Serialize)]
 pub struct DiagnosisSummary<'a> {
     verdict: &'static str,
-    headline: &'a str,
-    reasons: &'a [String],
-    stopped: Option<&'a str>,
+    headline: &'a Headline,
+    reasons: &'a [Reason],
+    stopped: Option<&'a Stopped>,
+    level: f64,
     interrupted: bool,
     verb: &'a str,
     tightenings: usize,
@@ -37,7 +41,8 @@ impl Diagnosis {
             verdict: self.verdict.name(),
             headline: &self.headline,
             reasons: &self.reasons,
-            stopped: self.stopped.as_deref(),
+            stopped: self.stopped.as_ref(),
+            level: self.level,
             interrupted: self.interrupted,
             verb: &self.verb,
             tightenings: self.tightenings,

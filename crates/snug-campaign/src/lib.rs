@@ -17,6 +17,7 @@ mod rig;
 mod tightening;
 mod time_base;
 mod units;
+pub mod words;
 
 pub use campaign::{
     CampaignResult, ConditionSummary, EffectSize, Moments, ParameterMeaning, PresetSummary,

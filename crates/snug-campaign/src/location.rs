@@ -1,6 +1,7 @@
 //! Where a model fails: the words for it.
 
 use crate::Interval;
+use crate::words::remark::Remark;
 use serde::{Deserialize, Serialize};
 
 /// Mean squared misfit in one part of the data (a stretch of time, a band of frequency, a condition).
@@ -60,7 +61,7 @@ pub struct ForceMap {
 }
 
 /// Where a model fails.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct Location {
     /// The misfit over time, phase, frequency, amplitude and conditions.
     pub aspects: Vec<Aspect>,
@@ -70,8 +71,8 @@ pub struct Location {
     pub force_map: ForceMap,
     /// Share of the squared misfit that the other tightenings' mean residual predicts, 0 to 1.
     pub repeatable_share: Option<f64>,
-    /// What stands out, in plain words.
-    pub remarks: Vec<String>,
+    /// What stands out.
+    pub remarks: Vec<Remark>,
 }
 
 /// Dependence of one fitted parameter on something it should not depend on.

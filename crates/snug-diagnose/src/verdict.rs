@@ -5,6 +5,6 @@ pub(crate) mod detectability;
 pub(crate) mod experiment;
 pub(crate) mod ladder;
 pub(crate) mod preparation;
+pub(crate) mod reasons;
 pub(crate) mod tightening_fits;
 pub(crate) mod trend;
-pub(crate) mod wording;

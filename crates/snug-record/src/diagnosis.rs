@@ -2,6 +2,7 @@
 
 use crate::schema::{Field, Kind, Message, field};
 use serde::Serialize;
+use snug_campaign::words::remark::Remark;
 use snug_campaign::{Diagnosis, DiagnosisSummary, Misfit};
 
 /// The message of `/verdict`: the diagnosis without ladder and ranking, which have topics of their own, and without maps
@@ -11,8 +12,8 @@ pub(crate) struct VerdictMessage<'a> {
     #[serde(flatten)]
     summary: DiagnosisSummary<'a>,
     comparison: &'a [Misfit],
-    where_it_fails: &'a [String],
-    where_the_final_model_fails: &'a [String],
+    where_it_fails: &'a [Remark],
+    where_the_final_model_fails: &'a [Remark],
     repeatable_share: Option<f64>,
 }
 
@@ -204,6 +205,7 @@ pub(crate) const RANKING: Message = Message {
             "",
             "Standard deviations behind the first",
         ),
+        field("supported", Kind::Flag, "", "The data support it"),
         field(
             "twins",
             Kind::List(&Kind::Text),

@@ -1,7 +1,6 @@
 #![doc = include_str!("../README.md")]
 
 mod decimation;
-mod effect_name;
 mod effect_words;
 mod figure;
 mod findings_json;

@@ -1,7 +1,7 @@
 //! What a column name means: `stiffness_n_per_m` is read as "stiffness k" in N/m.
 
-use crate::effect_name::unit_text;
 use crate::signal_unit;
+use snug_campaign::words::effect_name::unit_text;
 use snug_campaign::{CampaignResult, ParameterMeaning};
 
 /// How a quantity is called on the page.

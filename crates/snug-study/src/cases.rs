@@ -6,6 +6,7 @@ use crate::prepared_file::{KeptFiles, PreparedFile};
 use crate::{Study, StudyError};
 use rayon::prelude::*;
 use snug_campaign::Rejection;
+use snug_campaign::words::reason::Reason;
 use snug_files::{Disk, Host};
 use snug_identify::{FitTask, IdentifySettings};
 use snug_ingest::IngestError;
@@ -67,13 +68,21 @@ pub(crate) fn chosen(
         parts.sort_by_key(|part| part.number);
     }
     let is_selection = parts.len() < files.len() || parts.iter().any(|part| part.is_selection);
-    let remark = selection(taken(&parts), parts.len(), files.len());
+    let reason = Reason::LearntFrom {
+        taken: taken(&parts),
+        read: parts.len(),
+        files: files.len(),
+    };
     let unread: Vec<IngestError> = (parts.iter_mut())
         .filter_map(|part| part.unread.take())
         .collect();
     let mut comparable = comparable(parts.into_iter().flat_map(|part| part.cases).collect());
-    comparable.remarks.extend(is_selection.then_some(remark));
-    (comparable.remarks).extend(unread_files(&unread));
+    comparable.reasons.extend(is_selection.then_some(reason));
+    // A disk that fails for a moment may read them again when the study is run, and then no finding names them.
+    (comparable.reasons).extend(unread.first().map(|first| Reason::Unread {
+        first: first.to_string(),
+        more: unread.len() - 1,
+    }));
     Ok((comparable, kept.into_inner().unwrap_or_default()))
 }
 
@@ -104,17 +113,6 @@ impl Part {
             unread: None,
         }
     }
-}
-
-/// That effects were learnt from some tightenings only.
-fn selection(taken: usize, read: usize, all: usize) -> String {
-    let from = match read < all {
-        true => format!("{read} of the {all} files"),
-        false => format!("each of the {all} files"),
-    };
-    format!(
-        "There are many tightenings: what is missing, and how large it is, was learnt from {taken}, taken evenly from {from}; every tightening was then evaluated with what was learnt. `diagnosis: (most_tightenings: …)` in the study says how many may be used."
-    )
 }
 
 /// The same tightenings with a study that differs in its model and in how that is run.
@@ -174,17 +172,4 @@ fn cases_of_file(study: &Study, file: &PreparedFile) -> Result<Vec<FitTask<'stat
         }
     }
     Ok(cases)
-}
-
-/// What is to be said of files that could not be read for a diagnosis: a disk that fails for a moment may read them again
-/// when the study is run, and then no finding names them.
-fn unread_files(errors: &[IngestError]) -> Option<String> {
-    let first = errors.first()?;
-    let more = match errors.len() - 1 {
-        0 => String::new(),
-        some => format!(" (and {some} more)"),
-    };
-    Some(format!(
-        "Not every file could be read, so this diagnosis is in part without it: {first}{more}."
-    ))
 }

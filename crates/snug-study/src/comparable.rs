@@ -1,6 +1,7 @@
 //! Tightenings that can be judged together: one output, and either all against their measured noise or none.
 
 use snug_campaign::Quantity;
+use snug_campaign::words::reason::Reason;
 use snug_identify::FitTask;
 use std::collections::BTreeMap;
 
@@ -8,7 +9,7 @@ use std::collections::BTreeMap;
 pub(crate) struct Comparable {
     pub cases: Vec<FitTask<'static>>,
     /// Why others take no part; empty where all do.
-    pub remarks: Vec<String>,
+    pub reasons: Vec<Reason>,
 }
 
 /// The largest group of tightenings that have the compared output and a known (or unknown) noise in common; of equals,
@@ -29,23 +30,17 @@ pub(crate) fn comparable(cases: Vec<FitTask<'static>>) -> Comparable {
     let kept: Vec<FitTask<'static>> = (cases.into_iter().zip(measures))
         .filter_map(|(case, measure)| (Some(measure) == largest).then_some(case))
         .collect();
-    let remark = match (largest, all - kept.len()) {
+    let reason = match (largest, all - kept.len()) {
         (None, _) | (_, 0) => None,
-        (Some(measure), left_out) => Some(remark(left_out, all, measure)),
+        (Some((quantity, has_noise)), left_out) => Some(Reason::LeftOut {
+            left_out,
+            all,
+            quantity: quantity.name(),
+            has_noise,
+        }),
     };
     Comparable {
         cases: kept,
-        remarks: remark.into_iter().collect(),
+        reasons: reason.into_iter().collect(),
     }
-}
-
-fn remark(left_out: usize, all: usize, (quantity, has_noise): (Quantity, bool)) -> String {
-    let measure = match has_noise {
-        true => format!("{} in multiples of its measured noise", quantity.name()),
-        false => format!("{} without a measured noise", quantity.name()),
-    };
-    format!(
-        "{left_out} of {all} tightenings took no part in the diagnosis: all must be judged by one measure, here {measure}, and that could not be had of {}. findings.json says why.",
-        if left_out == 1 { "this one" } else { "these" }
-    )
 }

@@ -159,7 +159,7 @@ pub fn diagnose(
     let (comparable, kept) = pool.install(|| chosen(study, disk, &files, most))?;
     let Comparable {
         cases,
-        remarks: left_out,
+        reasons: left_out,
     } = comparable;
     if interrupted.load(Ordering::Relaxed) {
         return Err(StudyError::Interrupted);
@@ -168,9 +168,9 @@ pub fn diagnose(
         return nothing_to_compare(study, workplace, settings, progress, interrupted);
     }
     let settled = pool.install(|| settle(study, &cases));
-    let (study, cases, remarks) = match &settled {
-        Some(Settled { study, remarks }) => {
-            (study, with_settled(study, cases)?, remarks.as_slice())
+    let (study, cases, reasons) = match &settled {
+        Some(Settled { study, reasons }) => {
+            (study, with_settled(study, cases)?, reasons.as_slice())
         }
         None => (study, cases, [].as_slice()),
     };
@@ -190,7 +190,7 @@ pub fn diagnose(
     let tell = |what: &str| progress(ProgressEvent::Stage { what });
     let watch = Watch::new(&tell).until(interrupted);
     let mut answer = pool.install(|| examine(&question, &search, &watch))?;
-    answer.diagnosis.reasons.extend_from_slice(remarks);
+    answer.diagnosis.reasons.extend_from_slice(reasons);
     answer.diagnosis.reasons.extend(left_out);
     drop(cases);
     let (last, ladder) = climb(study, answer);

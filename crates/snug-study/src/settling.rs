@@ -3,6 +3,7 @@
 
 use crate::Study;
 use snug_campaign::Quantity;
+use snug_campaign::words::reason::Reason;
 use snug_identify::{FitTask, IdentifySettings, Simulation, identify, motions, widest_half_width};
 use snug_model::Scale;
 use snug_preprocess::Window;
@@ -10,7 +11,7 @@ use snug_preprocess::Window;
 /// The study with its automatic choices made, and what is to be said about them.
 pub(crate) struct Settled {
     pub study: Study,
-    pub remarks: Vec<String>,
+    pub reasons: Vec<Reason>,
 }
 
 /// Makes the choices that the study leaves open, where its window is a whole record; `None` where there are none.
@@ -21,7 +22,7 @@ pub(crate) fn settle(study: &Study, cases: &[FitTask<'_>]) -> Option<Settled> {
     let sizes = Sizes::of(cases)?;
     let mut settled = Settled {
         study: study.clone(),
-        remarks: Vec::new(),
+        reasons: Vec::new(),
     };
     if study.model.scale == Scale::Automatic {
         settled.study.model.scale = Scale::Rig {
@@ -35,11 +36,10 @@ pub(crate) fn settle(study: &Study, cases: &[FitTask<'_>]) -> Option<Settled> {
         let every_s = sizes.period_s() / STRETCHES_PER_PERIOD;
         settled.study.identify.simulation = match missed {
             Some(share) if share > POOR && every_s >= FEWEST_SAMPLES * interval_s(&cases[0]) => {
-                settled.remarks.push(format!(
-                    "Run freely from its first sample on, the study's own model misses {percent:.0} % of the measured motion, so that a free run says little about single effects. Every model is therefore judged by what it predicts over {every} s from the measured motion, again and again (`identify.simulation: Restarted(every_s: {every})`; `FreeRun` in the study file asks for the whole record at once).",
-                    percent = 100.0 * share.min(9.99),
-                    every = three_digits(every_s)
-                ));
+                settled.reasons.push(Reason::Restarted {
+                    missed: share,
+                    every_s: three_digits(every_s),
+                });
                 let search = &mut settled.study.diagnosis.search;
                 for gain in [
                     &mut search.smallest_gain,

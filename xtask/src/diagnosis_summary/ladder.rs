@@ -1,7 +1,8 @@
 //! The ladder for a terminal: a line per model with its error and a bar.
 
-use super::size::significant;
-use super::{Page, called_in, shortened};
+use super::{Page, shortened};
+use snug_campaign::words::effect_name::label_in;
+use snug_campaign::words::number::significant;
 use snug_campaign::{Diagnosis, Rung};
 
 /// Columns of the longest bar.
@@ -43,7 +44,9 @@ pub fn ladder(page: &mut Page, diagnosis: &Diagnosis) {
     let floor = if known { 1.0 } else { 0.0 };
     let mut before: &Rung = first;
     for (rung, error) in diagnosis.ladder.iter().zip(&errors) {
-        let number = |value: Option<f64>| value.map_or_else(|| "?".to_owned(), significant);
+        let number = |value: Option<f64>| {
+            value.map_or_else(|| "?".to_owned(), |value| significant(value, 4))
+        };
         let unseen = if known {
             number(rung.heldout_error_over_noise)
         } else {
@@ -70,7 +73,7 @@ pub fn ladder(page: &mut Page, diagnosis: &Diagnosis) {
         &format!("{bars}selected: share of tightenings that fit well enough to be used."),
     );
     if let Some(stopped) = &diagnosis.stopped {
-        page.paragraph("  Stopped: ", stopped);
+        page.paragraph("  Stopped: ", &stopped.to_string());
     }
     for removal in &diagnosis.removals {
         page.paragraph("  Tried without: ", &removal.statement);
@@ -79,7 +82,7 @@ pub fn ladder(page: &mut Page, diagnosis: &Diagnosis) {
 
 /// What a rung changes against the one before it.
 fn step(before: &Rung, rung: &Rung, diagnosis: &Diagnosis) -> String {
-    let called = |effect: &String| called_in(diagnosis, effect);
+    let called = |effect: &String| label_in(diagnosis, effect);
     let gained = rung.effects.iter().filter(|e| !before.effects.contains(e));
     let lost = before.effects.iter().filter(|e| !rung.effects.contains(e));
     let steps: Vec<String> = gained

@@ -1,7 +1,9 @@
 //! The few candidates that are worth a line on the screen.
 
-use super::size::{self, sized};
-use super::{Page, called, names_in, not_yet_added, shortened};
+use super::{Page, not_yet_added, shortened};
+use snug_campaign::words::chance::share_with_error;
+use snug_campaign::words::effect_name::{label, names_in};
+use snug_campaign::words::number::p_value;
 use snug_campaign::{Diagnosis, Doubt, RankedEffect, Verdict};
 
 /// Candidates shown; the report lists all. Behind the very first, neither terms in no catalogue nor what could be chance.
@@ -17,9 +19,7 @@ pub fn ranking(page: &mut Page, diagnosis: &Diagnosis) {
         .ranking
         .iter()
         .enumerate()
-        .filter(|(place, candidate)| {
-            *place < FIRST || !candidate.unlisted && candidate.p_family <= 0.05
-        })
+        .filter(|(place, candidate)| *place < FIRST || !candidate.unlisted && candidate.supported)
         .take(CANDIDATES)
         .collect();
     let shown = candidates.len();
@@ -75,14 +75,18 @@ pub fn ranking(page: &mut Page, diagnosis: &Diagnosis) {
 }
 
 fn row(page: &mut Page, candidate: &RankedEffect) {
-    let name = called(&candidate.effect, candidate.expression.as_ref());
-    let gain = size::share(candidate.heldout_gain, candidate.heldout_gain_error);
+    let name = label(&candidate.effect, candidate.expression.as_ref());
+    let gain = share_with_error(candidate.heldout_gain, candidate.heldout_gain_error);
     let lead = format!(
         "  {:<27} {gain:>12} {:>8}  ",
         shortened(&name, 27),
-        size::p_value(candidate.p_family)
+        p_value(Some(candidate.p_family))
     );
-    let mut sizes: Vec<String> = candidate.parameters.iter().map(sized).collect();
+    let mut sizes: Vec<String> = candidate
+        .parameters
+        .iter()
+        .map(|one| one.size().to_string())
+        .collect();
     if candidate.doubt() == Some(Doubt::NotSettled) {
         sizes.push("the fit did not settle".into());
     }

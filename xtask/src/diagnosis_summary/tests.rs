@@ -2,6 +2,10 @@
 #![allow(clippy::unwrap_used)]
 
 use super::{Following, WIDTH, text};
+use snug_campaign::words::effect_name::Named;
+use snug_campaign::words::headline::{Fall, Headline, Left};
+use snug_campaign::words::reason::Reason;
+use snug_campaign::words::remark::Remark;
 use snug_campaign::*;
 
 const FOLLOWING: Following = Following {
@@ -39,6 +43,7 @@ fn candidate(effect: &str, gain: f64, p: f64, size: EffectParameter) -> RankedEf
         heldout_gain_error: 0.04,
         error_over_noise: Some(1.4),
         behind_first: 0.0,
+        supported: p <= 0.05,
         twins: vec!["quadratic_stiffness".into()],
         plausible: true,
         explanation: vec![],
@@ -59,13 +64,42 @@ fn rung(effects: &[&str], error: Option<f64>, selected: f64) -> Rung {
     }
 }
 
+fn left(error: f64) -> Left {
+    Left {
+        error,
+        is_over_noise: true,
+    }
+}
+
+/// An effect with so many twins.
+fn named(twins: usize) -> Named {
+    Named {
+        effect: "cubic_stiffness".into(),
+        expression: None,
+        says: None,
+        twins: (0..twins).map(|_| named(0)).collect(),
+    }
+}
+
 fn missing() -> Diagnosis {
     Diagnosis {
         verb: "diagnose".into(),
         verdict: Verdict::MissingEffect,
-        headline: "Missing: cubic stiffness. ".repeat(12),
-        reasons: vec!["It does not fit.".into()],
+        headline: Headline::Lacks {
+            effect: named(8),
+            fall: Fall {
+                before: left(6.4),
+                after: left(1.38),
+            },
+        },
+        reasons: vec![Reason::Error {
+            tightenings: 24,
+            error: 6.4,
+            is_at_floor: false,
+            is_adequate: false,
+        }],
         stopped: None,
+        level: 0.05,
         interrupted: false,
         tightenings: 24,
         noise: NoiseStatement {
@@ -89,7 +123,7 @@ fn missing() -> Diagnosis {
         removals: vec![],
         comparison: Comparison::default(),
         location: Location {
-            remarks: vec!["Most of it lies around the peak.".into()],
+            remarks: vec![Remark::Repeats(0.97)],
             ..Location::default()
         },
         final_location: None,
@@ -124,7 +158,7 @@ fn the_verdict_leads_and_the_next_command_closes() {
         text.trim_end()
             .ends_with("cargo xtask improve --study rig.ron")
     );
-    assert!(text.contains("Most of it lies around the peak."));
+    assert!(text.contains("97 % of the misfit can be predicted"));
 }
 
 #[test]
@@ -140,7 +174,7 @@ fn lines_keep_their_width_and_plain_text_has_no_colours() {
 #[test]
 fn sizes_stand_with_unit_and_interval() {
     let text = text(&missing(), &FOLLOWING, false);
-    assert!(text.contains("cubic stiffness 9.90e5 [9.61e5, 1.02e6] N/m^3"));
+    assert!(text.contains("cubic stiffness 9.90 × 10⁵ [9.61, 10.19] × 10⁵ N/m³"));
     assert!(text.contains("83 ± 4 %"));
     assert!(text.contains("< 0.001"));
     assert!(text.contains("effect_7") && !text.contains("effect_8"));
@@ -159,20 +193,21 @@ fn what_is_missing_is_explained() {
     assert!(text.contains("100 ± 4 %") && !text.contains("173"));
 }
 
+fn said(size: &EffectParameter) -> String {
+    size.size().to_string().replace('\u{a0}', " ")
+}
+
 #[test]
 fn zero_is_zero_and_units_follow_the_value() {
     let mut size = parameter("gap_m", "m", 1.3e-7, 0.0, 3.1e-7);
     assert_eq!(
-        super::sized(&size),
-        "cubic stiffness 1.30e-7 [0, 3.10e-7] m"
+        said(&size),
+        "cubic stiffness 1.3 × 10⁻⁷ [0.0, 3.1] × 10⁻⁷ m"
     );
     size.low = None;
-    assert_eq!(
-        super::sized(&size),
-        "cubic stiffness 1.30e-7 m (no interval)"
-    );
+    assert_eq!(said(&size), "cubic stiffness 1.300 × 10⁻⁷ m (no interval)");
     let size = parameter("bias", "rad/s^2", 0.13, -0.001, 0.26);
-    assert!(super::sized(&size).contains("[0.00, 0.26]"));
+    assert!(said(&size).contains("[0.00, 0.26]"));
 }
 
 #[test]
@@ -279,7 +314,7 @@ fn a_climb_that_was_stopped_says_so_and_how_to_go_on() {
     diagnosis.interrupted = true;
     let text = text(&diagnosis, &FOLLOWING, false);
     assert!(
-        text.contains("Verdict: stopped by you before there was one"),
+        text.contains("Verdict: stopped by you before there was a verdict"),
         "{text}"
     );
     assert!(

@@ -1,5 +1,6 @@
 //! What counts as one independent piece of evidence: a tightening, or, where there are few, a stretch of one.
 
+use snug_campaign::words::reason::Cluster;
 use snug_identify::FitTask;
 use std::ops::Range;
 
@@ -39,11 +40,11 @@ impl Units {
         self.per_case == 1
     }
 
-    /// What people call them.
-    pub fn named(self) -> &'static str {
+    /// What each of them is.
+    pub fn cluster(self) -> Cluster {
         match self.are_whole() {
-            true => "tightenings",
-            false => "stretches of the record",
+            true => Cluster::Tightening,
+            false => Cluster::Stretch,
         }
     }
 

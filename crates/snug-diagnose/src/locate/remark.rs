@@ -1,10 +1,11 @@
-//! What stands out, in plain words.
+//! What stands out of where a model fails.
 //!
 //! A part stands out when the low end of its error's interval lies above the whole campaign's error (for stretches of
 //! time and frequency: above the noise) and its share of the misfit is well above its share of the data.
 
 use super::force_shape::Followed;
 use super::residual::Residuals;
+use snug_campaign::words::remark::{Remark, Times};
 use snug_campaign::{Aspect, Share};
 
 /// Share of the misfit that counts as most of it.
@@ -30,147 +31,98 @@ pub fn remarks(
     aspects: &[Aspect],
     followed: &Followed,
     repeatable_share: Option<f64>,
-) -> Vec<String> {
+) -> Vec<Remark> {
     if !residuals.beyond_noise {
-        return vec![format!(
-            "Nothing stands out: the error is {:.2} times the measured noise, which is what noise alone gives.",
-            residuals.error_over_noise
-        )];
+        return vec![Remark::OnlyNoise(residuals.error_over_noise)];
     }
-    let told = Told { residuals };
-    let mut remarks: Vec<String> = aspects
+    let seen = Seen { residuals };
+    let mut remarks: Vec<Remark> = aspects
         .iter()
         .filter_map(|aspect| match aspect.aspect.as_str() {
-            "time_since_onset_s" => told.time(&aspect.parts),
-            "phase" => told.phase(&aspect.parts),
-            "frequency_hz" => told.frequency(&aspect.parts),
-            "amplitude_rad" => told.amplitude(&aspect.parts),
-            "participant" => told.condition(&aspect.parts, "Participant "),
-            "strategy" => told.condition(&aspect.parts, "Strategy "),
-            "joint" => told.condition(&aspect.parts, "Joint "),
-            "pace_per_min" => told.condition(&aspect.parts, "The pace of "),
-            "target_torque_nm" => told.condition(&aspect.parts, "The target of "),
-            _ => None,
+            "time_since_onset_s" => seen.time(&aspect.parts),
+            "phase" => seen.phase(&aspect.parts),
+            "frequency_hz" => seen.frequency(&aspect.parts),
+            "amplitude_rad" => seen.amplitude(&aspect.parts),
+            _ => seen.condition(aspect),
         })
         .collect();
     remarks.extend(follows(&followed.shapes));
     remarks.extend(repeatable_share.and_then(repeats));
     if remarks.is_empty() {
-        remarks.push(
-            "Nothing stands out: the misfit is spread over time, frequency and conditions."
-                .to_owned(),
-        );
+        remarks.push(Remark::SpreadOut);
     }
     remarks
 }
 
-struct Told<'a> {
+struct Seen<'a> {
     residuals: &'a Residuals<'a>,
 }
 
-impl Told<'_> {
-    /// How large an error is, in words that hold with and without a known noise.
-    fn times(&self, error: f64) -> String {
-        if self.residuals.noise_known {
-            format!("{error:.1} times the noise")
-        } else {
-            format!("{error:.1} times the average error")
+impl Seen<'_> {
+    /// How large an error is.
+    fn times(&self, error: f64) -> Times {
+        Times {
+            error,
+            of_noise: self.residuals.noise_known,
         }
     }
 
-    fn time(&self, parts: &[Share]) -> Option<String> {
+    fn time(&self, parts: &[Share]) -> Option<Remark> {
         let run = shortest_run(parts, MOST)?;
-        let (from, to) = (run[0].from?, run[run.len() - 1].to?);
-        let where_to = if self.residuals.has_onset {
-            "after the pulse began"
-        } else {
-            "into the recording"
-        };
-        let (from, to, unit) = if to < 1.0 {
-            (from * 1e3, to * 1e3, "ms")
-        } else {
-            (from, to, "s")
-        };
-        let (from, to) = (super::grid::tidy(from), super::grid::tidy(to));
-        Some(format!(
-            "Most of the misfit ({}) lies {from} to {to} {unit} {where_to}.",
-            percent(share(run))
-        ))
+        Some(Remark::Time {
+            share: share(run),
+            from_s: run[0].from?,
+            to_s: run[run.len() - 1].to?,
+            since_onset: self.residuals.has_onset,
+        })
     }
 
-    fn phase(&self, parts: &[Share]) -> Option<String> {
+    fn phase(&self, parts: &[Share]) -> Option<Remark> {
         let part = self.outstanding(parts)?;
-        let name = match part.part.as_str() {
-            "before onset" => "time before the pulse",
-            "rise" => "rise of the torque",
-            "peak" => "torque's peak",
-            "release" => "release",
-            "rebound" => "rebound",
-            _ => "rest after the rebound",
-        };
-        Some(format!(
-            "The {name} holds {} of the misfit in {} of the time: the error there is {}.",
-            percent(part.share_of_excess),
-            percent(of_data(std::slice::from_ref(part), parts)),
-            self.times(part.error_over_noise),
-        ))
+        Some(Remark::Phase {
+            phase: part.part.clone(),
+            share: part.share_of_excess,
+            of_time: of_data(std::slice::from_ref(part), parts),
+            error: self.times(part.error_over_noise),
+        })
     }
 
-    fn frequency(&self, parts: &[Share]) -> Option<String> {
+    fn frequency(&self, parts: &[Share]) -> Option<Remark> {
         let run = shortest_run(parts, MOST)?;
-        let (from, to) = (run[0].from?, run[run.len() - 1].to?);
-        let band = if from == 0.0 {
-            format!("below {to} Hz")
-        } else {
-            format!("between {from} and {to} Hz")
-        };
-        let mut told = format!("Most of the misfit ({}) lies {band}", percent(share(run)));
-        let quiet_from = parts
-            .iter()
-            .rposition(|part| {
-                let above = part.interval.is_some_and(|interval| interval.low > 1.0);
-                above && part.error_over_noise > QUIET
-            })
-            .and_then(|last| parts.get(last + 1)?.from);
-        if let Some(quiet_from) = quiet_from.filter(|_| self.residuals.noise_known) {
-            told.push_str(&format!(
-                "; above {quiet_from} Hz there is nothing but noise"
-            ));
-        }
-        told.push('.');
-        Some(told)
+        let last_loud = parts.iter().rposition(|part| {
+            let above = part.interval.is_some_and(|interval| interval.low > 1.0);
+            above && part.error_over_noise > QUIET
+        });
+        let quiet_from_hz = last_loud.and_then(|last| parts.get(last + 1)?.from);
+        Some(Remark::Frequency {
+            share: share(run),
+            from_hz: run[0].from?,
+            to_hz: run[run.len() - 1].to?,
+            quiet_from_hz: quiet_from_hz.filter(|_| self.residuals.noise_known),
+        })
     }
 
     /// Smallest against largest angles, where both hold enough to compare.
-    fn amplitude(&self, parts: &[Share]) -> Option<String> {
+    fn amplitude(&self, parts: &[Share]) -> Option<Remark> {
         let mut judged = parts.iter().filter(|part| part.interval.is_some());
         let (small, large) = (judged.next()?, judged.next_back()?);
         let (low, high) = (small.interval?, large.interval?);
-        let (small_to, large_from) = (small.to?, large.from?);
-        let compared = format!(
-            "{} below {small_to} rad, {} above {large_from} rad",
-            self.times(small.error_over_noise),
-            self.times(large.error_over_noise)
-        );
-        if high.low > low.high {
-            Some(format!("The misfit grows with the angle: {compared}."))
-        } else if low.low > high.high {
-            Some(format!(
-                "The misfit is largest at small angles: {compared}."
-            ))
-        } else {
-            None
-        }
+        let grows = high.low > low.high;
+        (grows || low.low > high.high).then_some(Remark::Amplitude {
+            grows,
+            small: (small.to?, self.times(small.error_over_noise)),
+            large: (large.from?, self.times(large.error_over_noise)),
+        })
     }
 
-    fn condition(&self, parts: &[Share], what: &str) -> Option<String> {
-        let part = self.outstanding(parts)?;
-        Some(format!(
-            "{what}{} carries {} of the misfit with {} of the data.",
-            part.part,
-            percent(part.share_of_excess),
-            percent(of_data(std::slice::from_ref(part), parts)),
-        ))
+    fn condition(&self, aspect: &Aspect) -> Option<Remark> {
+        let part = self.outstanding(&aspect.parts)?;
+        Some(Remark::Condition {
+            condition: aspect.aspect.clone(),
+            value: part.part.clone(),
+            share: part.share_of_excess,
+            of_data: of_data(std::slice::from_ref(part), &aspect.parts),
+        })
     }
 
     /// The part with the largest share, where it is more than its due beyond chance.
@@ -187,42 +139,27 @@ impl Told<'_> {
 }
 
 /// What the missing force follows, where one shape explains most of it; with others that do so nearly as well.
-fn follows(shapes: &[(&str, f64)]) -> Option<String> {
-    let (best, share) = shapes.first().filter(|(_, share)| *share >= RESEMBLES)?;
-    let described = percent(*share);
-    if *share < FOLLOWS {
-        return Some(format!(
-            "No simple function of displacement and velocity describes the missing force: the best, {best}, leaves {} of the misfit.",
-            percent(1.0 - share)
-        ));
+fn follows(shapes: &[(&'static str, f64)]) -> Option<Remark> {
+    let &(shape, share) = shapes.first().filter(|(_, share)| *share >= RESEMBLES)?;
+    if share < FOLLOWS {
+        let left = 1.0 - share;
+        return Some(Remark::FollowsNothing { shape, left });
     }
-    let others: Vec<String> = shapes[1..]
-        .iter()
-        .filter(|(_, other)| *other >= share - NEARLY_AS_WELL)
-        .map(|(shape, other)| format!("{shape} ({})", percent(*other)))
-        .collect();
-    let mut told =
-        format!("The missing force follows {best}: that describes {described} of the misfit");
-    if !others.is_empty() {
-        told.push_str(&format!("; nearly as well: {}", others.join("; ")));
-    }
-    told.push('.');
-    Some(told)
+    let others = shapes[1..].iter().copied();
+    Some(Remark::Follows {
+        shape,
+        share,
+        others: others
+            .filter(|(_, other)| *other >= share - NEARLY_AS_WELL)
+            .collect(),
+    })
 }
 
-fn repeats(share: f64) -> Option<String> {
-    if share >= REPEATS {
-        Some(format!(
-            "{} of the misfit can be predicted from the other tightenings: a missing effect can explain it.",
-            percent(share)
-        ))
-    } else if share <= DOES_NOT_REPEAT {
-        Some(format!(
-            "Only {} of the misfit can be predicted from the other tightenings: most of it is different each time, or is no simple function of time, displacement and velocity.",
-            percent(share)
-        ))
-    } else {
-        None
+fn repeats(share: f64) -> Option<Remark> {
+    match share {
+        share if share >= REPEATS => Some(Remark::Repeats(share)),
+        share if share <= DOES_NOT_REPEAT => Some(Remark::DoesNotRepeat(share)),
+        _ => None,
     }
 }
 
@@ -248,8 +185,4 @@ fn share(run: &[Share]) -> f64 {
 fn of_data(run: &[Share], parts: &[Share]) -> f64 {
     let samples = |parts: &[Share]| parts.iter().map(|part| part.samples as f64).sum::<f64>();
     samples(run) / samples(parts).max(1.0)
-}
-
-fn percent(share: f64) -> String {
-    format!("{:.0} %", 100.0 * share)
 }

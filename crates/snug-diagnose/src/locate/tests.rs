@@ -9,6 +9,7 @@ use super::residual::Residuals;
 use super::{Seen, compare, drifts, locate};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+use snug_campaign::words::remark::Remark;
 use snug_campaign::{
     Conditions, Estimate, FitStatus, Identifiability, Intersample, Motion, NoiseFloor, NoiseSource,
     ParameterEstimate, Quantity, Rig, Tightening, TighteningId, TimeBase,
@@ -222,7 +223,7 @@ fn a_misfit_is_found_where_and_as_large_as_it_is() {
         .sum();
     assert!(slow > 0.8, "{slow}");
     assert!(location.repeatable_share.unwrap() > 0.95);
-    let told = location.remarks.join(" ");
+    let told = said(&location.remarks);
     assert!(told.contains("60 to 100 ms"), "{told}");
 }
 
@@ -334,7 +335,7 @@ fn the_missing_force_follows_the_law_that_was_hidden() {
             })
             .collect();
         let location = locate(&seen(&made), 1);
-        let told = location.remarks.join(" ");
+        let told = said(&location.remarks);
         assert!(
             told.contains(&format!("The missing force follows {name}")),
             "{name} {told}"
@@ -443,4 +444,12 @@ fn the_comparison_is_in_units_percent_and_noise_worst_first() {
         (pooled / (23.0_f64 / 3.0).sqrt() - 1.0).abs() < 0.02,
         "{pooled}"
     );
+}
+
+fn said(remarks: &[Remark]) -> String {
+    remarks
+        .iter()
+        .map(Remark::to_string)
+        .collect::<Vec<_>>()
+        .join(" ")
 }

@@ -9,17 +9,18 @@ use crate::pooled::fitted::{AT_FLOOR, Fitted};
 use crate::pooled::sizes::parameters;
 use crate::question::Question;
 use crate::ranking::rank::{Candidate, Ranking};
-use crate::selection::path::{Addition, Attempt, Climb, misfit, misfits, twins};
+use crate::selection::path::{Addition, Climb, misfit, misfits, twins};
 use crate::settings::DiagnoseSettings;
 use crate::verdict::experiment::separating_experiment;
+use crate::verdict::reasons::{Situation, explanation, headline, paste, reasons, removal, stopped};
 use crate::verdict::tightening_fits::TighteningFits;
 use crate::verdict::trend::trends;
-use crate::verdict::wording::Situation;
-use crate::verdict::{detectability, ladder, preparation, wording};
+use crate::verdict::{detectability, ladder, preparation};
 use crate::watch::Watch;
+use snug_campaign::words::statement;
 use snug_campaign::{
     AddedEffect, Comparison, CorrectedEffect, Diagnosis, Drift, EffectParameter, Experiment,
-    Location, NegativeControl, RankedEffect, Removal, UnlistedTerm, Verdict,
+    Location, NegativeControl, RankedEffect, UnlistedTerm, Verdict,
 };
 use snug_identify::FitTask;
 use snug_model::{CustomEffectSettings, Effect, Law};
@@ -83,9 +84,9 @@ impl Examination<'_> {
         let situation = self.situation(verdict, &ranking, &corrected);
         let experiment = self.experiment(&situation)?;
         let (headline, reasons, stopped) = (
-            wording::headline(&situation),
-            wording::reasons(&situation),
-            wording::stopped(&situation),
+            headline(&situation),
+            reasons(&situation),
+            stopped(&situation),
         );
         let rungs = self.climb.rungs.iter();
         let diagnosis = Diagnosis {
@@ -94,6 +95,7 @@ impl Examination<'_> {
             headline,
             reasons,
             stopped,
+            level: self.settings.level,
             interrupted: self.climb.is_interrupted(),
             tightenings: cases.len(),
             noise: preparation::noise(cases),
@@ -237,7 +239,9 @@ impl Examination<'_> {
         let ranked = order
             .iter()
             .map(|&index| self.ranked(ranking, index, whole, first));
-        ranked.chain(trends(drift, self.question.cases)).collect()
+        ranked
+            .chain(trends(drift, self.question.cases, self.settings.level))
+            .collect()
     }
 
     fn ranked(
@@ -268,10 +272,11 @@ impl Examination<'_> {
                 .is_weighted
                 .then(|| candidate.fitted.error()),
             behind_first: first.ahead_of(candidate),
+            supported,
             twins: twins.iter().map(|twin| twin.name().to_owned()).collect(),
             plausible: candidate.fitted.converged
                 && sizes.iter().all(EffectParameter::is_plausible),
-            explanation: wording::explanation(candidate.effect, &candidate.fitted),
+            explanation: explanation(candidate.effect, &candidate.fitted),
             parameters: sizes,
         }
     }
@@ -307,7 +312,7 @@ impl Examination<'_> {
                     needed: (self.climb.attempts.iter())
                         .find(|attempt| attempt.effect == effect)
                         .map(|attempt| attempt.loss / last.squares()),
-                    explanation: wording::explanation(effect, last),
+                    explanation: explanation(effect, last),
                     parameters: sizes,
                 }
             })
@@ -354,8 +359,13 @@ impl Examination<'_> {
         let declared = declaration(effect.name())?;
         let sizes = parameters(self.question.cases, fitted, effect);
         Some(UnlistedTerm {
-            statement: wording::unlisted(&declared, gain, &sizes, Units::of(self.question.cases)),
-            ron: wording::paste(&declared, &sizes),
+            statement: statement::unlisted(
+                &declared.expression,
+                &sizes,
+                gain,
+                Units::of(self.question.cases).cluster(),
+            ),
+            ron: paste(&declared, &sizes),
             expression: declared.expression,
             heldout_gain: gain,
         })
@@ -387,13 +397,5 @@ fn rung_model(cases: &[FitTask<'_>], fitted: &Fitted) -> RungModel {
             .iter()
             .flat_map(|&effect| parameters(cases, fitted, effect))
             .collect(),
-    }
-}
-
-fn removal(attempt: &Attempt) -> Removal {
-    Removal {
-        effect: attempt.effect.name().to_owned(),
-        removed: attempt.removed,
-        statement: wording::removal(attempt),
     }
 }

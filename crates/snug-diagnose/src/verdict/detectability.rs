@@ -5,8 +5,8 @@ use crate::pooled::fitted::Fitted;
 use crate::ranking::rank::Ranking;
 use crate::ranking::sensitivity::Column;
 use crate::settings::DiagnoseSettings;
-use crate::verdict::wording::amount;
 use snug_campaign::Detectability;
+use snug_campaign::words::statement;
 use snug_model::Law;
 
 /// z that the largest of the family exceeds by chance in about 5 % of campaigns, and the quantile of 95 % power.
@@ -49,17 +49,6 @@ fn card(column: &Column, needed: f64) -> Detectability {
         .is_finite()
         .then_some(multiple * unit_size.abs())
         .filter(|smallest| *smallest <= largest);
-    let statement = match smallest {
-        Some(size) => format!(
-            "{}: absent or smaller than {}.",
-            description.name.replace('_', " "),
-            amount(size, spec.unit)
-        ),
-        None => format!(
-            "{}: these data could not show it, even at its largest plausible size.",
-            description.name.replace('_', " ")
-        ),
-    };
     Detectability {
         effect: description.name.to_owned(),
         parameter: spec.name.to_owned(),
@@ -67,6 +56,6 @@ fn card(column: &Column, needed: f64) -> Detectability {
         unit: spec.unit.to_owned(),
         smallest_detectable: smallest,
         largest_plausible: largest,
-        statement,
+        statement: statement::detectability(description.name, smallest, spec.unit),
     }
 }

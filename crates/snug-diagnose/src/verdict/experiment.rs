@@ -6,8 +6,9 @@ use crate::pooled::fit::fit_effects;
 use crate::pooled::fitted::Fitted;
 use crate::pooled::model::Hypothesis;
 use crate::pooled::sizes::held;
-use crate::verdict::wording::spoken;
+use crate::verdict::reasons::named;
 use snug_campaign::Experiment;
+use snug_campaign::words::statement;
 use snug_identify::FitTask;
 use snug_least_squares::PooledSettings;
 use snug_model::{Effect, Input};
@@ -58,6 +59,9 @@ const PATTERNS: usize = 6;
 /// Squared distance over noise that tells two models apart with 95 % power at 95 % confidence: (2 · (1.645 + 1.96))².
 const TELLING: f64 = 52.0;
 
+/// More tightenings than anybody makes to tell two effects apart.
+const MOST_TIGHTENINGS: usize = 10_000;
+
 /// The change of conditions under which `second`, refitted, stays furthest from `first`.
 pub(crate) fn separating_experiment(
     cases: Cases<'_>,
@@ -74,28 +78,16 @@ pub(crate) fn separating_experiment(
         }
     }
     let (change, distance) = best?;
-    let tightenings = (distance > 1e-3).then(|| (TELLING / distance).ceil().max(1.0) as usize);
-    let between = [chosen, second].map(spoken);
-    let statement = match tightenings {
-        Some(1) => format!(
-            "To tell {} from {}: one more tightening {} is enough.",
-            between[0], between[1], change.words
-        ),
-        Some(number) if number <= 10_000 => format!(
-            "To tell {} from {}: make about {number} more tightenings {}.",
-            between[0], between[1], change.words
-        ),
-        _ => format!(
-            "No change of torque or joint that was tried tells {} from {}: the two need a look at the bench.",
-            between[0], between[1]
-        ),
-    };
+    let tightenings = (distance > 1e-3)
+        .then(|| (TELLING / distance).ceil().max(1.0) as usize)
+        .filter(|number| *number <= MOST_TIGHTENINGS);
+    let between = [chosen, second].map(|effect| named(effect).spoken());
     Some(Experiment {
         between: between.to_vec(),
         conditions: change.words.to_owned(),
-        tightenings: tightenings.filter(|number| *number <= 10_000),
+        tightenings,
         distance_per_tightening: distance,
-        statement,
+        statement: statement::experiment(&between, change.words, tightenings),
     })
 }
 

@@ -1,7 +1,7 @@
 //! What changes from tightening to tightening: fatigue shows in the fitted m, c, k, not in the misfit of any one.
 
 use crate::pooled::sizes::described;
-use crate::verdict::wording;
+use crate::verdict::reasons::described as explanation;
 use snug_campaign::{Drift, EffectParameter, RankedEffect};
 use snug_identify::FitTask;
 use snug_model::{BASE_PARAMETERS, Description, TRENDS};
@@ -10,10 +10,11 @@ use snug_model::{BASE_PARAMETERS, Description, TRENDS};
 pub(crate) fn trends(
     drifts: &[Drift],
     cases: &[FitTask<'_>],
+    level: f64,
 ) -> impl Iterator<Item = RankedEffect> {
     TRENDS
         .iter()
-        .filter_map(|trend| candidate(trend, drifts, cases))
+        .filter_map(move |trend| candidate(trend, drifts, cases, level))
 }
 
 /// One trend as a candidate: slopes of m, c, k over the tightening's number, tested within files.
@@ -24,6 +25,7 @@ fn candidate(
     description: &'static Description,
     drifts: &[Drift],
     cases: &[FitTask<'_>],
+    level: f64,
 ) -> Option<RankedEffect> {
     let numbers = || {
         cases
@@ -55,20 +57,22 @@ fn candidate(
             })
         })
         .collect();
+    let p_family = (smallest * tested.len() as f64).min(1.0);
     Some(RankedEffect {
         effect: description.name.to_owned(),
         kind: description.kind.name().to_owned(),
         unlisted: false,
         expression: None,
         score: 0.0,
-        p_family: (smallest * tested.len() as f64).min(1.0),
+        p_family,
+        supported: p_family <= level,
         heldout_gain: 0.0,
         heldout_gain_error: 0.0,
         error_over_noise: None,
         behind_first: 0.0,
         twins: Vec::new(),
         plausible: parameters.iter().all(EffectParameter::is_plausible),
-        explanation: wording::described(description),
+        explanation: explanation(description),
         parameters,
     })
 }

@@ -3,7 +3,15 @@
 use super::small_chunks;
 use crate::{Recorder, read, topic};
 use serde_json::Value;
+use snug_campaign::words::headline::{Headline, Left};
+use snug_campaign::words::reason::Reason;
+use snug_campaign::words::remark::Remark;
 use snug_campaign::*;
+
+const LEFT: Left = Left {
+    error: 6.4,
+    is_over_noise: true,
+};
 
 fn rung(effects: &[&str], error: Option<f64>, target: Option<f64>) -> Rung {
     Rung {
@@ -44,6 +52,7 @@ fn candidate(effect: &str, gain: f64) -> RankedEffect {
         heldout_gain_error: 0.04,
         error_over_noise: None,
         behind_first: 0.0,
+        supported: true,
         twins: vec!["quadratic_stiffness".into()],
         plausible: true,
         explanation: vec!["A spring that hardens.".into()],
@@ -54,8 +63,9 @@ fn diagnosis() -> Diagnosis {
     Diagnosis {
         verb: "improve".into(),
         verdict: Verdict::MissingEffect,
-        headline: "Missing: cubic stiffness.".into(),
-        reasons: vec!["It does not fit.".into()],
+        headline: Headline::Unexplained(LEFT),
+        reasons: vec![Reason::NoiseUnknown(LEFT)],
+        level: 0.05,
         stopped: None,
         interrupted: false,
         tightenings: 24,
@@ -78,7 +88,7 @@ fn diagnosis() -> Diagnosis {
         removals: vec![],
         comparison: Comparison::default(),
         location: Location {
-            remarks: vec!["Around the peak.".into()],
+            remarks: vec![Remark::SpreadOut],
             ..Location::default()
         },
         final_location: None,
@@ -121,7 +131,10 @@ fn the_verdict_the_ladder_and_the_ranking_come_back() {
     let bytes = recorded();
     let verdict = &messages(&bytes, topic::VERDICT)[0];
     assert_eq!(verdict.0["verdict"], "missing_effect");
-    assert_eq!(verdict.0["where_it_fails"][0], "Around the peak.");
+    assert_eq!(
+        verdict.0["where_it_fails"][0],
+        Remark::SpreadOut.to_string()
+    );
     assert_eq!(verdict.0["noise"]["acceleration_rad_per_s2"], 0.5);
     let ladder = messages(&bytes, topic::LADDER);
     assert_eq!(ladder.len(), 3);

@@ -1,10 +1,10 @@
 //! Tables of the misfit in units, in percent and in multiples of the noise, for all tightenings together and for each.
 
 use super::DiagnosisSection;
-use crate::effect_name::unit_text;
 use crate::number::{drawn, plain, significant};
 use crate::quantity;
 use maud::{Markup, html};
+use snug_campaign::words::effect_name::unit_text;
 use snug_campaign::{CampaignResult, Comparison, Diagnosis, Misfit, TighteningMisfit};
 
 /// Model against measurement, pooled and tightening by tightening.

@@ -1,11 +1,11 @@
 //! Which sensor errors were taken out, how large they were, and whether chance alone could make them so.
 
 use super::{Section, nothing};
-use crate::effect_name::unit_text;
 use crate::figure::{Axis, Dot, Figure, Mark, Segment, captioned, legend, linear_range};
 use crate::number::{missing, percent, share, significant};
 use crate::quartiles::Quartiles;
 use maud::{Markup, html};
+use snug_campaign::words::effect_name::unit_text;
 use snug_campaign::{CampaignResult, Correction, NORMAL_95};
 
 /// What was measured in the quiet part and taken out before the fit.

@@ -1,10 +1,10 @@
 //! Limits of a diagnosis: how often it raises a false alarm, and from which size on an absent effect would show.
 
 use super::DiagnosisSection;
-use crate::effect_name::{effect_name, unit_text};
 use crate::effect_words::{parameter_name, sentence};
 use crate::number::{percent, percent_interval, significant};
 use maud::{Markup, html};
+use snug_campaign::words::effect_name::{effect_name, unit_text};
 use snug_campaign::{CampaignResult, Detectability, Diagnosis, Interval, NegativeControl};
 
 /// What would have been found, and how often something is found where nothing is.

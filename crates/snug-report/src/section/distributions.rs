@@ -1,12 +1,13 @@
 //! Histograms around the bulk of the values; what lies beyond the axis is counted in words and squeezes nothing.
 
-use super::{Section, counted, fitted, nothing};
+use super::{Section, fitted, nothing};
 use crate::figure::{Axis, Bar, Figure, Mark, Segment, captioned, legend, round_step};
 use crate::number::significant;
 use crate::quantity;
 use crate::quartiles::Quartiles;
 use crate::tightenings_csv::effect_parameters;
 use maud::{Markup, html};
+use snug_campaign::words::counted;
 use snug_campaign::{CampaignResult, TighteningResult};
 
 /// Histograms of what was estimated, selected above and rejected below the line.

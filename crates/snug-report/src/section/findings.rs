@@ -1,9 +1,10 @@
 //! Findings by kind, the gravest first, so that a frequent remark does not hide a rare loss of data.
 
-use super::{Section, counted, nothing};
+use super::{Section, nothing};
 use crate::number::missing;
 use crate::outcome::{severity_name, severity_words};
 use maud::{Markup, html};
+use snug_campaign::words::counted;
 use snug_campaign::{CampaignResult, Finding, Severity};
 
 /// What was left out, repaired or is worth knowing.

@@ -1,10 +1,10 @@
 //! Every model of the ladder with its error in fitted and in held-out data, and the share of tightenings it can use.
 
 use super::DiagnosisSection;
-use crate::effect_name::{called_in, unit_text};
 use crate::figure::{Axis, Bar, Dot, Figure, Mark, Segment, captioned, legend};
 use crate::number::{percent, plain, significant};
 use maud::{Markup, html};
+use snug_campaign::words::effect_name::{called_in, unit_text};
 use snug_campaign::{CampaignResult, Diagnosis, Rung, Verdict};
 
 /// How the error falls, effect by effect.

@@ -86,10 +86,12 @@ fn drift(drifts: &[Drift], result: &CampaignResult) -> Markup {
     }
 }
 
+/// Adjusted p below which a drift is beyond chance; the customary level.
+const LEVEL: f64 = 0.05;
+
 /// Whether the change is beyond chance, all tests together.
 fn drifting(row: &Drift) -> bool {
-    row.p_adjusted
-        .is_some_and(|p| p < crate::effect_words::LEVEL)
+    row.p_adjusted.is_some_and(|p| p < LEVEL)
 }
 
 fn drift_table(drifts: &[Drift], result: &CampaignResult) -> Markup {

@@ -143,12 +143,3 @@ fn fitted(result: &CampaignResult) -> impl Iterator<Item = &TighteningResult> {
 fn nothing(sentence: &str) -> Markup {
     html! { p.nothing { (sentence) } }
 }
-
-/// "1 file", "2 files".
-fn counted(count: usize, one: &str) -> String {
-    if count == 1 {
-        format!("1 {one}")
-    } else {
-        format!("{count} {one}s")
-    }
-}

@@ -1,10 +1,11 @@
 //! The page's opening: the outcome in one sentence, key numbers, and a warning where data were left out or changed.
 
-use super::{Section, counted, fitted};
+use super::{Section, fitted};
 use crate::number::{fixed, missing, percent, percent_interval, plain, rounded, share, short};
 use crate::quantity::{self, capitalised};
 use crate::quartiles::Quartiles;
 use maud::{Markup, html};
+use snug_campaign::words::counted;
 use snug_campaign::{CampaignResult, Conditions, FitMeasures, QuantitySummary, Severity};
 use std::collections::BTreeSet;
 

@@ -1,13 +1,12 @@
 //! Every candidate with size, gain and chance; terms in no catalogue are folded away unless they lead or are chosen.
 
 use super::DiagnosisSection;
-use crate::effect_name::{called, names_in};
-use crate::effect_words::{
-    LEVEL, UNSURE, by_chance, parameter_name, sentence, share_with_error, sizes,
-};
+use crate::effect_words::{parameter_name, sentence, sizes};
 use crate::figure::{Axis, Bar, Figure, Mark, Segment, captioned, legend};
-use crate::number::{fixed, p_value, plain, significant};
+use crate::number::{p_value, plain, short, significant};
 use maud::{Markup, html};
+use snug_campaign::words::chance::{by_chance, share_with_error};
+use snug_campaign::words::effect_name::{called, names_in};
 use snug_campaign::{CampaignResult, Diagnosis, Doubt, RankedEffect, Verdict};
 
 /// What could be missing, best first.
@@ -48,8 +47,8 @@ fn render(diagnosis: &Diagnosis, result: &CampaignResult) -> Option<Markup> {
                 of it say little." }
         }
         (figure(&shown))
-        p { "A candidate is believed when chance alone would do as well in fewer than " (fixed(100.0 * LEVEL, 0))
-            " of 100 cases (p below " (LEVEL) "); that already allows for the number of candidates. Open a row for what it is, how it shows and what to check." }
+        p { "A candidate is believed when chance alone would do as well in fewer than " (short(100.0 * diagnosis.level))
+            " of 100 cases (p below " (diagnosis.level) "); that already allows for the number of candidates. Open a row for what it is, how it shows and what to check." }
         div.candidates { @for (place, candidate) in shown.iter().enumerate() {
             (entry(candidate, &twins(place), result))
         } }
@@ -74,7 +73,7 @@ fn parted(diagnosis: &Diagnosis) -> (Vec<&RankedEffect>, Vec<&RankedEffect>) {
     };
     let (mut shown, mut rest) = (Vec::new(), Vec::new());
     for (place, candidate) in diagnosis.ranking.iter().enumerate() {
-        let worth = !candidate.unlisted && supported(candidate) && shown.len() < MOST;
+        let worth = !candidate.unlisted && candidate.supported && shown.len() < MOST;
         if place < ALWAYS || worth || chosen(candidate) {
             shown.push(candidate);
         } else {
@@ -84,15 +83,8 @@ fn parted(diagnosis: &Diagnosis) -> (Vec<&RankedEffect>, Vec<&RankedEffect>) {
     (shown, rest)
 }
 
-/// Whether chance is excluded and the gain is larger than its error.
-fn supported(candidate: &RankedEffect) -> bool {
-    candidate.p_family <= LEVEL
-        && candidate.heldout_gain > candidate.heldout_gain_error
-        && candidate.heldout_gain_error < UNSURE
-}
-
 fn class(candidate: &RankedEffect) -> &'static str {
-    match (supported(candidate), candidate.unlisted) {
+    match (candidate.supported, candidate.unlisted) {
         (true, true) => "c-rejected",
         (true, false) => "c-selected",
         (false, _) => "c-faint",
@@ -204,7 +196,7 @@ fn entry(candidate: &RankedEffect, twins: &str, result: &CampaignResult) -> Mark
     html! {
         details.candidate {
             summary {
-                span.name.strong[supported(candidate)] { (label(candidate)) }
+                span.name.strong[candidate.supported] { (label(candidate)) }
                 " " span.gain { (share_with_error(candidate.heldout_gain, candidate.heldout_gain_error)) }
                 " " span.chance { "p " (p_value(Some(candidate.p_family))) }
                 " " span.sizes { (sizes(&candidate.parameters, result)) }
@@ -234,7 +226,7 @@ fn evidence(candidate: &RankedEffect, twins: &str, result: &CampaignResult) -> M
                 li { "What speaks against it: " (against) "." }
             }
             @for parameter in &candidate.parameters {
-                li { (parameter_name(&parameter.meaning, &parameter.name, result)) ": plausible from " (significant(parameter.minimum, 3)) " to " (significant(parameter.maximum, 3)) " " (crate::effect_name::unit_text(&parameter.unit)) "." }
+                li { (parameter_name(&parameter.meaning, &parameter.name, result)) ": plausible from " (significant(parameter.minimum, 3)) " to " (significant(parameter.maximum, 3)) " " (snug_campaign::words::effect_name::unit_text(&parameter.unit)) "." }
             }
         }
     }

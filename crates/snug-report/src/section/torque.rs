@@ -1,9 +1,10 @@
 //! Shows which tightenings rounding to 5 Nm may have put into the wrong torque group.
 
-use super::{Section, counted, nothing};
+use super::{Section, nothing};
 use crate::figure::{Axis, Bar, Dot, Figure, Mark, Segment, captioned, legend, linear_range};
 use crate::number::{short, significant};
 use maud::{Markup, html};
+use snug_campaign::words::counted;
 use snug_campaign::{CampaignResult, TighteningResult};
 
 /// Actual peak torque against the torque it is rounded to.

@@ -1,10 +1,12 @@
 //! The diagnosis in words: what is missing or was added, a term to try, the experiment that decides, why it stopped.
 
-use super::{DiagnosisSection, counted};
-use crate::effect_name::{called, effect_name, names_in, unit_text};
-use crate::effect_words::{by_chance, sentence, share_with_error, sizes};
+use super::DiagnosisSection;
+use crate::effect_words::{sentence, sizes};
 use crate::number::{fixed, percent, significant};
 use maud::{Markup, html};
+use snug_campaign::words::chance::{by_chance, share_with_error};
+use snug_campaign::words::effect_name::{called, effect_name, names_in, unit_text};
+use snug_campaign::words::{counted, joined};
 use snug_campaign::{
     AddedEffect, CampaignResult, CorrectedEffect, Diagnosis, EffectParameter, RankedEffect, Verdict,
 };
@@ -19,7 +21,7 @@ pub const SECTION: DiagnosisSection = DiagnosisSection {
 
 fn render(diagnosis: &Diagnosis, result: &CampaignResult) -> Option<Markup> {
     Some(html! {
-        p { span.verdict.(diagnosis.verdict.name()) { (word(diagnosis)) } }
+        p { span.verdict.(diagnosis.verdict.name()) { (diagnosis.word()) } }
         p.lead { (sentence(&diagnosis.headline)) }
         @if !diagnosis.reasons.is_empty() {
             ul.reasons { @for reason in &diagnosis.reasons { li { (sentence(reason)) } } }
@@ -35,27 +37,6 @@ fn render(diagnosis: &Diagnosis, result: &CampaignResult) -> Option<Markup> {
         (climb(diagnosis))
         p.note { (basis(diagnosis)) " verdict.json holds every number of this page's diagnosis." }
     })
-}
-
-fn word(diagnosis: &Diagnosis) -> &'static str {
-    let known = diagnosis
-        .ladder
-        .iter()
-        .any(|rung| rung.error_over_noise.is_some());
-    match diagnosis.verdict {
-        _ if diagnosis.interrupted => "stopped by you before there was a verdict",
-        // A comparison asks how much is missing, not what.
-        Verdict::Undecided if diagnosis.verb == "compare" && known => {
-            "the model leaves more than the noise"
-        }
-        Verdict::Undecided if diagnosis.verb == "compare" => {
-            "the model leaves an error, and the noise is not known"
-        }
-        Verdict::Adequate => "the model is adequate",
-        Verdict::MissingEffect => "an effect is missing",
-        Verdict::UnlistedEffect => "something is missing that is in no catalogue",
-        Verdict::Undecided => "too little data to say",
-    }
 }
 
 fn added(effect: &AddedEffect, diagnosis: &Diagnosis, result: &CampaignResult) -> Markup {
@@ -87,9 +68,8 @@ fn added(effect: &AddedEffect, diagnosis: &Diagnosis, result: &CampaignResult) -
 /// What to make of sizes that one would not expect.
 fn implausible(parameters: &[EffectParameter]) -> Markup {
     html! {
-        @for one in parameters.iter().filter(|one| !one.is_plausible()) {
-            p.attention { "Plausible is " (significant(one.minimum, 3)) " to " (significant(one.maximum, 3)) " " (unit_text(&one.unit))
-                ": something else that acts alike may hide behind a size beyond it." }
+        @for beyond in parameters.iter().filter_map(|one| one.size().beyond) {
+            p.attention { "The size is " (beyond) ": something else that acts alike may hide behind it." }
         }
     }
 }
@@ -160,7 +140,7 @@ fn unlisted(diagnosis: &Diagnosis) -> Markup {
 fn experiment(diagnosis: &Diagnosis) -> Markup {
     html! {
         @if let Some(experiment) = &diagnosis.experiment {
-            h3 { "What would tell " (between(&experiment.between)) " apart" }
+            h3 { "What would tell " (joined(&experiment.between)) " apart" }
             p { (sentence(&experiment.statement)) }
             p.note {
                 "Conditions: " (experiment.conditions) ". "
@@ -170,14 +150,6 @@ fn experiment(diagnosis: &Diagnosis) -> Markup {
                 }
             }
         }
-    }
-}
-
-fn between(names: &[String]) -> String {
-    let names: Vec<String> = names.iter().map(|name| effect_name(name)).collect();
-    match names.split_last() {
-        Some((last, rest)) if !rest.is_empty() => format!("{} and {last}", rest.join(", ")),
-        _ => names.concat(),
     }
 }
 

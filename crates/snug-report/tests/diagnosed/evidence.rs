@@ -57,6 +57,7 @@ pub fn ranked(name: &str, kind: &str, behind: f64, gain: f64, error: f64, p: f64
         heldout_gain_error: error,
         error_over_noise: Some((6.42_f64.powi(2) * (1.0 - gain)).sqrt().max(1.018)),
         behind_first: behind,
+        supported: p <= 0.05 && gain > error,
         twins: vec![],
         plausible: true,
         explanation: vec![],

@@ -1,5 +1,6 @@
 //! Invented misfit: around the peak and at large targets before, nowhere in particular after; drift; a comparison.
 
+use snug_campaign::words::remark::{Remark, Times};
 use snug_campaign::{
     Aspect, CampaignResult, Comparison, Drift, ForceCurve, ForceMap, Interval, Location, Misfit,
     Share, TighteningMisfit,
@@ -14,19 +15,36 @@ pub fn before() -> Location {
     location(
         1.0,
         0.97,
-        &[
-            "84 % of the excess lies in the peak, 40 to 90 ms after the onset.",
-            "The misfit grows with the target torque: 2.1 times the noise at 15 Nm, 9.6 times at 40 Nm.",
+        vec![
+            Remark::Phase {
+                phase: "peak".into(),
+                share: 0.84,
+                of_time: 0.2,
+                error: times(9.6),
+            },
+            Remark::Condition {
+                condition: "target_torque_nm".into(),
+                value: "40".into(),
+                share: 0.6,
+                of_data: 0.25,
+            },
         ],
     )
 }
 
 /// Where the final model fails: nowhere in particular.
 pub fn after() -> Location {
-    location(0.0, 0.004, &["Nothing stands out."])
+    location(0.0, 0.004, vec![Remark::OnlyNoise(1.018)])
 }
 
-fn location(size: f64, repeatable: f64, remarks: &[&str]) -> Location {
+fn times(error: f64) -> Times {
+    Times {
+        error,
+        of_noise: true,
+    }
+}
+
+fn location(size: f64, repeatable: f64, remarks: Vec<Remark>) -> Location {
     let aspect = |name: &str, parts: Vec<Share>| Aspect {
         aspect: name.into(),
         parts,
@@ -92,7 +110,7 @@ fn location(size: f64, repeatable: f64, remarks: &[&str]) -> Location {
         force_over_time: force_over_time(size),
         force_map: force_map(size),
         repeatable_share: Some(repeatable),
-        remarks: remarks.iter().map(|remark| (*remark).into()).collect(),
+        remarks,
     }
 }
 

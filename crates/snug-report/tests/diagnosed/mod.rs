@@ -5,10 +5,32 @@ mod location;
 
 use crate::specimen;
 use evidence::{effect, parameter, ranked};
+use snug_campaign::words::effect_name::Named;
+use snug_campaign::words::headline::{Fall, Headline, Left};
+use snug_campaign::words::reason::{Cluster, Reason};
+use snug_campaign::words::stopped::Stopped;
 use snug_campaign::{
     AddedEffect, CampaignResult, CorrectedEffect, Diagnosis, Experiment, NoiseStatement, Removal,
     Rung, Showcase, Traces, UnlistedTerm, Verdict, WorkDone,
 };
+
+/// An effect of the catalogue.
+pub fn named(effect: &str) -> Named {
+    Named {
+        effect: effect.into(),
+        expression: None,
+        says: None,
+        twins: vec![],
+    }
+}
+
+fn fall(before: f64, after: f64) -> Fall {
+    let [before, after] = [before, after].map(|error| Left {
+        error,
+        is_over_noise: true,
+    });
+    Fall { before, after }
+}
 
 /// `improve` on 24 tightenings: two effects added, nothing left.
 pub fn improve() -> CampaignResult {
@@ -17,19 +39,29 @@ pub fn improve() -> CampaignResult {
     result.diagnosis = Some(Diagnosis {
         verb: "improve".into(),
         verdict: Verdict::Adequate,
-        headline: "Adequate: with cubic stiffness and a torque delay, nothing but noise is left.".into(),
-        reasons: vec![
-            "The error over noise fell from 6.42 to 1.018; 1.0 would be nothing but noise.".into(),
-            "No other effect of the catalogue is supported: the best one, coulomb friction, would come up by chance in 43 of 100 campaigns.".into(),
-        ],
-        stopped: Some("No further effect is justified: the best candidate's p of 0.43 is above 0.05.".into()),
+        headline: Headline::Adequate {
+            added: vec![named("cubic_stiffness"), named("torque_delay")],
+            fall: fall(6.42, 1.018),
+        },
+        reasons: vec![Reason::Error {
+            tightenings: 24,
+            error: 1.018,
+            is_at_floor: true,
+            is_adequate: true,
+        }],
+        stopped: Some(Stopped::NothingSupported {
+            best_p: 0.43,
+            level: 0.05,
+        }),
         added: added(),
         ladder: ladder(),
         ranking: evidence::leftovers(),
         removals: vec![Removal {
             effect: "torque_delay".into(),
             removed: false,
-            statement: "Without torque_delay the error over noise rises from 1.018 to 1.38, so it stays.".into(),
+            statement:
+                "Without torque_delay the error over noise rises from 1.018 to 1.38, so it stays."
+                    .into(),
         }],
         showcase: Some(showcase),
         work: WorkDone {
@@ -59,8 +91,7 @@ pub fn unlisted() -> CampaignResult {
     let mut result = diagnose();
     let diagnosis = result.diagnosis.as_mut().expect("just made");
     diagnosis.verdict = Verdict::UnlistedEffect;
-    diagnosis.headline =
-        "Repeatable misfit remains that no effect of the catalogue explains.".into();
+    diagnosis.headline = Headline::Unexplained(fall(6.42, 1.02).before);
     diagnosis.ranking[0] = ranked("p*x^2*v", "custom", 0.0, 0.71, 0.04, 0.001);
     diagnosis.ranking[0].unlisted = true;
     diagnosis.ranking[0].parameters = vec![parameter("p", "N s/m^3", 812.0, 31.0)];
@@ -77,11 +108,26 @@ fn diagnosis(result: &CampaignResult) -> Diagnosis {
     Diagnosis {
         verb: "diagnose".into(),
         verdict: Verdict::MissingEffect,
-        headline: "Missing: cubic stiffness, 9.9 × 10⁵ N/m³. It removes 83 % of the misfit in tightenings it was not fitted to.".into(),
+        headline: Headline::Lacks {
+            effect: named("cubic_stiffness"),
+            fall: fall(6.42, 1.38),
+        },
         reasons: vec![
-            "The model misses the measurement by 6.42 times the noise.".into(),
-            "97 % of that misfit repeats from tightening to tightening, so it is a law and not chance.".into(),
+            Reason::Error {
+                tightenings: 24,
+                error: 6.42,
+                is_at_floor: false,
+                is_adequate: false,
+            },
+            Reason::Removes {
+                effect: named("cubic_stiffness"),
+                heldout_gain: 0.83,
+                p_family: 0.001,
+                cluster: Cluster::Tightening,
+                is_beyond_noise: true,
+            },
         ],
+        level: 0.05,
         stopped: None,
         interrupted: false,
         tightenings: 24,
@@ -112,7 +158,9 @@ fn diagnosis(result: &CampaignResult) -> Diagnosis {
             conditions: "soft joint, targets 15 and 40 Nm, strategy QS".into(),
             tightenings: Some(9),
             distance_per_tightening: 2.3,
-            statement: "9 tightenings on the soft joint with targets 15 and 40 Nm would tell them apart.".into(),
+            statement:
+                "9 tightenings on the soft joint with targets 15 and 40 Nm would tell them apart."
+                    .into(),
         }),
         showcase: None,
         work: WorkDone::default(),

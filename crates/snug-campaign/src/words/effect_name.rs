@@ -1,0 +1,115 @@
+//! Names of effects and their units as people write them.
+
+use crate::Diagnosis;
+
+/// `cubic_stiffness` as `cubic stiffness`; an expression stays as it is.
+pub fn effect_name(name: &str) -> String {
+    if name.contains(['*', '^', '(', '+', '/']) {
+        name.into()
+    } else {
+        name.replace('_', " ")
+    }
+}
+
+/// An effect as commands and files name it; a term that is in no catalogue by what it is, `force p*x^2*v`.
+pub fn label(effect: &str, expression: Option<&String>) -> String {
+    expression.map_or_else(
+        || effect.to_owned(),
+        |expression| format!("force {expression}"),
+    )
+}
+
+/// The same of one that the diagnosis knows.
+pub fn label_in(diagnosis: &Diagnosis, effect: &str) -> String {
+    label(effect, diagnosis.expression(effect))
+}
+
+/// An effect as people say it; a term that is in no catalogue by what it is.
+pub fn called(effect: &str, expression: Option<&String>) -> String {
+    effect_name(&label(effect, expression))
+}
+
+/// The same of one that the diagnosis knows.
+pub fn called_in(diagnosis: &Diagnosis, effect: &str) -> String {
+    effect_name(&label_in(diagnosis, effect))
+}
+
+/// Effects that the diagnosis knows as a sentence lists them.
+pub fn names_in(diagnosis: &Diagnosis, effects: &[String]) -> String {
+    let names = effects.iter().map(|effect| called_in(diagnosis, effect));
+    names.collect::<Vec<_>>().join(", ")
+}
+
+/// An effect as a sentence names it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Named {
+    /// Its name in the catalogue, or of a term that is in none.
+    pub effect: String,
+    /// The expression of such a term.
+    pub expression: Option<String>,
+    /// What such a term is, in words.
+    pub says: Option<&'static str>,
+    /// What these data cannot tell from it.
+    pub twins: Vec<Named>,
+}
+
+impl Named {
+    /// Whether it is in no catalogue.
+    pub fn is_unlisted(&self) -> bool {
+        self.expression.is_some()
+    }
+
+    /// `co contraction`, or `a force p*x^2*v`.
+    pub fn spoken(&self) -> String {
+        match &self.expression {
+            Some(expression) => format!("a force {expression}"),
+            None => effect_name(&self.effect),
+        }
+    }
+
+    /// With what these data cannot tell from it; a term that stands alone is put into words.
+    pub fn with_twins(&self) -> String {
+        match (self.twins.as_slice(), self.says) {
+            ([], None) => self.spoken(),
+            ([], Some(words)) => format!("{} ({words})", self.spoken()),
+            (twins, _) => {
+                let names = std::iter::once(self).chain(twins).map(Self::spoken);
+                let names: Vec<String> = names.collect();
+                format!("{} (these data cannot tell which)", names.join(" or "))
+            }
+        }
+    }
+}
+
+/// `N/m^3` as `N/m³`; nothing for a pure number.
+pub fn unit_text(unit: &str) -> String {
+    match unit {
+        "1" => String::new(),
+        unit => raised(unit),
+    }
+}
+
+/// Powers as raised marks.
+pub fn raised(text: &str) -> String {
+    let marks = [("^2", "²"), ("^3", "³"), ("^4", "⁴"), ("^5", "⁵")];
+    marks.iter().fold(text.to_owned(), |text, (plain, mark)| {
+        text.replace(plain, mark)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn units_are_raised_and_pure_numbers_have_none() {
+        assert_eq!(unit_text("N s^2/m^2"), "N s²/m²");
+        assert_eq!(unit_text("1"), "");
+    }
+
+    #[test]
+    fn expressions_keep_their_signs() {
+        assert_eq!(effect_name("cubic_stiffness"), "cubic stiffness");
+        assert_eq!(effect_name("p_1*x^2*v"), "p_1*x^2*v");
+    }
+}

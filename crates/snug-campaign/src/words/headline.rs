@@ -1,0 +1,200 @@
+//! The verdict in one sentence.
+
+use super::effect_name::Named;
+use super::number::significant;
+use super::said::written_as_said;
+use super::{counted, joined};
+use crate::{Diagnosis, Verdict};
+use std::fmt::{self, Display, Formatter};
+
+/// What a fitted model leaves.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Left {
+    /// Root mean square of the residual, over the noise where that is known.
+    pub error: f64,
+    /// Whether it is over the noise.
+    pub is_over_noise: bool,
+}
+
+impl Display for Left {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self.is_over_noise {
+            true => write!(f, "{:.3} times the measurement noise", self.error),
+            false => write!(f, "{} rms", significant(self.error, 3)),
+        }
+    }
+}
+
+/// How the error fell: `from 1.541 to 1.007 times the measurement noise`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Fall {
+    /// What the first model left.
+    pub before: Left,
+    /// What the last leaves.
+    pub after: Left,
+}
+
+impl Display for Fall {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self.before.is_over_noise && self.after.is_over_noise {
+            true => write!(f, "from {:.3} to {}", self.before.error, self.after),
+            false => write!(
+                f,
+                "from {} to {}",
+                significant(self.before.error, 3),
+                self.after
+            ),
+        }
+    }
+}
+
+/// The verdict, with what it rests on.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Headline {
+    /// Whoever watches ended the search; what had been added by then.
+    Stopped {
+        /// The effects.
+        added: Vec<Named>,
+        /// How the error fell with them.
+        fall: Fall,
+    },
+    /// An effect is missing, or a law that is in no catalogue.
+    Lacks {
+        /// It, and what these data cannot tell from it.
+        effect: Named,
+        /// How the error falls with it.
+        fall: Fall,
+    },
+    /// Terms that are in no catalogue were added.
+    Unlisted {
+        /// What was added.
+        added: Vec<Named>,
+        /// Whether nothing but noise is left.
+        describes: bool,
+        /// How the error fell.
+        fall: Fall,
+    },
+    /// Repeatable misfit that no effect of the catalogue explains.
+    Unexplained(Left),
+    /// Nothing more is justified.
+    Adequate {
+        /// What was added.
+        added: Vec<Named>,
+        /// How the error fell.
+        fall: Fall,
+    },
+    /// Compared only; nothing was looked for.
+    Compared(Left),
+    /// Too little to say.
+    TooLittle {
+        /// How many tightenings there are; `None` where stretches of few long records are compared.
+        tightenings: Option<usize>,
+        /// What the model leaves.
+        left: Left,
+    },
+}
+
+written_as_said!(Headline);
+
+fn named(effects: &[Named]) -> String {
+    joined(&effects.iter().map(Named::with_twins).collect::<Vec<_>>())
+}
+
+impl Display for Headline {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Stopped { added, fall } if added.is_empty() => write!(
+                f,
+                "Stopped by you before an effect was added: the model leaves {}, and what it lacks is not decided.",
+                fall.after
+            ),
+            Self::Stopped { added, fall } => write!(
+                f,
+                "Stopped by you after {}: with {} the error fell {fall}; nothing more was tried.",
+                counted(added.len(), "effect"),
+                named(added)
+            ),
+            Self::Lacks { effect, fall } => {
+                let what = match effect.is_unlisted() {
+                    true => "A law that is not in the catalogue is missing, best described as",
+                    false => "The model lacks",
+                };
+                write!(
+                    f,
+                    "{what} {}: with it the error falls {fall}.",
+                    effect.with_twins()
+                )
+            }
+            Self::Unlisted {
+                added,
+                describes,
+                fall,
+            } => {
+                let describes = match (describes, added.len()) {
+                    (true, 1) => "describes",
+                    (true, _) => "describe",
+                    (false, 1) => "comes nearest to",
+                    (false, _) => "together come nearest to",
+                };
+                write!(
+                    f,
+                    "Something that is not in the catalogue acts here; {} {describes} it, and the error falls {fall}.",
+                    named(added)
+                )
+            }
+            Self::Unexplained(left) => write!(
+                f,
+                "Misfit that repeats from tightening to tightening remains ({left}), and no effect of the catalogue explains it."
+            ),
+            Self::Adequate { added, fall } if added.is_empty() => write!(
+                f,
+                "The model is adequate: it leaves {}, and nothing more is justified.",
+                fall.after
+            ),
+            Self::Adequate { added, fall } => write!(
+                f,
+                "With {} the model is complete: the error fell {fall}, and nothing more is justified.",
+                named(added)
+            ),
+            Self::Compared(left) => {
+                write!(
+                    f,
+                    "The model leaves {left}; `diagnose` says what could be missing."
+                )
+            }
+            Self::TooLittle { tightenings, left } => {
+                match tightenings {
+                    Some(some) => write!(f, "These {some} tightenings are too few")?,
+                    None => write!(f, "This measurement is too short")?,
+                }
+                write!(
+                    f,
+                    " to say: the model leaves {left}, and the best candidate could still be chance."
+                )
+            }
+        }
+    }
+}
+
+impl Diagnosis {
+    /// The verdict in a few words.
+    pub fn word(&self) -> &'static str {
+        let mut rungs = self.ladder.iter();
+        let is_noise_known = rungs.any(|rung| rung.error_over_noise.is_some());
+        // A comparison asks how much is missing, not what.
+        let is_comparison = self.verb == "compare";
+        match self.verdict {
+            _ if self.interrupted => "stopped by you before there was a verdict",
+            Verdict::Adequate => "the model is adequate",
+            Verdict::MissingEffect => "an effect is missing",
+            Verdict::UnlistedEffect => "something is missing that is in no catalogue",
+            Verdict::Undecided if is_comparison && is_noise_known => {
+                "the model leaves more than the noise"
+            }
+            Verdict::Undecided if is_comparison => {
+                "the model leaves an error, and the noise is not known"
+            }
+            Verdict::Undecided => "too little data to say",
+        }
+    }
+}

@@ -1,0 +1,289 @@
+//! Why a verdict is what it is: each reason as data, and the sentence it is said with.
+
+use super::chance::by_chance;
+use super::effect_name::{Named, effect_name};
+use super::headline::Left;
+use super::number::fixed;
+use super::said::written_as_said;
+use super::size::{amount, sizes};
+use super::{capitalised, joined};
+use crate::{CorrectedEffect, EffectParameter};
+use std::fmt::{self, Display, Formatter};
+
+/// What counts as one independent piece of evidence.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Cluster {
+    /// A whole tightening.
+    Tightening,
+    /// A stretch of one of few long records.
+    Stretch,
+}
+
+impl Cluster {
+    /// What people call them.
+    pub fn plural(self) -> &'static str {
+        match self {
+            Self::Tightening => "tightenings",
+            Self::Stretch => "stretches of the record",
+        }
+    }
+}
+
+/// What would decide an open verdict.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum MoreData {
+    /// About so many tightenings.
+    Tightenings(f64),
+    /// A record so many times as long.
+    Longer(f64),
+}
+
+/// One reason for a verdict.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Reason {
+    /// The noise is not known.
+    NoiseUnknown(Left),
+    /// What the model leaves, over the noise.
+    Error {
+        /// Tightenings compared.
+        tightenings: usize,
+        /// Root mean square of the residual over the noise.
+        error: f64,
+        /// Whether only noise is left.
+        is_at_floor: bool,
+        /// Whether the model is called adequate all the same.
+        is_adequate: bool,
+    },
+    /// What an effect removes where its size was not fitted.
+    Removes {
+        /// The effect.
+        effect: Named,
+        /// Share of the misfit.
+        heldout_gain: f64,
+        /// Family-wise p.
+        p_family: f64,
+        /// What was held out.
+        cluster: Cluster,
+        /// Whether the misfit is counted beyond a known noise.
+        is_beyond_noise: bool,
+    },
+    /// How large the missing effect is.
+    Size(Vec<EffectParameter>),
+    /// What these data cannot tell from the missing effect.
+    CannotTell(Vec<Named>),
+    /// Mass, damping or stiffness drift.
+    Drifts {
+        /// Name of the trend.
+        trend: String,
+        /// Changes per tightening.
+        parameters: Vec<EffectParameter>,
+    },
+    /// Preparation took something out.
+    TakenOut {
+        /// What.
+        corrected: CorrectedEffect,
+        /// What to check at the bench, where it is the rule and not the exception.
+        check: Option<&'static str>,
+    },
+    /// Effects that this rig cannot be simulated with.
+    NotSimulated(Vec<Named>),
+    /// What would decide.
+    WouldDecide {
+        /// The best candidate.
+        effect: String,
+        /// Its family-wise p.
+        p_family: f64,
+        /// How much more data.
+        more: MoreData,
+    },
+    /// The model is restarted from the measured motion.
+    Restarted {
+        /// Share of the measured motion that a free run misses.
+        missed: f64,
+        /// Time between restarts \[s\].
+        every_s: f64,
+    },
+    /// Tightenings that could not be judged by the common measure.
+    LeftOut {
+        /// How many.
+        left_out: usize,
+        /// Of how many.
+        all: usize,
+        /// The quantity compared.
+        quantity: &'static str,
+        /// Whether in multiples of its noise.
+        has_noise: bool,
+    },
+    /// Effects were learnt from some tightenings only.
+    LearntFrom {
+        /// Tightenings used.
+        taken: usize,
+        /// Files read.
+        read: usize,
+        /// All files.
+        files: usize,
+    },
+    /// Files that could not be read.
+    Unread {
+        /// Why the first could not.
+        first: String,
+        /// How many more.
+        more: usize,
+    },
+}
+
+written_as_said!(Reason);
+
+impl Display for Reason {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoiseUnknown(left) => write!(
+                f,
+                "The noise of this signal is not known, so the error ({left}) is judged by whether candidates predict stretches that took no part in fitting them."
+            ),
+            Self::Error {
+                tightenings,
+                error,
+                is_at_floor: true,
+                ..
+            } => write!(
+                f,
+                "Over {tightenings} tightenings the model's error is {error:.3} times the sensor noise measured in the quiet part before each pulse; 1 means that only noise is left."
+            ),
+            Self::Error {
+                tightenings,
+                error,
+                is_adequate,
+                ..
+            } => {
+                write!(
+                    f,
+                    "Over {tightenings} tightenings the model's error is {error:.2} times the sensor noise measured in the quiet part before each pulse; with a complete model it would be 1."
+                )?;
+                match is_adequate {
+                    true => write!(
+                        f,
+                        " What is left beyond the noise hardly repeats from tightening to tightening, as an effect that all share would: look at the tightenings that fit worst."
+                    ),
+                    false => Ok(()),
+                }
+            }
+            Self::Removes {
+                effect,
+                heldout_gain,
+                p_family,
+                cluster,
+                is_beyond_noise,
+            } => {
+                let of = match is_beyond_noise {
+                    true => "what was beyond the noise",
+                    false => "the squared error",
+                };
+                write!(
+                    f,
+                    "{} removes {:.0}\u{a0}% of {of} in {} that took no part in finding its size; {}.",
+                    capitalised(&effect.spoken()),
+                    (100.0 * heldout_gain).clamp(0.0, 100.0),
+                    cluster.plural(),
+                    by_chance(*p_family)
+                )
+            }
+            Self::Size(parameters) => write!(f, "Its size: {}.", sizes(parameters)),
+            Self::CannotTell(twins) => write!(
+                f,
+                "These data cannot tell it from {}; they are named together.",
+                joined(&spoken(twins))
+            ),
+            Self::Drifts { trend, parameters } => write!(
+                f,
+                "Beside the misfit, mass, damping or stiffness drift with the tightening's number ({trend}): {}.",
+                sizes(parameters)
+            ),
+            Self::TakenOut { corrected, check } => taken_out(f, corrected, *check),
+            Self::NotSimulated(effects) => write!(
+                f,
+                "Not tried, because this rig cannot be simulated with sizes meant for a hand on a tool: {}.",
+                joined(&spoken(effects))
+            ),
+            Self::WouldDecide {
+                effect,
+                p_family,
+                more,
+            } => {
+                write!(
+                    f,
+                    "The best candidate is {} ({}). ",
+                    effect_name(effect),
+                    by_chance(*p_family)
+                )?;
+                match more {
+                    MoreData::Tightenings(count) => {
+                        write!(f, "About {count} tightenings like these would decide.")
+                    }
+                    MoreData::Longer(times) => write!(
+                        f,
+                        "A record about {times:.0} times as long, or several of them, would decide."
+                    ),
+                }
+            }
+            Self::Restarted { missed, every_s } => write!(
+                f,
+                "Run freely from its first sample on, the study's own model misses {:.0}\u{a0}% of the measured motion, so that a free run says little about single effects. Every model is therefore judged by what it predicts over {every_s} s from the measured motion, again and again (`identify.simulation: Restarted(every_s: {every_s})`; `FreeRun` in the study file asks for the whole record at once).",
+                100.0 * missed.min(9.99)
+            ),
+            Self::LeftOut {
+                left_out,
+                all,
+                quantity,
+                has_noise,
+            } => write!(
+                f,
+                "{left_out} of {all} tightenings took no part in the diagnosis: all must be judged by one measure, here {quantity} {}, and that could not be had of {}. findings.json says why.",
+                if *has_noise {
+                    "in multiples of its measured noise"
+                } else {
+                    "without a measured noise"
+                },
+                if *left_out == 1 { "this one" } else { "these" }
+            ),
+            Self::LearntFrom { taken, read, files } => {
+                let from = match read < files {
+                    true => format!("{read} of the {files} files"),
+                    false => format!("each of the {files} files"),
+                };
+                write!(
+                    f,
+                    "There are many tightenings: what is missing, and how large it is, was learnt from {taken}, taken evenly from {from}; every tightening was then evaluated with what was learnt. `diagnosis: (most_tightenings: …)` in the study says how many may be used."
+                )
+            }
+            Self::Unread { first, more } => {
+                write!(
+                    f,
+                    "Not every file could be read, so this diagnosis is in part without it: {first}"
+                )?;
+                match more {
+                    0 => write!(f, "."),
+                    some => write!(f, " (and {some} more)."),
+                }
+            }
+        }
+    }
+}
+
+fn spoken(effects: &[Named]) -> Vec<String> {
+    effects.iter().map(Named::spoken).collect()
+}
+
+fn taken_out(f: &mut Formatter<'_>, one: &CorrectedEffect, check: Option<&str>) -> fmt::Result {
+    write!(
+        f,
+        "Before the fit, {} was measured in the quiet part and taken out: about {} in {}\u{a0}% of the tightenings.",
+        effect_name(&one.effect),
+        amount(one.size, &one.unit),
+        fixed(100.0 * one.share, 0)
+    )?;
+    match check {
+        Some(check) => write!(f, " Check at the bench: {check}"),
+        None => Ok(()),
+    }
+}

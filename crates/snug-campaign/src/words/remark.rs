@@ -1,0 +1,255 @@
+//! What stands out of where a model fails: each remark as data, and the sentence it is said with.
+
+use super::said::written_as_said;
+use std::fmt::{self, Display, Formatter};
+
+/// An error over the noise, or over the campaign's average error where the noise is not known.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Times {
+    /// How many times.
+    pub error: f64,
+    /// Whether the noise is known.
+    pub of_noise: bool,
+}
+
+impl Display for Times {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let of = match self.of_noise {
+            true => "the noise",
+            false => "the average error",
+        };
+        write!(f, "{:.1} times {of}", self.error)
+    }
+}
+
+/// Something that stands out; shares are of the campaign's misfit, 0 to 1.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Remark {
+    /// Noise alone gives this error over the measured noise.
+    OnlyNoise(f64),
+    /// A stretch of time holds most of the misfit.
+    Time {
+        /// Share of the misfit.
+        share: f64,
+        /// Where it begins \[s\].
+        from_s: f64,
+        /// Where it ends \[s\].
+        to_s: f64,
+        /// Whether times count from the pulse's onset.
+        since_onset: bool,
+    },
+    /// A phase of the pulse holds more than its due.
+    Phase {
+        /// The phase, as the aspect's part is called.
+        phase: String,
+        /// Share of the misfit.
+        share: f64,
+        /// Share of the time.
+        of_time: f64,
+        /// The error there.
+        error: Times,
+    },
+    /// A band of frequency holds most of the misfit.
+    Frequency {
+        /// Share of the misfit.
+        share: f64,
+        /// Where it begins \[Hz\].
+        from_hz: f64,
+        /// Where it ends \[Hz\].
+        to_hz: f64,
+        /// From where on there is nothing but noise \[Hz\].
+        quiet_from_hz: Option<f64>,
+    },
+    /// The error differs between small and large angles.
+    Amplitude {
+        /// Whether it grows with the angle.
+        grows: bool,
+        /// Error below the first angle \[rad\].
+        small: (f64, Times),
+        /// Error above the second angle \[rad\].
+        large: (f64, Times),
+    },
+    /// One value of a condition holds more than its due.
+    Condition {
+        /// The condition, as its aspect is called.
+        condition: String,
+        /// Its value.
+        value: String,
+        /// Share of the misfit.
+        share: f64,
+        /// Share of the data.
+        of_data: f64,
+    },
+    /// The missing force follows a shape.
+    Follows {
+        /// The shape.
+        shape: &'static str,
+        /// Share of the misfit that it describes.
+        share: f64,
+        /// Others that do so nearly as well.
+        others: Vec<(&'static str, f64)>,
+    },
+    /// No simple shape describes the missing force.
+    FollowsNothing {
+        /// The best.
+        shape: &'static str,
+        /// Share of the misfit that it leaves.
+        left: f64,
+    },
+    /// Most of the misfit can be predicted from other tightenings: the share.
+    Repeats(f64),
+    /// Little of it can: the share.
+    DoesNotRepeat(f64),
+    /// Nothing stands out of a misfit beyond the noise.
+    SpreadOut,
+}
+
+written_as_said!(Remark);
+
+fn percent(share: f64) -> String {
+    format!("{:.0}\u{a0}%", 100.0 * share)
+}
+
+impl Display for Remark {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::OnlyNoise(error) => write!(
+                f,
+                "Nothing stands out: the error is {error:.2} times the measured noise, which is what noise alone gives."
+            ),
+            Self::Time {
+                share,
+                from_s,
+                to_s,
+                since_onset,
+            } => {
+                let (scale, unit) = if *to_s < 1.0 { (1e3, "ms") } else { (1.0, "s") };
+                let whence = match since_onset {
+                    true => "after the pulse began",
+                    false => "into the recording",
+                };
+                write!(
+                    f,
+                    "Most of the misfit ({}) lies {} to {} {unit} {whence}.",
+                    percent(*share),
+                    without_last_digits(from_s * scale),
+                    without_last_digits(to_s * scale)
+                )
+            }
+            Self::Phase {
+                phase,
+                share,
+                of_time,
+                error,
+            } => {
+                let name = match phase.as_str() {
+                    "before onset" => "time before the pulse",
+                    "rise" => "rise of the torque",
+                    "peak" => "torque's peak",
+                    "release" => "release",
+                    "rebound" => "rebound",
+                    _ => "rest after the rebound",
+                };
+                write!(
+                    f,
+                    "The {name} holds {} of the misfit in {} of the time: the error there is {error}.",
+                    percent(*share),
+                    percent(*of_time)
+                )
+            }
+            Self::Frequency {
+                share,
+                from_hz,
+                to_hz,
+                quiet_from_hz,
+            } => {
+                write!(f, "Most of the misfit ({}) lies ", percent(*share))?;
+                match *from_hz == 0.0 {
+                    true => write!(f, "below {to_hz} Hz")?,
+                    false => write!(f, "between {from_hz} and {to_hz} Hz")?,
+                }
+                match quiet_from_hz {
+                    Some(from) => write!(f, "; above {from} Hz there is nothing but noise."),
+                    None => write!(f, "."),
+                }
+            }
+            Self::Amplitude {
+                grows,
+                small: (to, small),
+                large: (from, large),
+            } => {
+                let lead = match grows {
+                    true => "The misfit grows with the angle",
+                    false => "The misfit is largest at small angles",
+                };
+                write!(
+                    f,
+                    "{lead}: {small} below {to} rad, {large} above {from} rad."
+                )
+            }
+            Self::Condition {
+                condition,
+                value,
+                share,
+                of_data,
+            } => {
+                let lead = match condition.as_str() {
+                    "participant" => "Participant",
+                    "strategy" => "Strategy",
+                    "joint" => "Joint",
+                    "pace_per_min" => "The pace of",
+                    _ => "The target of",
+                };
+                write!(
+                    f,
+                    "{lead} {value} carries {} of the misfit with {} of the data.",
+                    percent(*share),
+                    percent(*of_data)
+                )
+            }
+            Self::Follows {
+                shape,
+                share,
+                others,
+            } => {
+                write!(
+                    f,
+                    "The missing force follows {shape}: that describes {} of the misfit",
+                    percent(*share)
+                )?;
+                let others: Vec<String> = (others.iter())
+                    .map(|(shape, share)| format!("{shape} ({})", percent(*share)))
+                    .collect();
+                match others.is_empty() {
+                    true => write!(f, "."),
+                    false => write!(f, "; nearly as well: {}.", others.join("; ")),
+                }
+            }
+            Self::FollowsNothing { shape, left } => write!(
+                f,
+                "No simple function of displacement and velocity describes the missing force: the best, {shape}, leaves {} of the misfit.",
+                percent(*left)
+            ),
+            Self::Repeats(share) => write!(
+                f,
+                "{} of the misfit can be predicted from the other tightenings: a missing effect can explain it.",
+                percent(*share)
+            ),
+            Self::DoesNotRepeat(share) => write!(
+                f,
+                "Only {} of the misfit can be predicted from the other tightenings: most of it is different each time, or is no simple function of time, displacement and velocity.",
+                percent(*share)
+            ),
+            Self::SpreadOut => f.write_str(
+                "Nothing stands out: the misfit is spread over time, frequency and conditions.",
+            ),
+        }
+    }
+}
+
+/// Without the last digits that arithmetic leaves.
+fn without_last_digits(value: f64) -> f64 {
+    const DECIMALS: f64 = 1e7;
+    // Not −0.
+    (value * DECIMALS).round() / DECIMALS + 0.0
+}

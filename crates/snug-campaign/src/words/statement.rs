@@ -1,0 +1,106 @@
+//! What a table of a diagnosis says of one of its rows, in a sentence.
+
+use super::effect_name::effect_name;
+use super::reason::Cluster;
+use super::size::{amount, sizes};
+use crate::EffectParameter;
+
+/// What the sentences of every explanation of a catalogue effect are.
+pub fn described(summary: &str, shows_as: &str, check: &str) -> Vec<String> {
+    vec![
+        summary.to_owned(),
+        format!("How it shows: {shows_as}."),
+        format!("Check at the bench: {check}"),
+    ]
+}
+
+/// What a term in no catalogue is.
+pub fn described_unlisted(expression: &str, says: &str) -> Vec<String> {
+    vec![
+        format!(
+            "A term in no catalogue: {says}. The hand's force gains {expression} ({}).",
+            symbols(expression)
+        ),
+        "It describes the missing force; what causes it is for the bench to find out.".to_owned(),
+    ]
+}
+
+/// The simplest term for what no effect of the catalogue explains.
+pub fn unlisted(
+    expression: &str,
+    parameters: &[EffectParameter],
+    heldout_gain: f64,
+    cluster: Cluster,
+) -> String {
+    format!(
+        "The simplest term that describes it is a force {expression} with {} ({}); it removes {:.0}\u{a0}% of the misfit in {} that took no part in finding its size. It describes; what causes it is for the bench to find out.",
+        sizes(parameters),
+        symbols(expression),
+        (heldout_gain * 100.0).clamp(0.0, 100.0),
+        cluster.plural()
+    )
+}
+
+/// What became of an attempt to do without a term; `growth` of the squared error as a share of it.
+pub fn removal(name: &str, is_removed: bool, growth: f64) -> String {
+    match is_removed {
+        true => format!("Without {name} the model predicts as well: it was taken out again."),
+        false => format!(
+            "Without {name} the squared error grows by {:.1}\u{a0}%: it stays.",
+            growth * 100.0
+        ),
+    }
+}
+
+/// How large an effect could be without having been seen.
+pub fn detectability(effect: &str, smallest: Option<f64>, unit: &str) -> String {
+    let name = effect_name(effect);
+    match smallest {
+        Some(size) => format!("{name}: absent or smaller than {}.", amount(size, unit)),
+        None => {
+            format!("{name}: these data could not show it, even at its largest plausible size.")
+        }
+    }
+}
+
+/// The experiment that tells two effects apart; `None` tightenings where none of the tried conditions does.
+pub fn experiment(between: &[String; 2], conditions: &str, tightenings: Option<usize>) -> String {
+    let [first, second] = between;
+    match tightenings {
+        Some(1) => {
+            format!("To tell {first} from {second}: one more tightening {conditions} is enough.")
+        }
+        Some(number) => {
+            format!(
+                "To tell {first} from {second}: make about {number} more tightenings {conditions}."
+            )
+        }
+        None => format!(
+            "No change of torque or joint that was tried tells {first} from {second}: the two need a look at the bench."
+        ),
+    }
+}
+
+/// What the letters of an expression stand for.
+fn symbols(expression: &str) -> String {
+    let letters: Vec<&str> = expression
+        .split(|sign: char| !sign.is_ascii_alphanumeric())
+        .collect();
+    let meanings = [
+        ("x", "x: displacement of the grip"),
+        ("v", "v: its velocity"),
+        ("theta", "theta: the tool's angle"),
+        ("T", "T: joint torque"),
+        ("t", "t: time since the pulse began"),
+        ("p", "p: its size"),
+        ("x0", "x0: a displacement"),
+        ("v0", "v0: a speed"),
+        ("t0", "t0: a time"),
+    ];
+    let used = meanings
+        .iter()
+        .filter(|(letter, _)| letters.contains(letter));
+    used.map(|(_, meaning)| *meaning)
+        .collect::<Vec<_>>()
+        .join(", ")
+}

@@ -1,0 +1,70 @@
+//! Why nothing more was added.
+
+use super::chance::by_chance;
+use super::counted;
+use super::effect_name::Named;
+use super::number::{fixed, short};
+use super::said::written_as_said;
+use std::fmt::{self, Display, Formatter};
+
+/// Why the search for effects stopped.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Stopped {
+    /// No candidate reaches the level.
+    NothingSupported {
+        /// Smallest family-wise p of the rest.
+        best_p: f64,
+        /// Family-wise p below which an effect is believed.
+        level: f64,
+    },
+    /// The best supported candidate lowers the error by too little to matter.
+    TooSmall {
+        /// The candidate.
+        effect: Named,
+        /// Share of the squared error that it removes.
+        share: f64,
+        /// Share that matters.
+        smallest: f64,
+        /// Whether only noise is left.
+        is_at_floor: bool,
+    },
+    /// The model cannot carry more.
+    Full,
+    /// Whoever watches ended it after so many effects.
+    Interrupted(usize),
+}
+
+written_as_said!(Stopped);
+
+impl Display for Stopped {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NothingSupported { best_p, level } => write!(
+                f,
+                "No further effect is supported: {} as the best of the rest, and an effect is believed below {} of 100 only.",
+                by_chance(*best_p),
+                short(100.0 * level)
+            ),
+            Self::TooSmall { effect, share, smallest, is_at_floor } => write!(
+                f,
+                "The best of the rest, {}, would lower the squared error by {}\u{a0}%, less than the {}\u{a0}% that matter here: {}. If it shows at the bench all the same, add it: while it is left out, the sizes found here lean to make up for it.",
+                effect.spoken(),
+                fixed(100.0 * share, 2),
+                fixed(100.0 * smallest, 1),
+                match is_at_floor {
+                    true => "that much is within reach of noise in the torque signal and of the timing between samples",
+                    false => "that much may be a piece of what else is missing",
+                }
+            ),
+            Self::Full => f.write_str(
+                "The model carries as many effects as can be told apart; look at the data before adding more.",
+            ),
+            Self::Interrupted(0) => f.write_str("You ended it before an effect was added."),
+            Self::Interrupted(added) => write!(
+                f,
+                "You ended it after {}; nothing more was tried, nor whether each of them is needed beside the others.",
+                counted(*added, "effect")
+            ),
+        }
+    }
+}

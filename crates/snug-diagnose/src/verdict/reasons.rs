@@ -1,0 +1,282 @@
+//! What speaks for a verdict, as data: the sentences stand in `snug_campaign::words`.
+
+use crate::data::clusters::Units;
+use crate::library::{declaration, in_words};
+use crate::pooled::fitted::Fitted;
+use crate::ranking::rank::Candidate;
+use crate::selection::path::{Addition, Attempt, Stop};
+use crate::settings::DiagnoseSettings;
+use snug_campaign::words::effect_name::Named;
+use snug_campaign::words::headline::{Fall, Headline, Left};
+use snug_campaign::words::reason::{MoreData, Reason};
+use snug_campaign::words::statement;
+use snug_campaign::words::stopped::Stopped;
+use snug_campaign::{CorrectedEffect, EffectParameter, RankedEffect, Removal, Verdict};
+use snug_model::{CustomEffectSettings, Description, Effect, Law, TRENDS};
+
+/// What a verdict rests on.
+pub(crate) struct Situation<'a> {
+    pub verb: &'static str,
+    pub verdict: Verdict,
+    pub tightenings: usize,
+    /// What is held out in turn: whole tightenings, or stretches of few long records.
+    pub units: Units,
+    pub before: &'a Fitted,
+    pub after: &'a Fitted,
+    pub additions: &'a [Addition],
+    /// The candidate that is supported and not in the model.
+    pub chosen: Option<&'a Candidate>,
+    /// What these data cannot tell from it.
+    pub twins: Vec<Effect>,
+    pub ranking: &'a [RankedEffect],
+    pub stopped: Option<Stop>,
+    /// Candidates that cannot be simulated on this rig.
+    pub impossible: &'a [Effect],
+    /// What preparation took out.
+    pub corrected: &'a [CorrectedEffect],
+    pub settings: &'a DiagnoseSettings,
+}
+
+impl Situation<'_> {
+    /// Two effects that are to be told apart by an experiment, if there are: the one that is missing or was added last, and
+    /// its twin.
+    pub fn twin_pair(&self) -> Option<(&Fitted, Effect)> {
+        if let Some(chosen) = self.chosen {
+            return Some((&chosen.fitted, *self.twins.first()?));
+        }
+        let added = self.additions.last()?;
+        let twin = *added.twins.first()?;
+        (self.after.effects.last() == Some(&added.effect)).then_some((self.after, twin))
+    }
+
+    fn is_interrupted(&self) -> bool {
+        self.stopped == Some(Stop::Interrupted)
+    }
+
+    fn added(&self) -> Vec<Named> {
+        (self.additions.iter())
+            .map(|one| with_twins(one.effect, &one.twins, self.after))
+            .collect()
+    }
+}
+
+/// An effect by itself.
+pub(crate) fn named(effect: Effect) -> Named {
+    Named {
+        effect: effect.name().to_owned(),
+        expression: declaration(effect.name()).map(|term| term.expression),
+        says: None,
+        twins: Vec::new(),
+    }
+}
+
+/// An effect of `fitted` with what these data cannot tell from it.
+fn with_twins(effect: Effect, twins: &[Effect], fitted: &Fitted) -> Named {
+    Named {
+        says: in_words(effect, fitted.size(effect)),
+        twins: all_named(twins),
+        ..named(effect)
+    }
+}
+
+fn all_named(effects: &[Effect]) -> Vec<Named> {
+    effects.iter().copied().map(named).collect()
+}
+
+fn left(fitted: &Fitted) -> Left {
+    Left {
+        error: fitted.error(),
+        is_over_noise: fitted.is_weighted,
+    }
+}
+
+fn fall(before: &Fitted, after: &Fitted) -> Fall {
+    Fall {
+        before: left(before),
+        after: left(after),
+    }
+}
+
+/// The verdict with what it rests on.
+pub(crate) fn headline(situation: &Situation<'_>) -> Headline {
+    let fell = fall(situation.before, situation.after);
+    let added = situation.added();
+    if situation.is_interrupted() {
+        return Headline::Stopped { added, fall: fell };
+    }
+    match (situation.verdict, situation.chosen) {
+        (Verdict::MissingEffect | Verdict::UnlistedEffect, Some(chosen)) => Headline::Lacks {
+            effect: with_twins(chosen.effect, &situation.twins, &chosen.fitted),
+            fall: fall(situation.after, &chosen.fitted),
+        },
+        (Verdict::UnlistedEffect, None) if !added.is_empty() => Headline::Unlisted {
+            added,
+            describes: !situation.after.is_beyond_noise(),
+            fall: fell,
+        },
+        (Verdict::UnlistedEffect, None) => Headline::Unexplained(fell.after),
+        (Verdict::Adequate, _) => Headline::Adequate { added, fall: fell },
+        (Verdict::Undecided, _) if situation.verb == "compare" => Headline::Compared(fell.after),
+        (Verdict::Undecided | Verdict::MissingEffect, _) => Headline::TooLittle {
+            tightenings: situation.units.are_whole().then_some(situation.tightenings),
+            left: fell.after,
+        },
+    }
+}
+
+/// Why.
+pub(crate) fn reasons(situation: &Situation<'_>) -> Vec<Reason> {
+    let mut reasons = vec![what_is_left(situation)];
+    let additions = situation.additions.iter();
+    reasons.extend(
+        additions.map(|one| removes(one.effect, one.heldout_gain, one.p_family, situation)),
+    );
+    reasons.extend(what_speaks_for_the_chosen(situation));
+    reasons.extend(trends(situation));
+    reasons.extend(situation.corrected.iter().map(taken_out));
+    if !situation.impossible.is_empty() {
+        reasons.push(Reason::NotSimulated(all_named(situation.impossible)));
+    }
+    reasons.extend(what_would_decide(situation));
+    reasons
+}
+
+fn what_is_left(situation: &Situation<'_>) -> Reason {
+    match situation.after.is_weighted {
+        false => Reason::NoiseUnknown(left(situation.after)),
+        true => Reason::Error {
+            tightenings: situation.tightenings,
+            error: situation.after.error(),
+            is_at_floor: situation.after.is_at_floor(),
+            is_adequate: situation.verdict == Verdict::Adequate,
+        },
+    }
+}
+
+fn removes(effect: Effect, heldout_gain: f64, p_family: f64, situation: &Situation<'_>) -> Reason {
+    Reason::Removes {
+        effect: named(effect),
+        heldout_gain,
+        p_family,
+        cluster: situation.units.cluster(),
+        is_beyond_noise: situation.after.is_weighted,
+    }
+}
+
+fn what_speaks_for_the_chosen(situation: &Situation<'_>) -> Vec<Reason> {
+    let (Some(chosen), Some(first)) = (situation.chosen, situation.ranking.first()) else {
+        return Vec::new();
+    };
+    let mut reasons = vec![
+        removes(chosen.effect, first.heldout_gain, first.p_family, situation),
+        Reason::Size(first.parameters.clone()),
+    ];
+    if !situation.twins.is_empty() {
+        reasons.push(Reason::CannotTell(all_named(&situation.twins)));
+    }
+    reasons
+}
+
+fn trends(situation: &Situation<'_>) -> impl Iterator<Item = Reason> {
+    TRENDS.iter().filter_map(move |trend| {
+        let mut ranking = situation.ranking.iter();
+        let found = ranking.find(|one| one.effect == trend.name && one.supported)?;
+        Some(Reason::Drifts {
+            trend: found.effect.clone(),
+            parameters: found.parameters.clone(),
+        })
+    })
+}
+
+/// What preparation took out; where that is the rule and not the exception, with what to check.
+fn taken_out(corrected: &CorrectedEffect) -> Reason {
+    let effect = Effect::named(&corrected.effect).filter(|_| corrected.share > 0.5);
+    Reason::TakenOut {
+        corrected: corrected.clone(),
+        check: effect.map(|effect| effect.description().check),
+    }
+}
+
+fn what_would_decide(situation: &Situation<'_>) -> Option<Reason> {
+    let is_open = situation.verdict == Verdict::Undecided && !situation.is_interrupted();
+    if !is_open || situation.verb == "compare" {
+        return None;
+    }
+    let first = situation.ranking.first()?;
+    let times = (4.0 / first.score.max(0.5)).powi(2);
+    let needed = (times * situation.tightenings as f64 / 4.0).ceil() * 4.0;
+    Some(Reason::WouldDecide {
+        effect: first.effect.clone(),
+        p_family: first.p_family,
+        more: match situation.units.are_whole() {
+            true => MoreData::Tightenings(needed),
+            false => MoreData::Longer(times.ceil().max(2.0)),
+        },
+    })
+}
+
+/// Why nothing more was added.
+pub(crate) fn stopped(situation: &Situation<'_>) -> Option<Stopped> {
+    Some(match situation.stopped? {
+        Stop::NothingSupported { best_p } => Stopped::NothingSupported {
+            best_p,
+            level: situation.settings.level,
+        },
+        Stop::TooSmall { effect, share } => Stopped::TooSmall {
+            effect: named(effect),
+            share,
+            smallest: situation.after.smallest_gain(situation.settings),
+            is_at_floor: situation.after.is_at_floor(),
+        },
+        Stop::Full => Stopped::Full,
+        Stop::Interrupted => Stopped::Interrupted(situation.additions.len()),
+    })
+}
+
+/// What an effect of `fitted` is, how it shows, what to check at the bench.
+pub(crate) fn explanation(effect: Effect, fitted: &Fitted) -> Vec<String> {
+    match declaration(effect.name()).zip(in_words(effect, fitted.size(effect))) {
+        Some((declared, says)) => statement::described_unlisted(&declared.expression, says),
+        None => described(effect.description()),
+    }
+}
+
+/// What the catalogue says about an effect or a trend.
+pub(crate) fn described(description: &Description) -> Vec<String> {
+    statement::described(description.summary, description.shows_as, description.check)
+}
+
+/// What became of an attempt to do without a term.
+pub(crate) fn removal(attempt: &Attempt) -> Removal {
+    let name = named(attempt.effect).spoken();
+    Removal {
+        effect: attempt.effect.name().to_owned(),
+        removed: attempt.removed,
+        statement: statement::removal(&name, attempt.removed, attempt.growth),
+    }
+}
+
+/// RON for the study's `model.custom` list: the term, starting from what was found.
+pub(crate) fn paste(declared: &CustomEffectSettings, found: &[EffectParameter]) -> String {
+    let pairs = declared.parameters.iter().zip(found);
+    let parameters: Vec<String> = pairs
+        .map(|(one, found)| {
+            let mut text = format!(
+                "(name: \"{}\", unit: \"{}\", start: {:.4e}",
+                one.name, found.unit, found.value
+            );
+            for (name, bound) in [("minimum", one.minimum), ("maximum", one.maximum)] {
+                if bound.is_finite() {
+                    text += &format!(", {name}: {bound}");
+                }
+            }
+            text + ")"
+        })
+        .collect();
+    format!(
+        "(name: \"{}\", place: Force, expression: \"{}\", parameters: [{}])",
+        declared.name,
+        declared.expression,
+        parameters.join(", ")
+    )
+}
