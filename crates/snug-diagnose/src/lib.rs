@@ -5,6 +5,8 @@ mod error;
 mod examine;
 mod library;
 mod locate;
+#[cfg(test)]
+mod made_up;
 mod pooled;
 mod question;
 mod ranking;

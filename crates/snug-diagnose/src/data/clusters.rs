@@ -55,3 +55,52 @@ impl Units {
             .map(move |unit| (unit * length).min(samples)..((unit + 1) * length).min(samples))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::made_up::exact;
+
+    /// So many tightenings of so many samples, of which the first `unscored` count for nothing.
+    fn cases(count: usize, samples: usize, unscored: usize) -> Vec<FitTask<'static>> {
+        let mut case = exact(0, &[], &[]).beginning(samples);
+        case.settings.to_mut().unscored_samples = unscored;
+        vec![case; count]
+    }
+
+    #[test]
+    fn eight_tightenings_are_units_seven_are_cut() {
+        assert!(Units::of(&cases(8, 250, 0)).are_whole());
+        assert_eq!(Units::of(&cases(8, 250, 0)).named(), "tightenings");
+        // 24 stretches are wanted: four of each of seven are 28, three would be 21.
+        assert_eq!(Units::of(&cases(7, 250, 0)).per_case, 4);
+        assert_eq!(
+            Units::of(&cases(7, 250, 0)).named(),
+            "stretches of the record"
+        );
+    }
+
+    #[test]
+    fn stretches_are_no_shorter_than_forty_scored_samples() {
+        assert_eq!(Units::of(&cases(1, 250, 0)).per_case, 6);
+        assert_eq!(Units::of(&cases(1, 250, 11)).per_case, 5);
+        assert_eq!(Units::of(&cases(1, 30, 0)).per_case, 1);
+    }
+
+    #[test]
+    fn the_shortest_tightening_says_how_finely_all_are_cut() {
+        let mut mixed = cases(1, 250, 0);
+        mixed.extend(cases(1, 85, 0));
+        assert_eq!(Units::of(&mixed).per_case, 2);
+    }
+
+    #[test]
+    fn stretches_follow_each_other_and_leave_nothing_out() {
+        for samples in [0, 5, 239, 240, 241, 250] {
+            let ranges: Vec<Range<usize>> = Units { per_case: 6 }.ranges(samples).collect();
+            assert_eq!(ranges.len(), 6);
+            assert_eq!((ranges[0].start, ranges[5].end), (0, samples));
+            assert!(ranges.windows(2).all(|pair| pair[0].end == pair[1].start));
+        }
+    }
+}

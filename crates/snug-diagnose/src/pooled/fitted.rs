@@ -388,3 +388,8 @@ const HARDLY: f64 = 0.1;
 
 /// Error over noise below which nothing but noise is left to look for.
 pub(crate) const AT_FLOOR: f64 = 1.02;
+
+#[cfg(test)]
+mod made_up;
+#[cfg(test)]
+mod tests;

@@ -136,3 +136,6 @@ pub(crate) fn held(case: &FitTask<'_>, fitted: &Fitted, errors: Option<&[f64]>) 
     }
     Some(model)
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,88 @@
+//! Made-up tightenings, candidates and rankings for tests: of a few numbers, small enough to be worked out by hand.
+
+use crate::data::clusters::Units;
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use rand_distr::{Distribution, StandardNormal};
+use snug_campaign::{Intersample, Motion, NoiseFloor, Quantity, Rig, Tightening, TighteningId};
+use snug_identify::{ConstraintKind, FitTask, IdentifySettings};
+use snug_model::{Effect, Input, Model};
+use std::borrow::Cow;
+
+pub(crate) const RIG: Rig = Rig {
+    lever_arm_m: 0.33,
+    known_inertia_kg_m2: 0.275,
+};
+pub(crate) const INTERVAL_S: f64 = 1e-3;
+pub(crate) const SAMPLES: usize = 250;
+/// Standard deviation of the acceleration's noise \[rad/s²\].
+pub(crate) const NOISE: f64 = 0.3;
+/// Every tightening is a unit.
+pub(crate) const WHOLE: Units = Units { per_case: 1 };
+
+/// m, c, k of the hand that holds the tool in tightening `number`.
+pub(crate) fn hand(number: usize) -> [f64; 3] {
+    [2.0 + 0.1 * number as f64, 90.0, 2200.0]
+}
+
+/// Tightening `number`: a torque that rises over 60 ms, to more from one to the next, and the motion of the base model with
+/// `effects` of these `sizes`, exactly. Its noise is stated, and there is none.
+pub(crate) fn exact(number: usize, effects: &[Effect], sizes: &[f64]) -> FitTask<'static> {
+    let peak_nm = 20.0 + 5.0 * number as f64;
+    let rise = 60;
+    let torque_nm: Vec<f64> = (0..SAMPLES)
+        .map(|k| {
+            if k < rise {
+                peak_nm * k as f64 / rise as f64
+            } else {
+                0.0
+            }
+        })
+        .collect();
+    let input = Input::new(&torque_nm, INTERVAL_S, Intersample::Linear);
+    let truth = Model::new(RIG, effects).expect("the effects go together");
+    let motion = truth.simulate(&[&hand(number), sizes].concat(), &input);
+    case(number, torque_nm, input, motion)
+}
+
+fn case(number: usize, torque_nm: Vec<f64>, input: Input, motion: Motion) -> FitTask<'static> {
+    let mut tightening = Tightening::from_torque(RIG, INTERVAL_S, torque_nm)
+        .with_noise(NoiseFloor::white(Quantity::Acceleration, NOISE));
+    tightening.id = TighteningId {
+        file: "made_up.mat".into(),
+        number: number as u32 + 1,
+    };
+    tightening.motion = motion;
+    tightening.onset = Some(0);
+    FitTask {
+        tightening: Cow::Owned(tightening),
+        input: Cow::Owned(input),
+        model: Cow::Owned(Model::new(RIG, &[]).expect("the rig is one")),
+        settings: Cow::Owned(IdentifySettings {
+            constraints: vec![ConstraintKind::Positive],
+            ..IdentifySettings::default()
+        }),
+    }
+}
+
+/// The same with the noise that it states on the acceleration.
+pub(crate) fn noisy(number: usize, effects: &[Effect], sizes: &[f64]) -> FitTask<'static> {
+    let mut case = exact(number, effects, sizes);
+    let mut random = ChaCha8Rng::seed_from_u64(number as u64);
+    let acceleration = &mut case.tightening.to_mut().motion.acceleration_rad_per_s2;
+    for value in acceleration.iter_mut().flatten() {
+        let draw: f64 = StandardNormal.sample(&mut random);
+        *value += NOISE * draw;
+    }
+    case
+}
+
+/// Asserts that two numbers agree to `share` of the second.
+#[track_caller]
+pub(crate) fn close(found: f64, expected: f64, share: f64) {
+    let apart = (found - expected).abs();
+    assert!(
+        apart <= share * expected.abs(),
+        "{found} found, {expected} expected"
+    );
+}
