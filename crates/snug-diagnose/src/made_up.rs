@@ -1,12 +1,16 @@
 //! Made-up tightenings, candidates and rankings for tests: of a few numbers, small enough to be worked out by hand.
 
 use crate::data::clusters::Units;
+use crate::library::terms;
+use crate::pooled::fitted::Fitted;
+use crate::ranking::rank::Candidate;
+use crate::watch::Watch;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 use snug_campaign::{Intersample, Motion, NoiseFloor, Quantity, Rig, Tightening, TighteningId};
 use snug_identify::{ConstraintKind, FitTask, IdentifySettings};
-use snug_model::{Effect, Input, Model};
+use snug_model::{CustomEffectSettings, CustomParameterSettings, Effect, Input, Model, Place};
 use std::borrow::Cow;
 
 pub(crate) const RIG: Rig = Rig {
@@ -75,6 +79,48 @@ pub(crate) fn noisy(number: usize, effects: &[Effect], sizes: &[f64]) -> FitTask
         *value += NOISE * draw;
     }
     case
+}
+
+/// A candidate that leaves nothing but noise, in as many tightenings as it has `gains`.
+pub(crate) fn candidate(effect: Effect, p_family: f64, gains: &[f64]) -> Candidate {
+    Candidate {
+        effect,
+        score: 0.0,
+        p_family,
+        fitted: Fitted::made_up(&[effect], &vec![100.0; gains.len()], 100),
+        gains: gains.to_vec(),
+    }
+}
+
+/// The term called `name`, which is in no catalogue.
+pub(crate) fn term(name: &str) -> Effect {
+    let mut all = terms(false).expect("the terms are well formed").into_iter();
+    all.find(|term| term.name() == name)
+        .expect("there is such a term")
+}
+
+/// A force `expression` of one number p that begins at `start` and may be anything.
+pub(crate) fn custom_force(name: &str, expression: &str, start: f64) -> Effect {
+    Effect::custom(&CustomEffectSettings {
+        name: name.to_owned(),
+        place: Place::Force,
+        expression: expression.to_owned(),
+        parameters: vec![CustomParameterSettings {
+            name: "p".to_owned(),
+            unit: "N".to_owned(),
+            start,
+            further_starts: Vec::new(),
+            minimum: f64::NEG_INFINITY,
+            maximum: f64::INFINITY,
+            shared: true,
+        }],
+    })
+    .expect("the law is well formed")
+}
+
+/// Nobody listens.
+pub(crate) fn silent() -> Watch<'static> {
+    Watch::new(&|_| {})
 }
 
 /// Asserts that two numbers agree to `share` of the second.

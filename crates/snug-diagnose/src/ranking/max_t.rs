@@ -99,6 +99,74 @@ mod tests {
         assert!((7..=33).contains(&alarms), "{alarms}");
     }
 
+    /// Standard deviations of a share p of 4000 flips, five of them.
+    fn is_share(found: f64, expected: f64) {
+        let scatter = (expected * (1.0 - expected) / 4000.0).sqrt();
+        assert!(
+            (found - expected).abs() < 5.0 * scatter,
+            "{found}, not {expected}"
+        );
+    }
+
+    fn p(columns: &[Column], effect: Effect) -> f64 {
+        Family::new(columns, 3999, 3).p(columns, effect)
+    }
+
+    /// Of 2⁴ patterns of signs two reach T = 2 of four equal scores where the sign is free, one where physics fixes it.
+    #[test]
+    fn p_is_the_share_of_sign_patterns_that_reach_as_far() {
+        let free = [Column::with_scores(Effect::CubicStiffness, vec![1.0; 4])];
+        is_share(p(&free, Effect::CubicStiffness), 1.0 / 8.0);
+        let one_sided = [Column::with_scores(Effect::Backlash, vec![1.0; 4])];
+        is_share(p(&one_sided, Effect::Backlash), 1.0 / 16.0);
+        let against = [Column::with_scores(Effect::Backlash, vec![-1.0; 4])];
+        assert_eq!(p(&against, Effect::Backlash), 1.0, "a gap is not negative");
+    }
+
+    /// A second effect reaches T = 2 with two other patterns: four of sixteen. One that pushes alike reaches with the same.
+    #[test]
+    fn every_other_effect_is_another_chance_to_reach_as_far() {
+        let first = Column::with_scores(Effect::CubicStiffness, vec![1.0; 4]);
+        let other = |scores: [f64; 4]| {
+            let second = Column::with_scores(Effect::TorqueDelay, scores.to_vec());
+            p(&[first.clone(), second], Effect::CubicStiffness)
+        };
+        is_share(other([1.0, 1.0, -1.0, -1.0]), 4.0 / 16.0);
+        is_share(other([1.0; 4]), 2.0 / 16.0);
+    }
+
+    #[test]
+    fn an_effect_is_judged_by_its_best_column() {
+        let weak = Column::with_scores(Effect::CubicStiffness, vec![1.0, -1.0, 1.0, -1.0]);
+        let strong = Column::with_scores(Effect::CubicStiffness, vec![1.0; 4]);
+        is_share(p(&[weak, strong], Effect::CubicStiffness), 4.0 / 16.0);
+    }
+
+    /// Σ s²/v = 14 of three: `chi2.sf(14, 3)` = 0.0029052, SciPy 1.17.1; there are two columns, and no sign to flip.
+    #[test]
+    fn sizes_of_every_tightening_s_own_are_judged_by_their_energy() {
+        let own = Column::with_scores(Effect::AccelerationBias, vec![1.0, -2.0, 3.0]);
+        let shared = Column::with_scores(Effect::CubicStiffness, vec![1.0; 3]);
+        let columns = [own, shared];
+        let found = p(&columns, Effect::AccelerationBias);
+        assert!(
+            (found - 2.0 * 0.002_905_152_774_267_437).abs() < 1e-12,
+            "{found}"
+        );
+        is_share(p(&columns, Effect::CubicStiffness), 2.0 / 8.0);
+    }
+
+    #[test]
+    fn the_same_seed_flips_the_same_signs() {
+        let columns = [Column::with_scores(
+            Effect::CubicStiffness,
+            vec![1.0, 2.0, 3.0, 4.0],
+        )];
+        let of = |seed| Family::new(&columns, 199, seed).largest;
+        assert_eq!(of(1), of(1));
+        assert_ne!(of(1), of(2));
+    }
+
     #[test]
     fn what_all_tightenings_agree_on_is_found() {
         let mut random = ChaCha8Rng::seed_from_u64(6);

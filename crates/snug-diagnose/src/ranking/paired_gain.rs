@@ -63,6 +63,59 @@ fn statistics(values: &[f64], scale: f64) -> (f64, f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::made_up::close;
+
+    /// 1, 2, 3, 4: variance 5/3, of the sum of four 20/3.
+    #[test]
+    fn a_sum_scatters_by_the_root_of_n_times_the_standard_deviation() {
+        close(
+            spread_of_sum(&[1.0, 2.0, 3.0, 4.0]),
+            (20.0_f64 / 3.0).sqrt(),
+            1e-12,
+        );
+        assert_eq!(
+            spread_of_sum(&[7.0]),
+            f64::INFINITY,
+            "one unit has no scatter"
+        );
+        assert_eq!(spread_of_sum(&[]), f64::INFINITY);
+    }
+
+    /// Bounded at 4 · 0.75 = 3: 4 becomes 0.8, −4 as much the other way, 0 nothing.
+    #[test]
+    fn loud_units_count_hardly_more_than_once() {
+        close(agreement(&[4.0, 4.0, 4.0, -4.0], 0.75), 1.0, 1e-12);
+        close(agreement(&[4e9, 4e9, 4e9, -4e9], 0.75), 1.0, 1e-9);
+        // Far within chance they count by their size: 10 / √30.
+        close(
+            agreement(&[1.0, 2.0, 3.0, 4.0], 1e9),
+            10.0 / 30.0_f64.sqrt(),
+            1e-9,
+        );
+        assert_eq!(agreement(&[0.0; 4], 1.0), 0.0);
+    }
+
+    #[test]
+    fn the_clearer_of_both_statistics_speaks_for_a_gain_the_plain_one_against() {
+        let plain = 10.0 / (20.0_f64 / 3.0).sqrt();
+        close(clearness(&[1.0, 2.0, 3.0, 4.0], 1e9), plain, 1e-9);
+        close(clearness(&[-1.0, -2.0, -3.0, -4.0], 1e9), -plain, 1e-9);
+        assert_eq!(clearness(&[0.0; 4], 1.0), 0.0);
+    }
+
+    /// SciPy 1.17.1: `t.sf(10 / sqrt(20 / 3), 3)` = 0.01523; `norm.sf(10 / sqrt(30))` = 0.0339 is more.
+    /// Eight of eight loud ones: `norm.sf(sqrt(8))` = 0.002339, where Student's t sees one only.
+    #[test]
+    fn chance_is_student_s_of_the_sum_or_the_normal_one_of_the_bounded() {
+        close(
+            chance(&[1.0, 2.0, 3.0, 4.0], 1e9),
+            0.015_233_145_831_085_489,
+            1e-9,
+        );
+        let mut loud = [1e5; 8];
+        loud[0] = 1e9;
+        close(chance(&loud, 1.0), 0.002_338_867_490_523_6, 1e-6);
+    }
 
     #[test]
     fn one_loud_unit_does_not_hide_what_all_agree_on() {

@@ -208,21 +208,4 @@ pub(crate) fn gains(heldout: &[f64], fitted: &Fitted) -> Vec<f64> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use snug_identify::IdentifyError;
-    use snug_least_squares::SolveError;
-
-    /// A law that is infinite at its start is no reason to end a diagnosis, whichever fit finds out; an end that was asked for
-    /// is.
-    #[test]
-    fn a_candidate_that_cannot_be_simulated_is_left_out() {
-        for refused in [
-            DiagnoseError::Solve(SolveError::NoStart),
-            DiagnoseError::Identify(IdentifyError::Solve(SolveError::NoStart)),
-        ] {
-            assert!(matches!(possible(Err(refused)), Ok(None)));
-        }
-        assert!(possible(Err(DiagnoseError::Interrupted)).is_err());
-    }
-}
+mod tests;

@@ -295,3 +295,6 @@ fn with_effect(
     }
     start
 }
+
+#[cfg(test)]
+mod tests;

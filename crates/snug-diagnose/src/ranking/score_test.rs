@@ -310,3 +310,6 @@ impl<'a, 'h> Scorer<'a, 'h> {
         columns.iter_mut().for_each(Column::bound);
     }
 }
+
+#[cfg(test)]
+mod tests;

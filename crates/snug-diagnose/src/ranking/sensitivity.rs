@@ -209,3 +209,6 @@ fn combinations(ranges: &[PlausibleRange]) -> Vec<Vec<f64>> {
             .collect()
     })
 }
+
+#[cfg(test)]
+mod tests;
