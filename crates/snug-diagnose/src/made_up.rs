@@ -3,7 +3,7 @@
 use crate::data::clusters::Units;
 use crate::library::terms;
 use crate::pooled::fitted::Fitted;
-use crate::ranking::rank::Candidate;
+use crate::ranking::rank::{Candidate, Ranking};
 use crate::watch::Watch;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
@@ -89,6 +89,14 @@ pub(crate) fn candidate(effect: Effect, p_family: f64, gains: &[f64]) -> Candida
         p_family,
         fitted: Fitted::made_up(&[effect], &vec![100.0; gains.len()], 100),
         gains: gains.to_vec(),
+    }
+}
+
+/// These candidates in this order, and nothing else.
+pub(crate) fn ranking(candidates: Vec<Candidate>) -> Ranking {
+    Ranking {
+        candidates,
+        ..Ranking::default()
     }
 }
 

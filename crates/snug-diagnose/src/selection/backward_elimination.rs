@@ -96,3 +96,114 @@ fn does_as_well(
             && !leaves_more(&swapped, full, &lost, &search.units),
     )
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::data::cases::{Cases, Tally};
+    use crate::made_up::{WHOLE, custom_force, noisy, silent};
+    use crate::selection::path::Addition;
+    use crate::settings::DiagnoseSettings;
+    use snug_identify::FitTask;
+    use snug_model::Effect::{CubicStiffness, QuadraticDamping, TorqueDelay, TorqueOffset};
+
+    /// Runs `look` on a climb that added `effects` to the base model of tightenings with a spring that stiffens and a torque
+    /// that reads too much.
+    fn after_climb<T>(
+        effects: &[Effect],
+        twins: &[Effect],
+        look: impl FnOnce(&Search<'_>, &mut Climb) -> T,
+    ) -> T {
+        let made_with = [CubicStiffness, TorqueOffset];
+        let cases: Vec<FitTask> = (0..8).map(|n| noisy(n, &made_with, &[2e6, 0.5])).collect();
+        let (tally, watch) = (Tally::default(), silent());
+        let settings = DiagnoseSettings {
+            control_campaigns: 0,
+            sign_flips: 99,
+            starts: 1,
+            ..DiagnoseSettings::default()
+        };
+        let search = Search {
+            cases: Cases::new(&cases, &tally),
+            own: &[],
+            custom: &[],
+            units: WHOLE,
+            settings: &settings,
+            watch: &watch,
+        };
+        let fitted = fit_effects(search.cases, effects, None, WHOLE).expect("it can be fitted");
+        let mut climb = Climb::only(fitted);
+        climb.additions = (effects.iter())
+            .map(|&effect| Addition {
+                effect,
+                p_family: 0.01,
+                heldout_gain: 0.1,
+                twins: twins.to_vec(),
+            })
+            .collect();
+        look(&search, &mut climb)
+    }
+
+    #[test]
+    fn a_term_that_the_data_do_without_is_taken_out_and_the_others_stay() {
+        let added = [CubicStiffness, QuadraticDamping, TorqueOffset];
+        after_climb(&added, &[], |search, climb| {
+            try_removals(search, climb).expect("it can be fitted");
+            let attempts: Vec<(Effect, bool)> = climb
+                .attempts
+                .iter()
+                .map(|one| (one.effect, one.removed))
+                .collect();
+            let expected = [
+                (CubicStiffness, false),
+                (QuadraticDamping, true),
+                (TorqueOffset, false),
+            ];
+            assert_eq!(attempts, expected);
+            assert_eq!(climb.last().effects, [CubicStiffness, TorqueOffset]);
+            let left: Vec<Effect> = climb.additions.iter().map(|one| one.effect).collect();
+            assert_eq!(left, [CubicStiffness, TorqueOffset]);
+            assert_eq!(climb.rungs.len(), 2, "what was left in is no new rung");
+            assert!(
+                !climb.ranking.candidates.is_empty(),
+                "the last model was ranked against"
+            );
+            for attempt in &climb.attempts {
+                let share = attempt.loss / climb.rungs[0].squares();
+                assert!(
+                    (attempt.growth / share - 1.0).abs() < 0.05,
+                    "a share of what is left"
+                );
+            }
+        });
+    }
+
+    #[test]
+    fn the_only_term_is_not_tried() {
+        after_climb(&[CubicStiffness], &[TorqueOffset], |search, climb| {
+            let before = search.cases.tally().done();
+            try_removals(search, climb).expect("nothing is fitted");
+            look_at_twins_again(search, climb).expect("nothing is fitted");
+            assert_eq!(search.cases.tally().done(), before);
+            assert!(climb.attempts.is_empty());
+            assert_eq!(climb.additions[0].twins, [TorqueOffset]);
+        });
+    }
+
+    /// 2 p x³ is a cubic spring under another name: in its place beside the others it does exactly as well. A delay does not,
+    /// and what is in the model already is nobody's twin.
+    #[test]
+    fn only_twins_that_do_as_well_beside_the_others_are_kept() {
+        let again = custom_force("cubic_again", "2*p*x^3", 0.0);
+        let twins = [TorqueOffset, again, TorqueDelay];
+        after_climb(&[CubicStiffness, TorqueOffset], &twins, |search, climb| {
+            look_at_twins_again(search, climb).expect("it can be fitted");
+            assert_eq!(climb.additions[0].twins, [again]);
+            assert!(
+                climb.additions[1].twins.is_empty(),
+                "{:?}",
+                climb.additions[1].twins
+            );
+        });
+    }
+}

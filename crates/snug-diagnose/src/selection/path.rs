@@ -234,3 +234,6 @@ pub(crate) fn twins(ranking: &Ranking, index: usize, units: &Units) -> Vec<Effec
         .map(|other| other.effect)
         .collect()
 }
+
+#[cfg(test)]
+mod tests;

@@ -355,3 +355,6 @@ fn list(effects: &[Effect]) -> String {
             .join(" + "),
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,225 @@
+//! What is supported, promising or alike, of candidates with a few gains each.
+
+use super::*;
+use crate::made_up::{WHOLE, candidate, close, ranking, term};
+use snug_model::Effect::{
+    Backlash, CubicStiffness, QuadraticDamping, QuadraticStiffness, TorqueDelay,
+};
+
+const STRETCHES: Units = Units { per_case: 6 };
+
+fn settings() -> DiagnoseSettings {
+    DiagnoseSettings::default()
+}
+
+/// Four tightenings with 100 residuals each, of which the model leaves `squares` each.
+fn model(squares: f64) -> Fitted {
+    Fitted::made_up(&[], &[squares; 4], 100)
+}
+
+/// A clear gain that sums to 4 · `mean`.
+fn clear(mean: f64) -> [f64; 4] {
+    [mean * 0.9, mean * 1.1, mean, mean]
+}
+
+#[test]
+fn the_first_candidate_that_is_beyond_chance_is_justified() {
+    let ranking = ranking(vec![
+        candidate(CubicStiffness, 0.051, &clear(50.0)),
+        // 60 − 59 + 1 − 1: a gain, but within its own scatter.
+        candidate(TorqueDelay, 0.01, &[60.0, -59.0, 1.0, -1.0]),
+        candidate(QuadraticStiffness, 0.05, &clear(20.0)),
+        candidate(Backlash, 0.001, &clear(10.0)),
+    ]);
+    assert_eq!(justified(&ranking, &model(300.0), &settings()), Ok(2));
+}
+
+/// 1 % of 1200 is 12; at the noise 0.3 % of 400 is 1.2.
+#[test]
+fn a_supported_candidate_that_removes_too_little_is_named_with_its_share() {
+    let of = |mean: f64, current: &Fitted| {
+        justified(
+            &ranking(vec![candidate(CubicStiffness, 0.01, &clear(mean))]),
+            current,
+            &settings(),
+        )
+    };
+    assert_eq!(of(3.01, &model(300.0)), Ok(0));
+    assert_eq!(of(0.31, &model(100.0)), Ok(0));
+    for (mean, squares) in [(2.99, 300.0), (0.29, 100.0)] {
+        let Err(Stop::TooSmall { effect, share }) = of(mean, &model(squares)) else {
+            panic!("{mean} of {squares} is too small")
+        };
+        assert_eq!(effect, CubicStiffness);
+        close(share, mean / squares, 1e-12);
+    }
+}
+
+#[test]
+fn where_nothing_is_supported_the_smallest_p_of_those_that_gain_is_told() {
+    let ranking = ranking(vec![
+        candidate(CubicStiffness, 0.5, &clear(20.0)),
+        candidate(QuadraticStiffness, 0.2, &clear(10.0)),
+        candidate(TorqueDelay, 0.001, &clear(-10.0)),
+    ]);
+    let stop = justified(&ranking, &model(300.0), &settings());
+    assert_eq!(stop, Err(Stop::NothingSupported { best_p: 0.2 }));
+    let none = justified(&Ranking::default(), &model(300.0), &settings());
+    assert_eq!(none, Err(Stop::NothingSupported { best_p: 1.0 }));
+}
+
+#[test]
+fn misfit_is_what_noise_does_not_explain() {
+    let fitted = Fitted::made_up(&[], &[250.0, 80.0], 100);
+    assert_eq!(misfits(&fitted), [150.0, -20.0]);
+    assert_eq!(misfit(&fitted), 130.0);
+    let unknown = fitted.unweighted();
+    assert_eq!(misfits(&unknown), [250.0, 80.0]);
+    assert_eq!(misfit(&unknown), 330.0);
+    assert_eq!(
+        misfit(&model(99.0)),
+        0.396,
+        "a share of it can always be told"
+    );
+}
+
+#[test]
+fn twins_are_those_that_these_data_cannot_tell_from_the_chosen_one() {
+    let ranking = ranking(vec![
+        candidate(CubicStiffness, 0.01, &[10.0, 12.0, 9.0, 13.0]),
+        // As much, now more and now less: 1 ± 3 behind.
+        candidate(QuadraticStiffness, 0.01, &[11.0, 11.0, 10.0, 11.0]),
+        // 5 less of each.
+        candidate(QuadraticDamping, 0.01, &[5.0, 7.0, 4.0, 7.0]),
+        candidate(term("x5_law"), 0.01, &[11.0, 11.0, 10.0, 11.0]),
+        // As much in sum, but of one tightening.
+        candidate(TorqueDelay, 0.01, &[44.0, 30.0, -15.0, -20.0]),
+    ]);
+    assert_eq!(twins(&ranking, 0, &WHOLE), [QuadraticStiffness]);
+    assert_eq!(twins(&ranking, 1, &WHOLE), [CubicStiffness]);
+    // A term that is in no catalogue names the effects it may stand for.
+    assert_eq!(
+        twins(&ranking, 3, &WHOLE),
+        [CubicStiffness, QuadraticStiffness]
+    );
+}
+
+#[test]
+fn what_explains_clearly_more_is_no_twin_but_better() {
+    let ranking = ranking(vec![
+        candidate(CubicStiffness, 0.01, &clear(20.0)),
+        candidate(QuadraticStiffness, 0.01, &clear(15.0)),
+    ]);
+    assert!(twins(&ranking, 1, &WHOLE).is_empty());
+}
+
+/// The difference of 22.5 is that of one loud tightening: 1.1 standard deviations.
+#[test]
+fn to_keep_up_is_to_explain_more_than_half_and_not_clearly_less() {
+    let best = candidate(CubicStiffness, 0.01, &[40.0, 0.5, 0.5, 3.0]);
+    let with = |loud: f64| candidate(QuadraticStiffness, 0.01, &[loud, 1.0, 0.5, 2.0]);
+    assert!(with(19.0).keeps_up_with(&best, &WHOLE), "22.5 of 44");
+    assert!(!with(18.0).keeps_up_with(&best, &WHOLE), "21.5 of 44");
+    let behind = candidate(QuadraticStiffness, 0.01, &clear(8.0));
+    let best = candidate(CubicStiffness, 0.01, &clear(10.0));
+    assert!(!behind.keeps_up_with(&best, &WHOLE), "2 less of each");
+    assert!(best.keeps_up_with(&behind, &WHOLE));
+}
+
+/// Bounded at four, 3 is 3/5 of each: √6 = 2.4 standard deviations where all six agree, √6/3 where two do not.
+#[test]
+fn of_a_long_record_only_what_is_plainly_more_counts() {
+    let leaving = |squares: f64| Fitted::made_up(&[], &[squares; 6], 100);
+    let even = [1.0, -1.0, 1.0, -1.0, 1.0, -1.0];
+    assert!(leaves_more(
+        &leaving(131.0),
+        &leaving(100.0),
+        &even,
+        &STRETCHES
+    ));
+    assert!(!leaves_more(
+        &leaving(129.0),
+        &leaving(100.0),
+        &even,
+        &STRETCHES
+    ));
+    assert!(leaves_more(
+        &leaving(100.0),
+        &leaving(100.0),
+        &[3.0; 6],
+        &STRETCHES
+    ));
+    let disagreeing = [3.0, 3.0, 3.0, 3.0, -3.0, -3.0];
+    assert!(!leaves_more(
+        &leaving(100.0),
+        &leaving(100.0),
+        &disagreeing,
+        &STRETCHES
+    ));
+    assert!(!leaves_more(
+        &leaving(131.0),
+        &leaving(100.0),
+        &[3.0; 6],
+        &WHOLE
+    ));
+}
+
+fn climb(squares: f64, p_family: f64, mean: f64) -> Climb {
+    let mut climb = Climb::only(model(squares));
+    climb.ranking = ranking(vec![candidate(CubicStiffness, p_family, &clear(mean))]);
+    climb
+}
+
+/// The model leaves 1200 in 400 residuals, 800 beyond the noise; 2 % of it is 24, a fifth of the misfit 160.
+#[test]
+fn an_unsupported_candidate_is_promising_where_chance_seldom_does_as_much() {
+    let is_promising =
+        |p: f64, mean: f64| climb(300.0, p, mean).is_promising(&settings()).is_some();
+    assert!(is_promising(0.29, 6.1));
+    assert!(!is_promising(0.29, 5.9), "too little to matter");
+    assert!(!is_promising(0.31, 6.1), "chance does it often");
+    assert!(!is_promising(0.05, 6.1), "it is supported");
+    assert!(
+        is_promising(0.31, 40.1),
+        "but it explains a good part of the misfit"
+    );
+    assert!(!is_promising(0.31, 39.9));
+    let at_the_noise = climb(100.0, 0.31, 40.1);
+    assert!(
+        at_the_noise.is_promising(&settings()).is_none(),
+        "there is no misfit"
+    );
+}
+
+#[test]
+fn a_new_rung_has_nothing_ranked_against_it() {
+    let mut climb = climb(300.0, 0.01, 50.0);
+    let addition = Addition {
+        effect: CubicStiffness,
+        p_family: 0.01,
+        heldout_gain: 0.5,
+        twins: Vec::new(),
+    };
+    climb.add(addition, model(150.0));
+    assert_eq!((climb.rungs.len(), climb.additions.len()), (2, 1));
+    assert_eq!(climb.last().squares(), 600.0);
+    assert!(climb.ranking.candidates.is_empty());
+}
+
+#[test]
+fn who_ends_a_climb_keeps_what_it_reached_and_other_errors_are_told() {
+    let ended = climb(300.0, 0.01, 50.0).until_interrupted(Err(DiagnoseError::Interrupted));
+    let ended = ended.expect("what was reached holds");
+    assert!(ended.is_interrupted());
+    assert_eq!((ended.rungs.len(), ended.ranking.candidates.len()), (1, 1));
+    let failed = climb(300.0, 0.01, 50.0).until_interrupted(Err(DiagnoseError::NothingToCompare {
+        tightenings: 0,
+        reason: "there is none",
+    }));
+    assert!(matches!(
+        failed,
+        Err(DiagnoseError::NothingToCompare { .. })
+    ));
+    let whole = climb(300.0, 0.01, 50.0).until_interrupted(Ok(()));
+    assert!(!whole.expect("it ended by itself").is_interrupted());
+}
