@@ -297,6 +297,8 @@ pub(crate) fn is_unlisted(effect: Effect) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::made_up::{self, close};
+    use snug_model::{Instant, Law};
 
     #[test]
     fn a_term_that_takes_away_is_told_as_one_that_takes_away() {
@@ -312,6 +314,113 @@ mod tests {
         assert!(says(2.0).contains("grows with the root of the speed"));
         assert!(says(-2.0).contains("weaker the slower"));
         assert!(in_words(Effect::CubicStiffness, -2.0).is_none());
+    }
+
+    /// Forces \[N\] of the terms with p = 2 where x = 12 mm, v = −0.3 m/s, T = 25 Nm on an arm of 0.33 m, 60 ms after the
+    /// onset, their other number at its usual start; NumPy 2.4.6.
+    const FORCES: &[(&str, f64)] = &[
+        ("x_v_law", -0.0072),
+        ("x2_v_law", -8.64e-5),
+        ("abs_x_v_law", -0.0072),
+        ("x_v2_law", 0.00216),
+        ("x_v_abs_v_law", -0.00216),
+        ("v2_law", 0.18),
+        ("v3_law", -0.054),
+        ("sqrt_v_law", -1.093_623_924_864_733_7),
+        // −2 tanh(150) exp(−36).
+        ("stribeck_law", -4.639_045_660_487e-16),
+        ("end_stop_law", 0.014),
+        ("exponential_spring_law", 2.240_233_845_473_094_6),
+        // 2 tanh(12).
+        ("latch_law", 1.999_999_999_848_994_7),
+        // It has not begun.
+        ("late_damping_law", 0.0),
+        ("x4_law", 4.1472e-8),
+        ("x5_law", 4.976_64e-10),
+        ("abs_x_x_law", 2.88e-4),
+        ("abs_x_friction_law", -0.024),
+        ("x_abs_v_law", 0.0072),
+        ("torque_v_law", -15.0),
+        ("sine_law", 0.072_711_245_737_859_18),
+    ];
+
+    fn force_n(effect: Effect, size: f64, since_onset_s: f64, [x_m, v_m_per_s]: [f64; 2]) -> f64 {
+        let specs = effect.description().parameters;
+        let mut values: Vec<f64> = specs.iter().map(|spec| spec.starts[0]).collect();
+        values[0] = size;
+        let at = Instant {
+            torque_nm: 25.0,
+            x_m,
+            v_m_per_s,
+            since_onset_s,
+            lever_arm_m: 0.33,
+        };
+        effect.force(&values, &at, &[]).expect("it is a force")
+    }
+
+    #[test]
+    fn every_term_pushes_as_its_formula_says() {
+        assert_eq!(FORCES.len(), TERMS.len());
+        for &(name, expected) in FORCES {
+            close(
+                force_n(made_up::term(name), 2.0, 0.06, [0.012, -0.3]),
+                expected,
+                1e-9,
+            );
+        }
+    }
+
+    /// Half of 2 · v, 25 ms after it has begun at 80 ms.
+    #[test]
+    fn a_late_damper_sets_in_at_its_time() {
+        let late = made_up::term("late_damping_law");
+        close(force_n(late, 2.0, 0.105, [0.0, -0.3]), -0.3, 1e-12);
+        close(force_n(late, 2.0, 0.2, [0.0, -0.3]), -0.6, 1e-12);
+    }
+
+    /// As they begin a refit: a tool that rests where the hand is at ease stays there.
+    #[test]
+    fn no_term_pushes_a_tool_that_rests() {
+        for effect in terms(false).expect("the terms are well formed") {
+            let rest = force_n(
+                effect,
+                effect.description().parameters[0].starts[0],
+                0.06,
+                [0.0; 2],
+            );
+            assert_eq!(rest, 0.0, "{}", effect.name());
+        }
+    }
+
+    #[test]
+    fn a_machine_has_no_terms_with_places_speeds_or_times_of_a_hand() {
+        let names = |is_machine| -> Vec<&str> {
+            let terms = terms(is_machine).expect("the terms are well formed");
+            terms.iter().map(|term| term.name()).collect()
+        };
+        let (all, of_machine) = (names(false), names(true));
+        let a_hand_s: Vec<&&str> = all
+            .iter()
+            .filter(|name| !of_machine.contains(name))
+            .collect();
+        let expected = [
+            "stribeck_law",
+            "end_stop_law",
+            "exponential_spring_law",
+            "latch_law",
+            "late_damping_law",
+        ];
+        assert_eq!(a_hand_s, expected.iter().collect::<Vec<_>>());
+    }
+
+    #[test]
+    fn a_term_s_declaration_makes_the_same_effect_again() {
+        let declared = declaration("end_stop_law").expect("it is a term");
+        assert_eq!(declared.parameters[1].further_starts, [0.01]);
+        let again = Effect::custom(&declared).expect("the declaration is well formed");
+        assert_eq!(again, made_up::term("end_stop_law"));
+        assert!(is_unlisted(again) && !is_unlisted(Effect::CubicStiffness));
+        assert!(declaration("cubic_stiffness").is_none());
     }
 
     #[test]

@@ -59,3 +59,94 @@ fn card(column: &Column, needed: f64) -> Detectability {
         statement: statement::detectability(description.name, smallest, spec.unit),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::made_up::{candidate, close, ranking, term};
+    use snug_model::Effect::{self, Backlash, CubicStiffness, QuadraticStiffness};
+
+    /// Nothing but noise: in units of it, as much as there are residuals.
+    const NOISE: (f64, usize) = (100.0, 100);
+
+    /// What four tightenings say of which a model leaves so many squares in so many residuals each.
+    fn cards_of(columns: Vec<Column>, (squares, count): (f64, usize)) -> Vec<Detectability> {
+        let few = [1.0, -1.0, 2.0, -2.0];
+        let mut ranking = ranking(vec![
+            candidate(CubicStiffness, 0.8, &few),
+            candidate(Backlash, 0.8, &few),
+            candidate(term("x5_law"), 0.8, &few),
+            candidate(QuadraticStiffness, 0.01, &[10.0, 11.0, 9.0, 10.0]),
+        ]);
+        ranking.columns = columns;
+        let fitted = Fitted::made_up(&[], &[squares; 4], count);
+        cards(&ranking, &fitted, &DiagnoseSettings::default())
+    }
+
+    fn column(effect: Effect, information: f64, start: f64) -> Column {
+        let mut column = Column::with_scores(effect, vec![0.0; 4]);
+        (column.information, column.start) = (information, vec![start]);
+        column
+    }
+
+    /// (3.000 + 1.645)² = 21.576; the smallest gain at the noise, 0.003 of 400, is less. Curvature 10⁻⁹ per (N/m³)².
+    #[test]
+    fn at_the_noise_an_effect_is_seen_where_it_stands_out_from_chance() {
+        let cards = cards_of(vec![column(CubicStiffness, 1e-9, 0.0)], NOISE);
+        let [card] = cards.as_slice() else {
+            panic!("one effect was scored and not supported")
+        };
+        let smallest = card.smallest_detectable.expect("it can be seen");
+        close(smallest, (21.576_025e9_f64).sqrt(), 1e-6);
+        assert_eq!(
+            card.statement,
+            "cubic stiffness: absent or smaller than 1.47e5 N/m^3."
+        );
+        assert_eq!(
+            (card.parameter.as_str(), card.largest_plausible),
+            ("k3_n_per_m3", 5e6)
+        );
+    }
+
+    /// 0.01 of 8000 is 80, more than 21.576 times the 2 that a squared residual has here.
+    #[test]
+    fn beside_a_large_misfit_of_many_samples_an_effect_must_matter() {
+        let cards = cards_of(vec![column(CubicStiffness, 1e-9, 0.0)], (2000.0, 1000));
+        let smallest = cards[0].smallest_detectable.expect("it can be seen");
+        close(smallest, 80e9_f64.sqrt(), 1e-6);
+    }
+
+    #[test]
+    fn what_would_have_to_be_larger_than_plausible_cannot_be_shown() {
+        let cards = cards_of(vec![column(CubicStiffness, 1e-13, 0.0)], NOISE);
+        assert_eq!(cards[0].smallest_detectable, None);
+        assert!(
+            cards[0]
+                .statement
+                .contains("could not show it, even at its largest")
+        );
+        let unseen = cards_of(vec![column(CubicStiffness, 0.0, 0.0)], NOISE);
+        assert_eq!(
+            unseen[0].smallest_detectable, None,
+            "no column knows anything of it"
+        );
+    }
+
+    /// A start of 0.5 mm against none that carries 100 units of information: seen at 0.5 mm · √(21.576 / 100).
+    #[test]
+    fn a_start_against_none_counts_in_its_own_size_and_the_best_speaks() {
+        let columns = vec![column(Backlash, 1.0, 1.3e-5), column(Backlash, 100.0, 5e-4)];
+        let cards = cards_of(columns, NOISE);
+        let smallest = cards[0].smallest_detectable.expect("it can be seen");
+        close(smallest, 5e-4 * 0.215_760_25_f64.sqrt(), 1e-6);
+    }
+
+    #[test]
+    fn what_is_supported_or_in_no_catalogue_has_no_card() {
+        let columns = vec![
+            column(QuadraticStiffness, 1.0, 0.0),
+            column(term("x5_law"), 1.0, 0.0),
+        ];
+        assert!(cards_of(columns, NOISE).is_empty());
+    }
+}

@@ -76,3 +76,88 @@ fn candidate(
         parameters,
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::made_up::{close, exact};
+    use snug_campaign::Interval;
+
+    fn drift(parameter: &str, against: &str, change_percent: f64, p: Option<f64>) -> Drift {
+        Drift {
+            parameter: parameter.to_owned(),
+            against: against.to_owned(),
+            change_percent,
+            interval_percent: Some(Interval {
+                low: change_percent - 9.8,
+                high: change_percent + 9.8,
+            }),
+            p,
+            p_adjusted: None,
+        }
+    }
+
+    /// Five tightenings of one file, numbers 1 to 5: four steps.
+    fn fatigue(drifts: &[Drift]) -> Option<RankedEffect> {
+        let cases: Vec<FitTask> = (0..5).map(|number| exact(number, &[], &[])).collect();
+        trends(drifts, &cases).next()
+    }
+
+    /// 12 % over four steps are 0.03 per tightening; ± 9.8 % is ± 0.0245, which is 1.96 standard errors of 0.0125.
+    #[test]
+    fn a_drift_is_told_as_a_slope_per_tightening() {
+        let told = fatigue(&[drift("stiffness_n_per_m", "trial_number", 12.0, Some(0.01))]);
+        let told = told.expect("a slope was tested");
+        assert_eq!(
+            (told.effect.as_str(), told.kind.as_str()),
+            ("fatigue", "trend")
+        );
+        let [slope] = told.parameters.as_slice() else {
+            panic!("only the stiffness was tested")
+        };
+        assert_eq!(slope.name, "stiffness_slope_per_tightening");
+        close(slope.value, 0.03, 1e-12);
+        close(slope.low.expect("low"), 0.0055, 1e-9);
+        close(slope.high.expect("high"), 0.0545, 1e-9);
+        close(slope.standard_error.expect("an error"), 0.0125, 1e-9);
+    }
+
+    /// Three slopes were tried, so the clearest counts three times (Bonferroni), and never above 1.
+    #[test]
+    fn its_p_is_that_of_the_clearest_slope_times_those_tried() {
+        let with = |p: [f64; 3]| {
+            let names = BASE_PARAMETERS.iter().zip(p);
+            let drifts: Vec<Drift> = names
+                .map(|(name, p)| drift(name, "trial_number", 1.0, Some(p)))
+                .collect();
+            fatigue(&drifts).expect("slopes were tested").p_family
+        };
+        close(with([0.3, 0.02, 0.5]), 0.06, 1e-12);
+        assert_eq!(with([0.6, 0.5, 0.9]), 1.0);
+    }
+
+    #[test]
+    fn a_drift_with_anything_but_the_number_is_no_fatigue() {
+        let with_target = drift("stiffness_n_per_m", "target_torque_nm", 12.0, Some(1e-6));
+        assert!(fatigue(std::slice::from_ref(&with_target)).is_none());
+        let both = [
+            with_target,
+            drift("mass_kg", "trial_number", 1.0, Some(0.2)),
+        ];
+        let told = fatigue(&both).expect("one slope was tested");
+        close(told.p_family, 0.2, 1e-12);
+    }
+
+    #[test]
+    fn a_slope_without_a_p_is_no_candidate() {
+        assert!(fatigue(&[drift("mass_kg", "trial_number", 12.0, None)]).is_none());
+    }
+
+    /// A third per tightening is no hand that tires.
+    #[test]
+    fn a_slope_that_no_hand_has_is_told_as_implausible() {
+        let of = |percent| fatigue(&[drift("mass_kg", "trial_number", percent, Some(0.01))]);
+        assert!(of(12.0).expect("tested").plausible);
+        assert!(!of(120.0).expect("tested").plausible);
+    }
+}
