@@ -115,17 +115,60 @@ impl<'a> FitTask<'a> {
     /// # Errors
     /// [`ModelError`] where the effects do not go together.
     pub fn model_with(&self, effects: &[Effect]) -> Result<Model, ModelError> {
-        let mut model = Model::scaled(*self.model.rig(), effects, self.model.scale())?;
+        let mut model = self.model.with_effects(effects)?;
         for parameter in model.parameters_mut() {
-            let own = self.model.parameters();
-            if let Some(said) = own.iter().find(|own| own.name == parameter.name) {
-                *parameter = said.clone();
-                // A size that was found from all tightenings together is looked for again.
-                if parameter.standard_error.take().is_some() {
-                    parameter.fixed = false;
-                }
+            // A size that was found from all tightenings together is looked for again.
+            if parameter.standard_error.take().is_some() {
+                parameter.fixed = false;
             }
         }
         Ok(model)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use snug_campaign::{Intersample, Rig};
+    use snug_model::{CustomEffectSettings, CustomParameterSettings, Place};
+
+    fn law(name: &str, expression: &str) -> Effect {
+        Effect::custom(&CustomEffectSettings {
+            name: name.to_owned(),
+            place: Place::Force,
+            expression: expression.to_owned(),
+            parameters: vec![CustomParameterSettings {
+                name: "p".to_owned(),
+                unit: "N".to_owned(),
+                ..CustomParameterSettings::default()
+            }],
+        })
+        .unwrap()
+    }
+
+    /// Both laws call their size p; the second is `second_p` beside the first.
+    #[test]
+    fn what_is_said_of_an_effect_is_said_of_no_other_of_the_same_name() {
+        let rig = Rig {
+            lever_arm_m: 0.33,
+            known_inertia_kg_m2: 0.275,
+        };
+        let (first, second) = (law("first", "p*x^3"), law("second", "p*v^3"));
+        let mut model = Model::new(rig, &[first, second]).unwrap();
+        for (parameter, value) in model.parameters_mut().iter_mut().zip(1..) {
+            parameter.value = f64::from(value);
+        }
+        let tightening = Tightening::from_torque(rig, 1e-3, vec![0.0; 3]);
+        let input = Input::new(&tightening.torque_nm, 1e-3, Intersample::Linear);
+        let settings = IdentifySettings::default();
+        let task = FitTask::new(&tightening, &input, &model, &settings);
+        let values = |effects: &[Effect]| -> Vec<f64> {
+            let model = task.model_with(effects).unwrap();
+            model.parameters().iter().map(|p| p.value).collect()
+        };
+        assert_eq!(values(&[second]), [1.0, 2.0, 3.0, 5.0]);
+        assert_eq!(values(&[law("third", "p*v")]), [1.0, 2.0, 3.0, 0.0]);
+        assert_eq!(values(&[second, first]), [1.0, 2.0, 3.0, 5.0, 4.0]);
     }
 }

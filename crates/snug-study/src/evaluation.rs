@@ -7,8 +7,8 @@ use snug_campaign::{
 };
 use snug_identify::{FitTask, IdentifyError, agreement, derived, identify_all};
 use snug_model::{
-    BASE_PARAMETERS, Input, Model, euler_displacement, inverse_dynamics_force, spring_damper_force,
-    thesis_damping_ratio,
+    BASE_PARAMETERS, Effect, Input, Model, ModelError, euler_displacement, inverse_dynamics_force,
+    spring_damper_force, thesis_damping_ratio,
 };
 use snug_preprocess::{Prepared, Preset, ThesisChecks, target_torque_nm};
 use std::borrow::Cow;
@@ -154,6 +154,21 @@ fn free_input(study: &Study, prepared: &Prepared) -> Input {
     }
 }
 
+/// A model without `effects`, and what `values` are of what is left.
+fn without(
+    mut effects: impl Iterator<Item = Effect>,
+    model: &Model,
+    values: &[f64],
+) -> Result<(Model, Vec<f64>), ModelError> {
+    let mut found = model.clone();
+    for (parameter, value) in found.parameters_mut().iter_mut().zip(values) {
+        parameter.value = *value;
+    }
+    let left = effects.try_fold(found, |model, effect| model.without_effect(effect))?;
+    let own = left.parameters().iter().map(|p| p.value).collect();
+    Ok((left, own))
+}
+
 /// What preparation rejects a tightening for, once the model's sensor effects are taken out of the displacement.
 ///
 /// The original program looks at the displacement before any fit; a bias that the model has found is no reason any more.
@@ -170,21 +185,13 @@ fn preparation_rejections(
     else {
         return prepared.rejections();
     };
-    let plain = sensors().try_fold(model.clone(), |model, effect| model.without_effect(effect));
-    let Ok(plain) = plain else {
+    let Ok((plain, own)) = without(sensors(), model, values) else {
         return prepared.rejections();
     };
-    let kept = |name: &str| model.parameters().iter().position(|p| p.name == name);
-    let own: Option<Vec<f64>> = (plain.parameters().iter())
-        .map(|parameter| kept(&parameter.name).map(|index| values[index]))
-        .collect();
     let displacement = |model: &Model, values: &[f64]| {
         let mut output = vec![0.0; measured.len()];
         model.output(values, input, Quantity::Displacement, &mut output);
         output
-    };
-    let Some(own) = own else {
-        return prepared.rejections();
     };
     let sensed = displacement(model, values);
     let moved = displacement(&plain, &own);
@@ -341,4 +348,27 @@ fn measures(
 /// max |F|.
 fn peak(force: &[f64]) -> Option<f64> {
     force.iter().map(|force| force.abs()).reduce(f64::max)
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use snug_campaign::Rig;
+
+    /// The lag's time constant comes first and has the plain name, the branch's after it is called after its effect until the
+    /// lag is gone.
+    #[test]
+    fn what_is_left_of_a_model_keeps_its_values_whatever_it_is_called() {
+        let rig = Rig {
+            lever_arm_m: 0.33,
+            known_inertia_kg_m2: 0.275,
+        };
+        let effects = [Effect::AccelerationLag, Effect::MaxwellBranch];
+        let model = Model::new(rig, &effects).unwrap();
+        let values = [2.0, 90.0, 2200.0, 0.001, 400.0, 0.05];
+        let (left, own) = without([effects[0]].into_iter(), &model, &values).unwrap();
+        assert_eq!(left.parameters()[4].name, "tau_s");
+        assert_eq!(own, [2.0, 90.0, 2200.0, 400.0, 0.05]);
+    }
 }

@@ -1,7 +1,7 @@
 //! A hypothesis after its fit: sizes, errors, and what it is worth in data that took no part.
 
 use crate::data::clusters::Units;
-use crate::pooled::model::{Hypothesis, Room, Start, first_parameter};
+use crate::pooled::model::{Hypothesis, Room, Start, first_parameter, index_among};
 use crate::pooled::torque_noise::passed_on;
 use crate::settings::DiagnoseSettings;
 use snug_least_squares::PooledFit;
@@ -30,6 +30,7 @@ pub(crate) struct Fitted {
     own_names: Vec<String>,
     shared_names: Vec<String>,
     /// Which of the model's parameters these are.
+    own_indices: Vec<usize>,
     shared_indices: Vec<usize>,
     pub own: Vec<Vec<f64>>,
     pub shared: Vec<f64>,
@@ -69,6 +70,7 @@ impl Fitted {
             effects: hypothesis.effects.clone(),
             own_names: hypothesis.names(&hypothesis.own),
             shared_names: hypothesis.names(&hypothesis.shared),
+            own_indices: hypothesis.own.clone(),
             shared_indices: hypothesis.shared.clone(),
             converged: fit.converged,
             blocks: Vec::new(),
@@ -93,17 +95,23 @@ impl Fitted {
     /// Where this fit ended as a start for `hypothesis`, which may hold other effects; those begin as usual.
     pub fn start(&self, hypothesis: &Hypothesis<'_>) -> Start {
         let mut start = hypothesis.usual_start();
-        let take = |indices: &[usize], values: &mut [f64], from: &[(String, f64)]| {
-            for (name, value) in hypothesis.names(indices).iter().zip(values) {
-                if let Some((_, found)) = from.iter().find(|(known, _)| known == name) {
-                    *value = *found;
+        let take = |places: &[usize], to: &mut [f64], known: &[usize], from: &[f64]| {
+            for (&place, to) in places.iter().zip(to) {
+                let index = index_among(&self.effects, &hypothesis.effects, place);
+                if let Some(column) = known.iter().position(|&known| Some(known) == index) {
+                    *to = from[column];
                 }
             }
         };
-        for (member, values) in start.own.iter_mut().enumerate() {
-            take(&hypothesis.own, values, &self.own_named(member));
+        for (to, from) in start.own.iter_mut().zip(&self.own) {
+            take(&hypothesis.own, to, &self.own_indices, from);
         }
-        take(&hypothesis.shared, &mut start.shared, &self.shared_named());
+        take(
+            &hypothesis.shared,
+            &mut start.shared,
+            &self.shared_indices,
+            &self.shared,
+        );
         start
     }
 
@@ -269,14 +277,14 @@ impl Fitted {
         column.map_or(0.0, |column| self.shared[column])
     }
 
-    /// Names of the shared parameters.
-    pub fn shared_names(&self) -> &[String] {
-        &self.shared_names
+    /// Which of the model's parameters are shared, in their order.
+    pub fn shared_indices(&self) -> &[usize] {
+        &self.shared_indices
     }
 
-    /// Names of each tightening's own parameters.
-    pub fn own_names(&self) -> &[String] {
-        &self.own_names
+    /// Which of the model's parameters each tightening has of its own, in their order.
+    pub fn own_indices(&self) -> &[usize] {
+        &self.own_indices
     }
 
     /// Projected curvature over the shared parameters, all tightenings together.

@@ -338,6 +338,17 @@ fn weigh(whitening: Option<&Whitening>, signal: &[f64], weighted: &mut [f64]) {
     }
 }
 
+/// Index, in a model that has the effects `to`, of the parameter that is number `index` in one that has `from`; `None` where its
+/// effect is not there. Names say nothing of it: they depend on which other effects are there.
+pub(crate) fn index_among(to: &[Effect], from: &[Effect], index: usize) -> Option<usize> {
+    if index < BASE_PARAMETERS.len() {
+        return Some(index);
+    }
+    let first = |effect: &Effect| first_parameter(from, *effect);
+    let effect = from.iter().rfind(|effect| first(effect) <= index)?;
+    (to.contains(effect)).then(|| first_parameter(to, *effect) + index - first(effect))
+}
+
 /// Index of an effect's first parameter in a model that has `effects`.
 pub(crate) fn first_parameter(effects: &[Effect], effect: Effect) -> usize {
     let before = effects.iter().take_while(|known| **known != effect);

@@ -25,7 +25,9 @@ pub(crate) fn parameters(
     let specs = effect.description().parameters.iter();
     (specs.zip(model.ranges(effect)).enumerate())
         .map(|(offset, (spec, range))| {
-            let parameter = &model.parameters()[first + offset];
+            let index = first + offset;
+            let parameter = &model.parameters()[index];
+            let column = |of: &[usize]| of.iter().position(|&known| known == index);
             let limits = (parameter.minimum, parameter.maximum);
             let mut size = EffectParameter {
                 name: parameter.name.clone(),
@@ -34,13 +36,13 @@ pub(crate) fn parameters(
                 maximum: range.maximum.min(limits.1),
                 ..described(spec)
             };
-            if let Some(column) = fitted.shared_names().iter().position(|n| *n == size.name) {
+            if let Some(column) = column(fitted.shared_indices()) {
                 size.value = fitted.shared[column];
                 let inside = size.value > limits.0 && size.value < limits.1;
                 size.standard_error = errors.as_ref().map(|e| e[column]).filter(|_| inside);
                 let quantile = student(fitted.blocks.len());
                 size.widen(quantile, limits);
-            } else if let Some(column) = fitted.own_names().iter().position(|n| *n == size.name) {
+            } else if let Some(column) = column(fitted.own_indices()) {
                 let values: Vec<f64> = fitted.own.iter().map(|own| own[column]).collect();
                 size.summarise(&values, limits);
             }
@@ -128,9 +130,9 @@ impl Fitted {
 /// The model of one case with everything but its own parameters held, known as well as `errors` say.
 pub(crate) fn held(case: &FitTask<'_>, fitted: &Fitted, errors: Option<&[f64]>) -> Option<Model> {
     let mut model = case.model_with(&fitted.effects).ok()?;
-    for (column, (name, value)) in fitted.shared_named().into_iter().enumerate() {
-        let parameter = model.parameters_mut().iter_mut().find(|p| p.name == name)?;
-        parameter.value = value;
+    for (column, &index) in fitted.shared_indices().iter().enumerate() {
+        let parameter = &mut model.parameters_mut()[index];
+        parameter.value = fitted.shared[column];
         parameter.fixed = true;
         parameter.standard_error = errors.map(|errors| errors[column]);
     }

@@ -138,8 +138,7 @@ fn simulated<'a>(
         .with_onset(case.input.onset_s())
         .with_rest_before(case.input.rest_before_s());
     let mut values: Vec<f64> = model.parameters().iter().map(|p| p.value).collect();
-    for (name, value) in first.own_named(member) {
-        let index = model.parameters().iter().position(|p| p.name == name)?;
+    for (&index, &value) in first.own_indices().iter().zip(&first.own[member]) {
         values[index] = value;
     }
     let mut tightening = case.tightening.clone().into_owned();

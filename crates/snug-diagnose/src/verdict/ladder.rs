@@ -61,10 +61,8 @@ fn rms_residual(cases: &[FitTask<'_>], fitted: &Fitted) -> f64 {
             continue;
         };
         let mut values: Vec<f64> = model.parameters().iter().map(|p| p.value).collect();
-        for (name, value) in fitted.own_named(member) {
-            if let Some(index) = model.parameters().iter().position(|p| p.name == name) {
-                values[index] = value;
-            }
+        for (&index, &value) in fitted.own_indices().iter().zip(&fitted.own[member]) {
+            values[index] = value;
         }
         let mut output = vec![0.0; case.measured().len()];
         model.output(&values, &case.input, case.quantity(), &mut output);

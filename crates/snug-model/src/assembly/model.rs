@@ -113,8 +113,12 @@ impl Model {
         self.with_effects(&effects)
     }
 
-    /// `effects` on the same rig; parameters are matched by their effect, since their names depend on its company.
-    fn with_effects(&self, effects: &[Effect]) -> Result<Self, ModelError> {
+    /// The same model with these effects in place of its own; what is set of parameters that both have stays. They are matched
+    /// by their effect, since their names depend on its company.
+    ///
+    /// # Errors
+    /// As [`Model::scaled`].
+    pub fn with_effects(&self, effects: &[Effect]) -> Result<Self, ModelError> {
         let mut model = Self::scaled(*self.rig(), effects, self.scale)?;
         let keep = |to: &mut [Parameter], from: &[Parameter]| {
             for (to, from) in to.iter_mut().zip(from) {
@@ -128,7 +132,8 @@ impl Model {
         let base = BASE_PARAMETERS.len();
         keep(&mut model.parameters[..base], &self.parameters[..base]);
         for part in &model.assembly.parts {
-            if let Some(old) = (self.assembly.parts.iter()).find(|old| old.effect == part.effect) {
+            let mut known = self.assembly.parts.iter();
+            if let Some(old) = known.find(|old| old.effect.name() == part.effect.name()) {
                 keep(
                     &mut model.parameters[part.parameters.clone()],
                     &self.parameters[old.parameters.clone()],

@@ -20,6 +20,7 @@ impl Fitted {
             effects: effects.to_vec(),
             own_names: Vec::new(),
             shared_names: Vec::new(),
+            own_indices: Vec::new(),
             shared_indices: Vec::new(),
             own: vec![Vec::new(); squares.len()],
             shared: Vec::new(),
@@ -41,9 +42,10 @@ impl Fitted {
         self
     }
 
-    /// The same with every tightening's own parameters; the last `of_effects` of them belong to effects.
+    /// The same with every tightening's own parameters, the model's first ones; the last `of_effects` of them belong to effects.
     pub fn with_own(mut self, names: &[&str], own: Vec<Vec<f64>>, of_effects: usize) -> Self {
         self.own_names = names.iter().map(|name| (*name).to_owned()).collect();
+        self.own_indices = (0..names.len()).collect();
         self.own = own;
         self.own_effect_count = of_effects;
         self

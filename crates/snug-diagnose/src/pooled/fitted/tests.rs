@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::data::cases::{Cases, Tally};
-use crate::made_up::{NOISE, SAMPLES, WHOLE, close, exact, hand, noisy};
+use crate::made_up::{NOISE, SAMPLES, WHOLE, close, custom_force, exact, hand, noisy, term};
 use crate::pooled::fit::fit_effects;
 use snug_identify::FitTask;
 use snug_model::Effect::{CubicStiffness, TorqueOffset};
@@ -209,6 +209,30 @@ fn a_fit_begins_where_another_ended_and_what_is_new_as_usual() {
     let start = before.start(&hypothesis.expect("the effects go together"));
     assert_eq!(start.own, own);
     assert_eq!(start.shared, [0.0, 7e5]);
+}
+
+/// A latch and an end stop both have p and x0: without the latch the stop's are called p and x0, no longer `end_stop_law_p`.
+#[test]
+fn a_term_begins_where_it_ended_whatever_company_it_is_named_in() {
+    let (latch, stop, bent) = (
+        term("latch_law"),
+        term("end_stop_law"),
+        custom_force("bent", "p*x^2", 7.0),
+    );
+    let cases = [exact(0, &[], &[]), exact(1, &[], &[])];
+    let both = fit(&cases, &[latch, stop], WHOLE);
+    let [.., p, x0] = both.shared[..] else {
+        panic!("four sizes are shared")
+    };
+    let shared = |effects: &[Effect]| {
+        let tally = Tally::default();
+        let hypothesis = Hypothesis::new(Cases::new(&cases, &tally), effects);
+        let start = both.start(&hypothesis.expect("the effects go together"));
+        assert_eq!(start.own, both.own);
+        start.shared
+    };
+    assert_eq!(shared(&[stop]), [p, x0]);
+    assert_eq!(shared(&[bent, stop]), [7.0, p, x0]);
 }
 
 #[test]
