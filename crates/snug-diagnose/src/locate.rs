@@ -9,7 +9,7 @@ mod aspect;
 mod bootstrap;
 mod comparison;
 mod condition;
-mod drift;
+pub(crate) mod drift;
 mod exposure;
 mod force_shape;
 mod frequency;
@@ -108,7 +108,7 @@ pub fn locate(seen: &[Seen<'_>], seed: u64) -> Location {
 /// participants (files where no participant is named, and for the trial number, which means something only within a
 /// file). Only converged estimates with positive values take part, without those more than five robust standard
 /// deviations off their group's median. `change_percent` is 100 (exp(b Δz) − 1) with Δz the widest range of z within a
-/// group; p of the slope by Student's t with n − groups − 1 degrees of freedom.
+/// group, for the trial number that of all tightenings of a file, so that exp(b) − 1 per tightening follows from it; p of the slope by Student's t with n − groups − 1 degrees of freedom.
 ///
 /// A hand that happens to be stiffer is also moved less, so the measured peaks depend on k by themselves. Peak angle and
 /// peak velocity are therefore those that the tightening's torque gives with the group's geometric-mean m, c, k.

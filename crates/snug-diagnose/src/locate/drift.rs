@@ -3,7 +3,7 @@
 use super::Seen;
 use super::exposure::{peaks, pulse_length_s};
 use rayon::prelude::*;
-use snug_campaign::{Drift, FitStatus, Interval};
+use snug_campaign::{Drift, FitStatus, Interval, Tightening, TighteningId};
 use snug_model::BASE_PARAMETERS;
 use snug_statistics::descriptive::median;
 use snug_statistics::distributions::{student_t_quantile, student_t_two_sided};
@@ -35,6 +35,7 @@ struct Row<'a> {
 
 pub fn drifts(seen: &[Seen<'_>]) -> Vec<Drift> {
     let rows = rows(seen);
+    let number_range = number_range(seen.iter().map(|one| one.tightening));
     let covariates = covariates(&rows);
     let mut drifts = Vec::new();
     for (parameter, name) in BASE_PARAMETERS.iter().enumerate() {
@@ -54,7 +55,10 @@ pub fn drifts(seen: &[Seen<'_>]) -> Vec<Drift> {
                     })
                 })
                 .collect();
-            if let Some(slope) = Slope::within(points) {
+            if let Some(mut slope) = Slope::within(points) {
+                if *against == "trial_number" {
+                    slope.range = number_range;
+                }
                 drifts.push(slope.drift(name, against));
             }
         }
@@ -66,6 +70,23 @@ pub fn drifts(seen: &[Seen<'_>]) -> Vec<Drift> {
         }
     }
     drifts
+}
+
+/// Widest range of numbers within one file \[tightenings\], whether or not their estimates take part: over so many a change
+/// with the trial number is stated.
+pub(crate) fn number_range<'t>(tightenings: impl Iterator<Item = &'t Tightening>) -> f64 {
+    let mut files: BTreeMap<&str, (u32, u32)> = BTreeMap::new();
+    for TighteningId { file, number } in tightenings.map(|tightening| &tightening.id) {
+        let (first, last) = files.entry(file).or_insert((*number, *number));
+        (*first, *last) = ((*first).min(*number), (*last).max(*number));
+    }
+    let ranges = files.values().map(|(first, last)| last - first);
+    f64::from(ranges.max().unwrap_or(0))
+}
+
+/// exp(b) − 1 \[1/tightening\] of what changes by 100 (exp(b Δz) − 1) \[%\] over Δz = `range` tightenings.
+pub(crate) fn per_tightening(change_percent: f64, range: f64) -> f64 {
+    ((change_percent / 100.0).ln_1p() / range).exp_m1()
 }
 
 fn rows<'a>(seen: &'a [Seen<'a>]) -> Vec<Row<'a>> {

@@ -1,5 +1,6 @@
 //! What changes from tightening to tightening: fatigue shows in the fitted m, c, k, not in the misfit of any one.
 
+use crate::locate::drift::{number_range, per_tightening};
 use crate::pooled::sizes::described;
 use crate::verdict::reasons::described as explanation;
 use snug_campaign::{Drift, EffectParameter, RankedEffect};
@@ -19,7 +20,8 @@ pub(crate) fn trends(
 
 /// One trend as a candidate: slopes of m, c, k over the tightening's number, tested within files.
 ///
-/// It removes no misfit, since every tightening has its own m, c, k; its p is that of the clearest of the three slopes,
+/// A slope is the relative change from one tightening to the next \[1/tightening\], exp(b) − 1 where ln p grows by b. It removes
+/// no misfit, since every tightening has its own m, c, k; its p is that of the clearest of the three slopes,
 /// times three. `None` where no slope could be tested.
 fn candidate(
     description: &'static Description,
@@ -27,12 +29,7 @@ fn candidate(
     cases: &[FitTask<'_>],
     level: f64,
 ) -> Option<RankedEffect> {
-    let numbers = || {
-        cases
-            .iter()
-            .map(|case| f64::from(case.tightening.id.number))
-    };
-    let range = numbers().fold(f64::MIN, f64::max) - numbers().fold(f64::MAX, f64::min);
+    let range = number_range(cases.iter().map(|case| &*case.tightening));
     let over_number = |parameter: &str| {
         let mut all = drifts.iter();
         all.find(|drift| drift.parameter == parameter && drift.against == "trial_number")
@@ -42,17 +39,17 @@ fn candidate(
         .filter_map(|name| over_number(name))
         .collect();
     let smallest = tested.iter().filter_map(|drift| drift.p).reduce(f64::min)?;
-    let per_tightening = |percent: f64| percent / 100.0 / range;
+    let per_tightening = |percent: f64| per_tightening(percent, range);
     let parameters: Vec<EffectParameter> = (description.parameters.iter().zip(BASE_PARAMETERS))
         .filter_map(|(spec, name)| {
             let drift = over_number(name)?;
-            let interval = drift.interval_percent;
+            let interval = (drift.interval_percent)
+                .map(|one| (per_tightening(one.low), per_tightening(one.high)));
             Some(EffectParameter {
                 value: per_tightening(drift.change_percent),
-                low: interval.map(|interval| per_tightening(interval.low)),
-                high: interval.map(|interval| per_tightening(interval.high)),
-                standard_error: interval
-                    .map(|interval| per_tightening(interval.high - interval.low) / 3.92),
+                low: interval.map(|(low, _)| low),
+                high: interval.map(|(_, high)| high),
+                standard_error: interval.map(|(low, high)| (high - low) / 3.92),
                 ..described(spec)
             })
         })
@@ -103,10 +100,17 @@ mod tests {
         trends(drifts, &cases).next()
     }
 
-    /// 12 % over four steps are 0.03 per tightening; ± 9.8 % is ± 0.0245, which is 1.96 standard errors of 0.0125.
+    /// 1.03⁴ − 1 = 12.55 % over four steps are 0.03 per tightening; so 2.75 % are 1.0275^¼ − 1 and 22.35 % are 1.2235^¼ − 1, which
+    /// are 3.92 standard errors apart.
     #[test]
     fn a_drift_is_told_as_a_slope_per_tightening() {
-        let told = fatigue(&[drift("stiffness_n_per_m", "trial_number", 12.0, Some(0.01))]);
+        let percent = 100.0 * (1.03_f64.powi(4) - 1.0);
+        let told = fatigue(&[drift(
+            "stiffness_n_per_m",
+            "trial_number",
+            percent,
+            Some(0.01),
+        )]);
         let told = told.expect("a slope was tested");
         assert_eq!(
             (told.effect.as_str(), told.kind.as_str()),
@@ -117,9 +121,21 @@ mod tests {
         };
         assert_eq!(slope.name, "stiffness_slope_per_tightening");
         close(slope.value, 0.03, 1e-12);
-        close(slope.low.expect("low"), 0.0055, 1e-9);
-        close(slope.high.expect("high"), 0.0545, 1e-9);
-        close(slope.standard_error.expect("an error"), 0.0125, 1e-9);
+        close(slope.low.expect("low"), 0.006807376, 1e-6);
+        close(slope.high.expect("high"), 0.051723978, 1e-6);
+        close(slope.standard_error.expect("an error"), 0.011458317, 1e-6);
+    }
+
+    /// Two files of five, numbered on: a file's tightenings are four steps apart, all ten are nine.
+    #[test]
+    fn a_slope_does_not_depend_on_how_files_are_numbered() {
+        let drifts = [drift("mass_kg", "trial_number", 12.550_881, Some(0.01))];
+        let mut cases: Vec<FitTask> = (0..10).map(|number| exact(number, &[], &[])).collect();
+        for case in &mut cases[5..] {
+            case.tightening.to_mut().id.file = "another.mat".to_owned();
+        }
+        let told = trends(&drifts, &cases).next().expect("a slope was tested");
+        close(told.parameters[0].value, 0.03, 1e-8);
     }
 
     /// Three slopes were tried, so the clearest counts three times (Bonferroni), and never above 1.

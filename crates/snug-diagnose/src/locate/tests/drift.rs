@@ -1,9 +1,11 @@
 //! Drifts of fitted parameters that were planted, and that were not.
 
 use super::{HAND, Made, made, normal, seen};
+use crate::locate::drift::{number_range, per_tightening};
 use crate::locate::drifts;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
+use snug_campaign::{Drift, FitStatus};
 
 /// Fitted parameters that scatter by 5 % around each person's own level, stiffness growing with the target by `growth`.
 fn fitted(seed: u64, growth: f64) -> Vec<Made> {
@@ -44,6 +46,32 @@ fn a_planted_drift_is_found_with_its_size() {
         .iter()
         .find(|drift| drift.against == "pulse_length_s");
     assert!(length.is_none(), "{length:?}");
+}
+
+/// Four files, numbered on, so that a file's numbers are 28 apart and all are 31; the last of each did not converge.
+#[test]
+fn a_growth_per_tightening_is_found_again_whatever_the_numbers_are() {
+    let mut generator = ChaCha8Rng::seed_from_u64(3);
+    let mut made: Vec<Made> = (1..=32)
+        .map(|number| {
+            let scatter = (1e-4 * normal(&mut generator)).exp();
+            let [m, c, k] = HAND;
+            made(
+                number,
+                [m, c, k * 1.03_f64.powf(f64::from(number)) * scatter],
+                30.0,
+            )
+        })
+        .collect();
+    for one in &mut made[28..] {
+        one.estimate.status = FitStatus::IterationLimit;
+    }
+    let drifts = drifts(&seen(&made));
+    let of_number = |d: &&Drift| d.against == "trial_number" && d.parameter == "stiffness_n_per_m";
+    let change_percent = drifts.iter().find(of_number).unwrap().change_percent;
+    assert!((change_percent / 100.0 - (1.03_f64.powi(28) - 1.0)).abs() < 1e-3);
+    let range = number_range(made.iter().map(|one| &one.tightening));
+    assert!((per_tightening(change_percent, range) - 0.03).abs() < 1e-4);
 }
 
 /// Scatter in k alone, which moves the measured peaks with it, is no drift: p is uniform.
