@@ -14,21 +14,17 @@ use crate::watch::Watch;
 /// When `watch` ends the search, the answer is what was reached by then and says so.
 ///
 /// # Errors
-/// [`DiagnoseError::NothingToCompare`] without tightenings, otherwise what the model or the fit refuses.
+/// [`DiagnoseError::NothingToCompare`] without tightenings, [`DiagnoseError::Identify`] where one was not measured, otherwise
+/// what the model or the fit refuses.
 pub fn examine(
     question: &Question<'_>,
     settings: &DiagnoseSettings,
     watch: &Watch<'_>,
 ) -> Result<Answer, DiagnoseError> {
     let cases = question.cases;
-    if cases.is_empty() {
-        return Err(DiagnoseError::NothingToCompare {
-            tightenings: 0,
-            reason: "every tightening was left out; the findings say why",
-        });
-    }
     let tally = Tally::default();
-    let counted = Cases::new(cases, &tally);
+    let left_out = "every tightening was left out; the findings say why";
+    let counted = Cases::checked(cases, &tally, left_out)?;
     let search = Search {
         cases: counted,
         own: &question.effects,

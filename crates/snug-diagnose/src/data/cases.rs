@@ -1,7 +1,8 @@
 //! The tightenings of a question together with the count of what is done with them.
 
+use crate::error::DiagnoseError;
 use snug_campaign::{Estimate, WorkDone};
-use snug_identify::FitTask;
+use snug_identify::{FitTask, IdentifyError};
 use snug_least_squares::Work;
 use std::ops::Deref;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -16,6 +17,36 @@ pub(crate) struct Cases<'a> {
 impl<'a> Cases<'a> {
     pub fn new(all: &'a [FitTask<'a>], tally: &'a Tally) -> Self {
         Self { all, tally }
+    }
+
+    /// The same, where there are any (else for this `reason` none) and each was measured.
+    pub fn checked(
+        all: &'a [FitTask<'a>],
+        tally: &'a Tally,
+        reason: &'static str,
+    ) -> Result<Self, DiagnoseError> {
+        if all.is_empty() {
+            return Err(DiagnoseError::NothingToCompare {
+                tightenings: 0,
+                reason,
+            });
+        }
+        for case in all {
+            let parameters = case.model.free().len();
+            let (samples, quantity) = (case.measured().len(), case.quantity());
+            match samples.saturating_sub(case.unscored()) {
+                _ if samples == 0 => return Err(IdentifyError::MissingOutput { quantity }.into()),
+                residuals if residuals < parameters => {
+                    return Err(IdentifyError::TooShort {
+                        residuals,
+                        parameters,
+                    }
+                    .into());
+                }
+                _ => {}
+            }
+        }
+        Ok(Self::new(all, tally))
     }
 
     /// Other tightenings, the work counted with that of these.
@@ -98,4 +129,49 @@ impl Tally {
 
 fn add(count: &AtomicUsize, more: usize) {
     count.fetch_add(more, Ordering::Relaxed);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::made_up::{SAMPLES, exact, silent};
+    use crate::{DiagnoseSettings, Goal, Question, examine, fit_together};
+
+    #[test]
+    fn a_tightening_that_was_not_measured_is_refused_by_name() {
+        let refused = |case: FitTask<'_>, expected: IdentifyError| {
+            let cases = [exact(0, &[], &[]), case];
+            let question = Question {
+                cases: &cases,
+                effects: vec![],
+                custom: vec![],
+                goal: Goal::Diagnose,
+            };
+            let examined = examine(&question, &DiagnoseSettings::default(), &silent());
+            for error in [examined.err(), fit_together(&cases, &[]).err()] {
+                let Some(DiagnoseError::Identify(error)) = error else {
+                    panic!("{error:?}")
+                };
+                assert_eq!(error, expected);
+            }
+        };
+        let (mut unmeasured, mut unscored) = (exact(1, &[], &[]), exact(1, &[], &[]));
+        unmeasured.settings.to_mut().unscored_samples = 5;
+        unmeasured
+            .tightening
+            .to_mut()
+            .motion
+            .acceleration_rad_per_s2 = None;
+        let quantity = unmeasured.quantity();
+        refused(unmeasured, IdentifyError::MissingOutput { quantity });
+        unscored.settings.to_mut().unscored_samples = SAMPLES - 2;
+        let (residuals, parameters) = (2, 3);
+        refused(
+            unscored,
+            IdentifyError::TooShort {
+                residuals,
+                parameters,
+            },
+        );
+    }
 }

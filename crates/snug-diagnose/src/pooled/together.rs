@@ -29,16 +29,12 @@ pub struct Together {
 /// Every tightening keeps its own m, c, k; the sizes of the effects are shared unless the effect says otherwise.
 ///
 /// # Errors
-/// [`DiagnoseError::NothingToCompare`] without tightenings, otherwise what the model or the fit refuses.
+/// [`DiagnoseError::NothingToCompare`] without tightenings, [`DiagnoseError::Identify`] where one was not measured, otherwise
+/// what the model or the fit refuses.
 pub fn fit_together(cases: &[FitTask<'_>], effects: &[Effect]) -> Result<Together, DiagnoseError> {
-    if cases.is_empty() {
-        return Err(DiagnoseError::NothingToCompare {
-            tightenings: 0,
-            reason: "there is none to fit",
-        });
-    }
     let tally = Tally::default();
-    let fitted = fit_effects(Cases::new(cases, &tally), effects, None, Units::of(cases))?;
+    let counted = Cases::checked(cases, &tally, "there is none to fit")?;
+    let fitted = fit_effects(counted, effects, None, Units::of(cases))?;
     Ok(Together {
         shared: fitted.shared_named(),
         own: (0..cases.len())
