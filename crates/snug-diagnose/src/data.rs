@@ -3,3 +3,4 @@
 pub(crate) mod cases;
 pub(crate) mod clusters;
 pub(crate) mod simulation;
+pub(crate) mod thresholds;

@@ -23,6 +23,7 @@ mod time_since_onset;
 
 #[cfg(test)]
 mod tests;
+pub(crate) mod thresholds;
 
 use aspect::View;
 use bootstrap::Draws;

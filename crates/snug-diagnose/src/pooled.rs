@@ -5,5 +5,6 @@ pub(crate) mod fitted;
 pub(crate) mod long_record;
 pub(crate) mod model;
 pub(crate) mod sizes;
+pub(crate) mod thresholds;
 pub(crate) mod together;
 pub(crate) mod torque_noise;

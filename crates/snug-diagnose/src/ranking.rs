@@ -8,3 +8,4 @@ pub(crate) mod rank;
 pub(crate) mod refit;
 pub(crate) mod score_test;
 pub(crate) mod sensitivity;
+pub(crate) mod thresholds;

@@ -4,3 +4,4 @@ pub(crate) mod backward_elimination;
 pub(crate) mod forward_selection;
 pub(crate) mod path;
 pub(crate) mod search;
+pub(crate) mod thresholds;

@@ -6,5 +6,6 @@ pub(crate) mod experiment;
 pub(crate) mod ladder;
 pub(crate) mod preparation;
 pub(crate) mod reasons;
+pub(crate) mod thresholds;
 pub(crate) mod tightening_fits;
 pub(crate) mod trend;

@@ -1,15 +1,9 @@
 //! What counts as one independent piece of evidence: a tightening, or, where there are few, a stretch of one.
 
+use crate::data::thresholds::{FEWEST_WHOLE, SHORTEST_STRETCH, STRETCHES_WANTED};
 use snug_campaign::words::reason::Cluster;
 use snug_identify::FitTask;
 use std::ops::Range;
-
-/// Fewer tightenings than this are cut into stretches.
-const FEWEST_WHOLE: usize = 8;
-/// Stretches wanted where tightenings are cut.
-const STRETCHES_WANTED: usize = 24;
-/// Shortest stretch \[samples\].
-const SHORTEST_STRETCH: usize = 40;
 
 /// How tightenings are cut into units.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -3,10 +3,8 @@
 use super::aspect::{View, sums};
 use super::grid::{Grid, round_up};
 use super::residual::{Residuals, White};
+use crate::locate::thresholds::MOST_AMPLITUDE_BINS;
 use rayon::prelude::*;
-
-/// At most this many bins.
-const MOST_BINS: f64 = 10.0;
 
 /// The measured angle \[rad\]; the simulated one where none is measured.
 fn angle<'a>(one: &White<'a>) -> Option<&'a [f64]> {
@@ -25,7 +23,7 @@ pub fn view(residuals: &Residuals<'_>) -> Option<View> {
         .filter(|angle| angle.is_finite())
         .reduce(f64::max)
         .filter(|largest| *largest > 0.0)?;
-    let grid = Grid::of_width(0.0, largest, round_up(largest / MOST_BINS));
+    let grid = Grid::of_width(0.0, largest, round_up(largest / MOST_AMPLITUDE_BINS));
     let sums = residuals
         .all
         .par_iter()

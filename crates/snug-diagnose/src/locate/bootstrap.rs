@@ -1,14 +1,10 @@
 //! Drawing tightenings, with replacement, to see how far a number would have come out otherwise.
 
+use crate::locate::thresholds::{CAMPAIGNS, FEWEST};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use snug_campaign::{Interval, NORMAL_95};
 use snug_statistics::distributions::student_t_quantile;
-
-/// Campaigns drawn; 2.5 % of them are a dozen on each side.
-const CAMPAIGNS: usize = 499;
-/// Fewer tightenings say nothing about their scatter.
-pub const FEWEST: usize = 3;
 
 /// One tightening's part in a ratio Σ numerator / Σ denominator.
 #[derive(Debug, Clone, Copy)]

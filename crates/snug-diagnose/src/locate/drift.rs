@@ -2,6 +2,7 @@
 
 use super::Seen;
 use super::exposure::{peaks, pulse_length_s};
+use crate::locate::thresholds::{CONSTANT, FARTHEST, FEWEST_FREEDOM};
 use rayon::prelude::*;
 use snug_campaign::{Drift, FitStatus, Interval, Tightening, TighteningId};
 use snug_model::BASE_PARAMETERS;
@@ -17,14 +18,8 @@ const AGAINST: [&str; 5] = [
     "pulse_length_s",
     "trial_number",
 ];
-/// Fewer degrees of freedom show nothing.
-const FEWEST_FREEDOM: f64 = 3.0;
-/// Farther off their group's median (in robust standard deviations) estimates are not of this population.
-const FARTHEST: f64 = 5.0;
 /// Standard deviation of normal scatter over its median absolute deviation.
 const ROBUST: f64 = 1.4826;
-/// A covariate whose spread is below this part of its size does not vary.
-const CONSTANT: f64 = 1e-9;
 
 /// One tightening that takes part.
 struct Row<'a> {

@@ -1,11 +1,9 @@
 //! What a tightening did to the hand, as far as that does not depend on the hand itself.
 
 use super::Seen;
+use crate::locate::thresholds::PULSE;
 use snug_campaign::Intersample;
 use snug_model::{Input, Model};
-
-/// A pulse lasts while the torque is above this part of its peak.
-const PULSE: f64 = 0.1;
 
 /// Largest |θ| \[rad\] and |ω| \[rad/s\] that the tightening's torque gives with m, c, k = `values`.
 pub fn peaks(seen: &Seen<'_>, values: &[f64; 3]) -> Option<[f64; 2]> {

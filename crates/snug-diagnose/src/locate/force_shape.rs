@@ -7,16 +7,13 @@
 //! that prediction p, Σ (2 ⟨p, w⟩ − ⟨p, p⟩) over the excess is the share that comes back.
 
 use super::residual::{Residuals, White};
+use crate::locate::thresholds::{ENOUGH_FILES, FADING_M_PER_S, NO_NEWS, SPANNED};
 use rayon::prelude::*;
 use snug_campaign::{Intersample, Motion, Quantity};
 use snug_identify::Whitening;
 use snug_model::{BASE_PARAMETERS, Input, Model};
 use std::collections::BTreeMap;
 
-/// Speed below which friction fades \[m/s\].
-const FADING_M_PER_S: f64 = 0.01;
-/// Directions this much shorter than they were are in the span of the others.
-const SPANNED: f64 = 1e-9;
 /// Number of shapes.
 const COUNT: usize = 6;
 
@@ -106,7 +103,7 @@ fn predicted(sums: &[Sums]) -> Option<f64> {
     for own in sums {
         files.entry(&own.file).or_default().push(own);
     }
-    let folds: Vec<Vec<&Sums>> = if files.len() >= super::repeatable::ENOUGH_FILES {
+    let folds: Vec<Vec<&Sums>> = if files.len() >= ENOUGH_FILES {
         files.into_values().collect()
     } else {
         sums.iter().map(|own| vec![own]).collect()
@@ -182,9 +179,6 @@ fn solve(mut gram: [[f64; COUNT]; COUNT], mut along: [f64; COUNT]) -> [f64; COUN
         false => 0.0,
     })
 }
-
-/// Share of a shape that the others do not already say, below which it says nothing.
-const NO_NEWS: f64 = 1e-4;
 
 fn sums(one: &White<'_>, residuals: &Residuals<'_>) -> Option<Sums> {
     let seen = &one.seen;

@@ -6,12 +6,10 @@
 use super::aspect::{Part, Sum, View};
 use super::grid::{round_up, tidy};
 use super::residual::Residuals;
+use crate::locate::thresholds::NARROWEST;
 use rayon::prelude::*;
 use snug_signal::Periodogram;
 use std::collections::BTreeMap;
-
-/// A band this many frequencies wide is the narrowest.
-const NARROWEST: f64 = 1.5;
 
 /// Bands that end at 1, 2, 5 times powers of ten, from the longest tightening's resolution to half the sampling rate.
 pub fn view(residuals: &Residuals<'_>) -> Option<View> {

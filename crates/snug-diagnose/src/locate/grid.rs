@@ -1,6 +1,7 @@
 //! Equal bins along one coordinate, and how their edges are written.
 
 use super::aspect::Part;
+use crate::locate::thresholds::EDGE;
 
 /// `bins` bins of `width` from `origin` on.
 #[derive(Debug, Clone, Copy)]
@@ -13,8 +14,8 @@ pub struct Grid {
 impl Grid {
     /// Bins whose edges are whole multiples of `width`, over all of `low` to `high`.
     pub fn of_width(low: f64, high: f64, width: f64) -> Self {
-        let first = (low / width + ROUNDING).floor();
-        let last = (high / width + ROUNDING).floor();
+        let first = (low / width + EDGE).floor();
+        let last = (high / width + EDGE).floor();
         Self {
             origin: first * width,
             width,
@@ -34,8 +35,8 @@ impl Grid {
 
     /// The bin that holds `value`; the last one holds its upper edge as well.
     pub fn bin(&self, value: f64) -> Option<usize> {
-        let position = (value - self.origin) / self.width + ROUNDING;
-        if !(0.0..=self.bins as f64 + 2.0 * ROUNDING).contains(&position) {
+        let position = (value - self.origin) / self.width + EDGE;
+        if !(0.0..=self.bins as f64 + 2.0 * EDGE).contains(&position) {
             return None;
         }
         Some((position as usize).min(self.bins - 1))
@@ -68,16 +69,13 @@ impl Grid {
     }
 }
 
-/// Positions this little (in bins) below an edge are meant to be on it.
-const ROUNDING: f64 = 1e-6;
-
 /// The smallest 1, 2 or 5 times a power of ten that is not below `least` (positive).
 pub fn round_up(least: f64) -> f64 {
     let power = 10_f64.powf(least.log10().floor());
     [1.0, 2.0, 5.0]
         .into_iter()
         .map(|step| step * power)
-        .find(|step| *step >= least * (1.0 - ROUNDING))
+        .find(|step| *step >= least * (1.0 - EDGE))
         .unwrap_or(10.0 * power)
 }
 

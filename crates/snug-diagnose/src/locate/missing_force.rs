@@ -4,14 +4,10 @@ use super::bootstrap::{Draws, Term};
 use super::grid::Grid;
 use super::residual::{Residuals, White, difference};
 use super::time_since_onset;
+use crate::locate::thresholds::{MAP_BINS, TIME_BINS};
 use rayon::prelude::*;
 use snug_campaign::{ForceCurve, ForceMap, Interval, Quantity};
 use snug_model::BASE_PARAMETERS;
-
-/// Bins of the curve over time.
-const TIME_BINS: usize = 60;
-/// Bins of the map along x, and along v.
-const MAP_BINS: usize = 16;
 
 /// ΔF of every sample from the first scored on \[N\]; `None` without acceleration or without m, c, k.
 pub fn missing_force_n(one: &White<'_>) -> Option<Vec<f64>> {

@@ -5,26 +5,12 @@
 
 use super::force_shape::Followed;
 use super::residual::Residuals;
+use crate::locate::thresholds::{
+    FOLLOWS, HARDLY_REPEATS, MORE_THAN_DUE, MOST, MOSTLY_REPEATS, NEARLY_AS_WELL, QUIET, RESEMBLES,
+    WORTH,
+};
 use snug_campaign::words::remark::{Remark, Times};
 use snug_campaign::{Aspect, Share};
-
-/// Share of the misfit that counts as most of it.
-const MOST: f64 = 0.6;
-/// Share of the misfit from which on a shape of the force is told.
-const RESEMBLES: f64 = 0.5;
-/// Share of the misfit from which on the force is said to have that shape.
-const FOLLOWS: f64 = 0.8;
-/// A part with less of the misfit is not worth a sentence.
-const WORTH: f64 = 0.2;
-/// Share of the misfit over share of the data that is more than its due.
-const MORE_THAN_DUE: f64 = 1.5;
-/// Errors over noise up to this are told as nothing but noise.
-const QUIET: f64 = 1.05;
-/// Repeatable shares above and below which it is said.
-const REPEATS: f64 = 0.7;
-const DOES_NOT_REPEAT: f64 = 0.25;
-/// Shapes of the missing force whose shares differ by less are told together.
-const NEARLY_AS_WELL: f64 = 0.1;
 
 pub fn remarks(
     residuals: &Residuals<'_>,
@@ -157,8 +143,8 @@ fn follows(shapes: &[(&'static str, f64)]) -> Option<Remark> {
 
 fn repeats(share: f64) -> Option<Remark> {
     match share {
-        share if share >= REPEATS => Some(Remark::Repeats(share)),
-        share if share <= DOES_NOT_REPEAT => Some(Remark::DoesNotRepeat(share)),
+        share if share >= MOSTLY_REPEATS => Some(Remark::Repeats(share)),
+        share if share <= HARDLY_REPEATS => Some(Remark::DoesNotRepeat(share)),
         _ => None,
     }
 }

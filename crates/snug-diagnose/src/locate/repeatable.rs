@@ -11,14 +11,8 @@
 //! next cancels. Where the noise is not known nothing is subtracted: Σ sgn(z_i) z_i² / Σ ‖b_i‖².
 
 use super::residual::{Residuals, White};
+use crate::locate::thresholds::{BIN_S, ENOUGH_ALIKE, ENOUGH_FILES};
 use rayon::prelude::*;
-
-/// Length of a bin \[s\].
-const BIN_S: f64 = 0.005;
-/// From this many files on, a tightening's own file predicts nothing for it.
-pub const ENOUGH_FILES: usize = 3;
-/// From this many others under the same conditions on, only they predict.
-const ENOUGH_ALIKE: f64 = 2.0;
 
 /// One tightening's averages and where it belongs.
 struct Averaged {

@@ -1,14 +1,10 @@
 //! The whitened residuals that every way of looking shares.
 
 use super::Seen;
+use crate::locate::thresholds::{BEYOND_CHANCE, SMALLEST_EXCESS};
 use rayon::prelude::*;
 use snug_campaign::Quantity;
 use snug_identify::Whitening;
-
-/// Beyond this many standard deviations an excess over the noise is not chance.
-const BEYOND_CHANCE: f64 = 3.0;
-/// A noise floor is not known better than this; a smaller excess in rms means nothing.
-const SMALLEST_EXCESS: f64 = 0.005;
 
 /// The whitened residual of one tightening: `values[i]` belongs to sample `first + i`.
 pub struct White<'a> {

@@ -3,12 +3,8 @@
 use super::aspect::{View, sums};
 use super::grid::{Grid, round_up};
 use super::residual::Residuals;
+use crate::locate::thresholds::{MOST_TIME_BINS, WIDTH_S};
 use rayon::prelude::*;
-
-/// Width of a bin \[s\].
-const WIDTH_S: f64 = 0.02;
-/// Longer windows get wider bins.
-const MOST_BINS: f64 = 40.0;
 
 /// Earliest and latest time since the onset that any tightening has \[s\].
 pub fn range_s(residuals: &Residuals<'_>) -> Option<(f64, f64)> {
@@ -26,10 +22,10 @@ pub fn range_s(residuals: &Residuals<'_>) -> Option<(f64, f64)> {
 /// Bins of 20 ms, the time before the onset included; wider where there would be more than 40.
 pub fn view(residuals: &Residuals<'_>) -> Option<View> {
     let (low, high) = range_s(residuals)?;
-    let width = if (high - low) / WIDTH_S <= MOST_BINS {
+    let width = if (high - low) / WIDTH_S <= MOST_TIME_BINS {
         WIDTH_S
     } else {
-        round_up((high - low) / MOST_BINS)
+        round_up((high - low) / MOST_TIME_BINS)
     };
     let grid = Grid::of_width(low, high, width);
     let sums = residuals

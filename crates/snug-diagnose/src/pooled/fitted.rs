@@ -2,6 +2,7 @@
 
 use crate::data::clusters::Units;
 use crate::pooled::model::{Hypothesis, Room, Start, first_parameter, index_among};
+use crate::pooled::thresholds::{AT_FLOOR, HARDLY};
 use crate::pooled::torque_noise::passed_on;
 use crate::settings::DiagnoseSettings;
 use snug_least_squares::PooledFit;
@@ -390,12 +391,6 @@ impl Fitted {
         }
     }
 }
-
-/// Share of a parameter that is hardly anything.
-const HARDLY: f64 = 0.1;
-
-/// Error over noise below which nothing but noise is left to look for.
-pub(crate) const AT_FLOOR: f64 = 1.02;
 
 #[cfg(test)]
 mod made_up;

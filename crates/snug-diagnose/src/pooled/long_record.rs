@@ -2,20 +2,9 @@
 
 use crate::error::DiagnoseError;
 use crate::pooled::model::{Hypothesis, Start};
+use crate::pooled::thresholds::{BEGINNING, SHORTEST_BEGINNING, SOON, TRIAL_OF_A_START};
 use snug_identify::{FitTask, TighteningResidual, convex_set};
 use snug_least_squares::{DenseResidual, PooledFit, PooledSettings, Settings, solve};
-
-/// Samples of all records together up to which they are soon simulated.
-const SOON: usize = 30_000;
-
-/// Share of a record's squared output that its beginning holds, where records take long to simulate.
-const BEGINNING: f64 = 0.125;
-
-/// When the trial of one start stops.
-const ROUGH: PooledSettings = PooledSettings {
-    max_iterations: 15,
-    cost_tolerance: 1e-3,
-};
 
 /// Fits from each of `starts`, and with their sizes from where the study's own mass, damping and stiffness begin; the
 /// lowest cost goes on to the end. Where the records take long to simulate, all but the last of that is done on their
@@ -49,11 +38,8 @@ fn beginning(record: &FitTask<'_>) -> FitTask<'static> {
         sum += y * y;
         sum < enough
     });
-    record.beginning(record.unscored() + more.count().max(SHORTEST))
+    record.beginning(record.unscored() + more.count().max(SHORTEST_BEGINNING))
 }
-
-/// Fewest scored samples of a beginning.
-const SHORTEST: usize = 1000;
 
 fn lowest(
     hypothesis: &mut Hypothesis<'_>,
@@ -71,7 +57,7 @@ fn lowest(
         .iter()
         .flat_map(|start| [start.clone(), afresh(start)])
     {
-        match hypothesis.fit(&start, &ROUGH) {
+        match hypothesis.fit(&start, &TRIAL_OF_A_START) {
             Ok(end) if best.as_ref().is_none_or(|b| end.cost() < b.cost()) => best = Some(end),
             Ok(_) => {}
             Err(error) => refused = Some(error),

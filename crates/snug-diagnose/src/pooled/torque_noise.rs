@@ -6,6 +6,7 @@
 
 use crate::data::clusters::Units;
 use crate::data::simulation::Asked;
+use crate::data::thresholds::SIMULATED_TOGETHER;
 use crate::pooled::model::Hypothesis;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
@@ -27,7 +28,7 @@ pub(crate) fn passed_on(
         return vec![0.0; units.per_case * values.len()];
     }
     let mut passed_on = Vec::new();
-    for some in members.collect::<Vec<_>>().chunks(TOGETHER) {
+    for some in members.collect::<Vec<_>>().chunks(SIMULATED_TOGETHER) {
         let noisy: Vec<Input> = some.iter().map(|&m| noisy(hypothesis, m)).collect();
         let with = some.iter().zip(&noisy).map(|(&member, input)| Asked {
             member,
@@ -53,9 +54,6 @@ pub(crate) fn passed_on(
     }
     passed_on
 }
-
-/// How many members are simulated together, which bounds the memory.
-const TOGETHER: usize = 8;
 
 /// A member's torque with as much noise again as it has.
 fn noisy(hypothesis: &Hypothesis<'_>, member: usize) -> Input {

@@ -1,5 +1,6 @@
 //! What a tightening's own parameters can imitate of an effect, taken out before the effect is scored.
 
+use crate::ranking::thresholds::ROUNDING;
 use snug_least_squares::matrix::{SymmetricMatrix, inner_product as dot};
 
 /// Coordinates of each signal in an orthonormal basis of all of them: their inner products are all that it takes.
@@ -14,9 +15,6 @@ pub(crate) fn coordinates(signals: &[Vec<f64>]) -> Vec<Vec<f64>> {
     }
     products.root()
 }
-
-/// Squared share of a signal below which what is new in it is rounding.
-const ROUNDING: f64 = 1e-20;
 
 /// Orthonormal basis of what the own parameters can imitate.
 pub(crate) struct Nuisance {

@@ -1,5 +1,6 @@
 //! How clearly a sum over units differs from zero, when a few loud units may carry most of it.
 
+use crate::ranking::thresholds::CHANCE;
 use snug_least_squares::matrix::inner_product as dot;
 use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
 
@@ -13,9 +14,6 @@ pub(crate) fn spread_of_sum(values: &[f64]) -> f64 {
     let squares: f64 = values.iter().map(|x| (x - mean).powi(2)).sum();
     (squares * n / (n - 1.0)).sqrt()
 }
-
-/// Squared residuals, in units of the noise, below which a unit's difference is within chance.
-const CHANCE: f64 = 4.0;
 
 /// Standard deviations by which Σ x exceeds 0: the larger of the plain one and that of x bounded at `CHANCE` times
 /// `scale`, which one loud unit cannot hide. Vuong's statistic where x are differences between two models.

@@ -11,6 +11,7 @@ use crate::ranking::paired_gain::{chance, clearness, spread_of_sum};
 use crate::ranking::refit::refit;
 use crate::ranking::score_test::{Control, Scored, Scorer};
 use crate::ranking::sensitivity::Column;
+use crate::ranking::thresholds::{BEST, CONTROL_FLIPS, STRICTER};
 use crate::settings::DiagnoseSettings;
 use crate::watch::Watch;
 use rayon::prelude::*;
@@ -90,15 +91,6 @@ pub(crate) struct Ranking {
     /// Campaigns of nothing but noise, and in how many of them something was called supported.
     pub control: (usize, usize),
 }
-
-/// How many times stricter the chance of a gain is judged, so that the score remains what decides as a rule.
-const STRICTER: usize = 10;
-
-/// Candidates that are followed to the end: one of them is what is missing, if anything is.
-const BEST: usize = 3;
-
-/// Sign flips behind a p in the negative control.
-const CONTROL_FLIPS: usize = 199;
 
 /// Scores and refits every effect of `candidates` beside those of `current`.
 pub(crate) fn rank(

@@ -9,49 +9,14 @@ use crate::pooled::fitted::Fitted;
 use crate::pooled::long_record;
 use crate::pooled::model::{Hypothesis, Start, first_parameter, pick};
 use crate::ranking::sensitivity::Column;
+use crate::ranking::thresholds::{
+    CANDIDATE, FEW, FREELY, LED, LED_REACH, LEFT_BEHIND, LITTLE, MOST_ROUNDS, ROUGH_REFIT,
+};
 use crate::settings::DiagnoseSettings;
 use snug_identify::{FitTask, HALF_WIDTHS, SIDE_BY_SIDE};
 use snug_least_squares::{PooledFit, PooledSettings, SolveError};
 use snug_model::{BASE_PARAMETERS, Effect, Law, Scope};
 use snug_statistics::descriptive::median;
-
-/// When the refit of a candidate stops: its gain is then known to a fraction of what chance does. An effect that is not
-/// there leaves its timing undetermined, and a strict fit would follow that for long.
-const CANDIDATE: PooledSettings = PooledSettings {
-    max_iterations: 40,
-    cost_tolerance: 1e-6,
-};
-
-/// When a fit to a few tightenings stops.
-const ROUGH: PooledSettings = PooledSettings {
-    max_iterations: 20,
-    cost_tolerance: 1e-4,
-};
-
-/// Tightenings on which starts are tried.
-const FEW: usize = 8;
-
-/// Starts, the most promising, that are tried freely, whatever the measured motion says.
-const FREELY: usize = 2;
-
-/// When a fit along the measured motion stops: a place to go on from is all it has to be.
-const LED: PooledSettings = PooledSettings {
-    max_iterations: 12,
-    cost_tolerance: 1e-3,
-};
-
-/// Samples to either side over which residuals are averaged where starts are led along the measured motion.
-const LED_REACH: usize = 8;
-
-/// Root mean square of a tightening's residual, and what it kept of it, over the median of all from which it is left behind:
-/// it ended in a minimum of its own, where the others found theirs.
-const LEFT_BEHIND: f64 = 1.15;
-
-/// Share of the cost that is not worth fetching them for: a wrong model leaves behind whom it explains worst.
-const LITTLE: f64 = 1e-3;
-
-/// Times that those who were left behind are fetched: with them the shared sizes move, and others may see the way.
-const MOST_ROUNDS: usize = 3;
 
 /// Refits one effect from its most promising starts, first roughly on a few tightenings; the lowest cost wins.
 pub(crate) fn refit(
@@ -131,7 +96,7 @@ fn from_afar(
         &HALF_WIDTHS[..1]
     };
     for &reach in reaches {
-        start = Start::at(&hypothesis.fit_averaged(&start, &ROUGH, reach)?);
+        start = Start::at(&hypothesis.fit_averaged(&start, &ROUGH_REFIT, reach)?);
     }
     hypothesis.fit(&start, settings)
 }
@@ -152,7 +117,7 @@ fn rough(
         false => led_along_motion(&there, &of_few)?,
     };
     let ends = of_few.iter().take(FREELY).chain(&led).filter_map(|start| {
-        let end = there.fit_averaged(start, &ROUGH, HALF_WIDTHS[0]);
+        let end = there.fit_averaged(start, &ROUGH_REFIT, HALF_WIDTHS[0]);
         end.ok()
     });
     let lowest = ends.min_by(|a, b| a.cost().total_cmp(&b.cost()));

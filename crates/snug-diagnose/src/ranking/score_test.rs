@@ -5,11 +5,13 @@
 
 use crate::data::clusters::Units;
 use crate::data::simulation::Asked;
+use crate::data::thresholds::SIMULATED_TOGETHER;
 use crate::error::DiagnoseError;
 use crate::pooled::fitted::Fitted;
 use crate::pooled::model::{Hypothesis, Room};
 use crate::ranking::nuisance::{Nuisance, coordinates};
 use crate::ranking::sensitivity::{Column, directions};
+use crate::ranking::thresholds::{INSTANT_REACH, NOISE_REACH};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
@@ -27,17 +29,6 @@ pub(crate) struct Scorer<'a, 'h> {
     /// Campaigns of nothing but noise that are scored beside the measured one.
     control: Control,
 }
-
-/// Samples on either side over which the torque is averaged for the signatures.
-const NOISE_REACH: usize = 5;
-
-/// Samples on either side over which the signatures themselves are averaged. A model without a gap in the grip knows the
-/// instant at which the grip crosses it to a millisecond only, and there the acceleration jumps.
-const INSTANT_REACH: usize = 10;
-
-/// Tightenings that are simulated side by side. They come one group after the other, and threads share out each, which bounds
-/// the memory: a thread that waits in one group would begin another.
-const TOGETHER: usize = 8;
 
 /// How many campaigns of nothing but noise are drawn, and from which seed.
 #[derive(Debug, Clone, Copy, Default)]
@@ -102,7 +93,7 @@ impl<'a, 'h> Scorer<'a, 'h> {
             others.push((effect, Hypothesis::new(self.hypothesis.cases, &with)?));
         }
         let members: Vec<usize> = (0..self.hypothesis.cases.len()).collect();
-        let contributions: Vec<Contribution> = (members.chunks(TOGETHER))
+        let contributions: Vec<Contribution> = (members.chunks(SIMULATED_TOGETHER))
             .flat_map(|some| self.contributions(some, &columns, &others))
             .collect();
         for contribution in &contributions {

@@ -5,8 +5,9 @@ use crate::pooled::fit::fit_effects;
 use crate::pooled::fitted::Fitted;
 use crate::ranking::paired_gain::clearness;
 use crate::ranking::rank::gains;
-use crate::selection::path::{Attempt, Climb, EQUAL, leaves_more};
+use crate::selection::path::{Attempt, Climb, leaves_more};
 use crate::selection::search::Search;
+use crate::selection::thresholds::EQUAL;
 use snug_model::Effect;
 
 /// Tries to do without each added term once.

@@ -3,7 +3,8 @@
 use crate::error::DiagnoseError;
 use crate::selection::backward_elimination::{look_at_twins_again, try_removals};
 use crate::selection::path::{Climb, Stop, justified};
-use crate::selection::search::{MOST_EFFECTS, Search};
+use crate::selection::search::Search;
+use crate::selection::thresholds::MOST_EFFECTS;
 
 impl Search<'_> {
     /// Climbs from the study's own effects as far as the data justify, or until whoever watches ends it.

@@ -6,6 +6,7 @@ use crate::library::is_unlisted;
 use crate::pooled::fitted::Fitted;
 use crate::ranking::paired_gain::agreement;
 use crate::ranking::rank::{Candidate, Ranking};
+use crate::selection::thresholds::{AS_MUCH, EQUAL, GOOD_PART, PLAINLY_MORE, PROMISING_P};
 use crate::settings::DiagnoseSettings;
 use snug_model::Effect;
 
@@ -106,11 +107,6 @@ impl Climb {
     }
 }
 
-/// Family-wise p below which a large but unsupported candidate leaves the verdict open.
-const PROMISING_P: f64 = 0.3;
-/// Share of the misfit beyond the noise from which an unsupported candidate does so, too.
-const GOOD_PART: f64 = 0.2;
-
 /// Why the climb stopped.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Stop {
@@ -199,15 +195,6 @@ fn noise(fitted: &Fitted, count: usize) -> f64 {
         0.0
     }
 }
-
-/// Standard deviations within which two candidates explain equally much.
-pub(crate) const EQUAL: f64 = 2.0;
-
-/// Share of what a candidate explains that another must explain, too, to keep up with it.
-const AS_MUCH: f64 = 0.5;
-
-/// Growth of the squared residual of a long record that is no matter of chance.
-const PLAINLY_MORE: f64 = 1.3;
 
 /// Whether `one` plainly leaves more than `other` of a long record, by `lost` in each stretch: its few stretches hardly
 /// make a statistic of their sum, and what wins one of them by much and loses most is another effect.

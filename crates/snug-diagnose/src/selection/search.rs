@@ -8,7 +8,10 @@ use crate::pooled::fit::{fit_effects, fit_part};
 use crate::pooled::fitted::Fitted;
 use crate::ranking::applicability::candidates;
 use crate::ranking::rank::{Candidate, Ranking, gains, rank};
-use crate::selection::path::{Addition, Climb, EQUAL, justified, misfit, twins};
+use crate::selection::path::{Addition, Climb, justified, misfit, twins};
+use crate::selection::thresholds::{
+    ENOUGH_AHEAD, EQUAL, LITTLE_LEFT, MOST_EFFECTS, MUCH_LEFT, NOISE_AND_A_LITTLE, SEEDS,
+};
 use crate::settings::DiagnoseSettings;
 use crate::watch::Watch;
 use snug_model::Effect;
@@ -24,9 +27,6 @@ pub(crate) struct Search<'a> {
     pub settings: &'a DiagnoseSettings,
     pub watch: &'a Watch<'a>,
 }
-
-/// Effects a model can be extended by before the climb is called off.
-pub(crate) const MOST_EFFECTS: usize = 5;
 
 impl Search<'_> {
     /// The study's own model, nothing ranked beside it.
@@ -333,17 +333,6 @@ type Step = (Addition, Fitted);
 fn is_noise(left: &Fitted) -> bool {
     left.is_weighted && left.scale() < NOISE_AND_A_LITTLE
 }
-
-/// In units of the noise's variance.
-const NOISE_AND_A_LITTLE: f64 = 1.02;
-/// Share of the misfit left by one effect beyond which two are tried together.
-const MUCH_LEFT: f64 = 0.02;
-/// Share of the misfit left by two effects below which no other two are looked for.
-const LITTLE_LEFT: f64 = 0.05;
-/// Tightenings that are enough to find the second of two effects.
-const ENOUGH_AHEAD: usize = 80;
-/// Effects from which a second is looked for.
-const SEEDS: usize = 3;
 
 fn list(effects: &[Effect]) -> String {
     match effects {

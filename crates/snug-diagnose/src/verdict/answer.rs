@@ -5,14 +5,16 @@ use crate::data::clusters::Units;
 use crate::error::DiagnoseError;
 use crate::library::{declaration, is_unlisted};
 use crate::locate::{compare, drifts, locate};
-use crate::pooled::fitted::{AT_FLOOR, Fitted};
+use crate::pooled::fitted::Fitted;
 use crate::pooled::sizes::parameters;
+use crate::pooled::thresholds::AT_FLOOR;
 use crate::question::Question;
 use crate::ranking::rank::{Candidate, Ranking};
 use crate::selection::path::{Addition, Climb, misfit, misfits, twins};
 use crate::settings::DiagnoseSettings;
 use crate::verdict::experiment::separating_experiment;
 use crate::verdict::reasons::{Situation, explanation, headline, paste, reasons, removal, stopped};
+use crate::verdict::thresholds::{BESIDE_EFFECTS, REPEATS};
 use crate::verdict::tightening_fits::TighteningFits;
 use crate::verdict::trend::trends;
 use crate::verdict::{detectability, ladder, preparation};
@@ -371,13 +373,6 @@ impl Examination<'_> {
         })
     }
 }
-
-/// Error over noise below which what repeats beside effects that were added is their own: the instants at which the grip
-/// sets in are never quite right.
-const BESIDE_EFFECTS: f64 = 1.05;
-
-/// Share of the misfit that must repeat before it is called an effect.
-const REPEATS: f64 = 0.2;
 
 fn rung_model(cases: &[FitTask<'_>], fitted: &Fitted) -> RungModel {
     RungModel {

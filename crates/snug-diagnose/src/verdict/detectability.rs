@@ -5,13 +5,10 @@ use crate::pooled::fitted::Fitted;
 use crate::ranking::rank::Ranking;
 use crate::ranking::sensitivity::Column;
 use crate::settings::DiagnoseSettings;
+use crate::verdict::thresholds::{FAMILY_Z, POWER_Z};
 use snug_campaign::Detectability;
 use snug_campaign::words::statement;
 use snug_model::Law;
-
-/// z that the largest of the family exceeds by chance in about 5 % of campaigns, and the quantile of 95 % power.
-const FAMILY_Z: f64 = 3.0;
-const POWER_Z: f64 = 1.645;
 
 /// One card for each catalogue effect that is not supported.
 ///

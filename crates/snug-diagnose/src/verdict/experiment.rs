@@ -7,6 +7,7 @@ use crate::pooled::fitted::Fitted;
 use crate::pooled::model::Hypothesis;
 use crate::pooled::sizes::held;
 use crate::verdict::reasons::named;
+use crate::verdict::thresholds::{MOST_TIGHTENINGS, PATTERNS, TELLING};
 use snug_campaign::Experiment;
 use snug_campaign::words::statement;
 use snug_identify::FitTask;
@@ -53,14 +54,6 @@ const CHANGES: &[Change] = &[
         duration: 2.0,
     },
 ];
-
-/// Tightenings at hand from which the new ones are made.
-const PATTERNS: usize = 6;
-/// Squared distance over noise that tells two models apart with 95 % power at 95 % confidence: (2 · (1.645 + 1.96))².
-const TELLING: f64 = 52.0;
-
-/// More tightenings than anybody makes to tell two effects apart.
-const MOST_TIGHTENINGS: usize = 10_000;
 
 /// The change of conditions under which `second`, refitted, stays furthest from `first`.
 pub(crate) fn separating_experiment(

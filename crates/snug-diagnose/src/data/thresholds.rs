@@ -1,0 +1,12 @@
+//! Thresholds of how tightenings are cut and simulated side by side.
+//! Each stands once, with its unit and how it was found: "chosen" is chosen, not measured.
+
+/// Fewer tightenings than this are cut into stretches. Chosen.
+pub(crate) const FEWEST_WHOLE: usize = 8;
+/// Stretches wanted where tightenings are cut. Chosen.
+pub(crate) const STRETCHES_WANTED: usize = 24;
+/// Shortest stretch \[samples\]. Chosen.
+pub(crate) const SHORTEST_STRETCH: usize = 40;
+/// Tightenings that are simulated together, as many as the widest vector registers hold. One group comes after the other, and
+/// threads share out each, which bounds the memory: a thread that waits in one group would begin another.
+pub(crate) const SIMULATED_TOGETHER: usize = 8;

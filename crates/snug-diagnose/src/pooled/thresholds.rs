@@ -1,0 +1,21 @@
+//! Thresholds of fits to all tightenings together.
+//! Each stands once, with its unit and how it was found: "chosen" is chosen, not measured.
+
+use snug_least_squares::PooledSettings;
+
+/// Share of a parameter's size beside other effects that is hardly anything \[–\]. Chosen.
+pub(crate) const HARDLY: f64 = 0.1;
+/// Error over noise (root mean square) below which nothing but noise is left to look for \[–\]. Chosen.
+pub(crate) const AT_FLOOR: f64 = 1.02;
+/// Samples of all records together up to which they are soon simulated. Chosen.
+pub(crate) const SOON: usize = 30_000;
+/// Share of a record's squared output that its beginning holds, where records take long to simulate \[–\]. Chosen; with it
+/// Silverbox takes three fifths of the time.
+pub(crate) const BEGINNING: f64 = 0.125;
+/// Fewest scored samples of a beginning. Chosen.
+pub(crate) const SHORTEST_BEGINNING: usize = 1000;
+/// When the trial of one start on a long record stops. Chosen.
+pub(crate) const TRIAL_OF_A_START: PooledSettings = PooledSettings {
+    max_iterations: 15,
+    cost_tolerance: 1e-3,
+};

@@ -1,0 +1,50 @@
+//! Thresholds of the ranking: scores, refits of candidates, and what is chance.
+//! Each stands once, with its unit and how it was found: "chosen" is chosen, not measured.
+
+use snug_least_squares::PooledSettings;
+
+/// Squared share of a signal below which what is new in it is rounding \[–\]: 10⁻¹⁰ of its length. Chosen.
+pub(crate) const ROUNDING: f64 = 1e-20;
+/// Squared residuals, in units of the noise's variance, below which a unit's difference is within chance. Chosen.
+pub(crate) const CHANCE: f64 = 4.0;
+/// How many times stricter the chance of a gain is judged, so that the score remains what decides as a rule. Chosen.
+pub(crate) const STRICTER: usize = 10;
+/// Candidates that are followed to the end: one of them is what is missing, if anything is. Chosen.
+pub(crate) const BEST: usize = 3;
+/// Sign flips behind a p in the negative control: a p of 0.05 is then the tenth of 200. Chosen.
+pub(crate) const CONTROL_FLIPS: usize = 199;
+/// Samples on either side over which the torque is averaged for the signatures. Chosen.
+pub(crate) const NOISE_REACH: usize = 5;
+/// Samples on either side over which the signatures themselves are averaged. A model without a gap in the grip knows the
+/// instant at which the grip crosses it to a millisecond only, and there the acceleration jumps. Chosen; with it, and
+/// refits that come nearer step by step, a gap of 14 µm is named and 1.016 times the noise is left in place of 1.121.
+pub(crate) const INSTANT_REACH: usize = 10;
+/// When the refit of a candidate stops: its gain is then known to a fraction of what chance does. An effect that is not
+/// there leaves its timing undetermined, and a strict fit would follow that for long. Chosen.
+pub(crate) const CANDIDATE: PooledSettings = PooledSettings {
+    max_iterations: 40,
+    cost_tolerance: 1e-6,
+};
+/// When a fit to a few tightenings stops. Chosen.
+pub(crate) const ROUGH_REFIT: PooledSettings = PooledSettings {
+    max_iterations: 20,
+    cost_tolerance: 1e-4,
+};
+/// Tightenings on which starts are tried. Chosen.
+pub(crate) const FEW: usize = 8;
+/// Starts, the most promising, that are tried freely, whatever the measured motion says. Chosen.
+pub(crate) const FREELY: usize = 2;
+/// When a fit along the measured motion stops: a place to go on from is all it has to be. Chosen.
+pub(crate) const LED: PooledSettings = PooledSettings {
+    max_iterations: 12,
+    cost_tolerance: 1e-3,
+};
+/// Samples to either side over which residuals are averaged where starts are led along the measured motion. Chosen.
+pub(crate) const LED_REACH: usize = 8;
+/// Root mean square of a tightening's residual, and what it kept of it, over the median of all \[–\] from which it is left behind:
+/// it ended in a minimum of its own, where the others found theirs. Chosen.
+pub(crate) const LEFT_BEHIND: f64 = 1.15;
+/// Share of the cost that is not worth fetching them for \[–\]: a wrong model leaves behind whom it explains worst. Chosen.
+pub(crate) const LITTLE: f64 = 1e-3;
+/// Times that those who were left behind are fetched: with them the shared sizes move, and others may see the way. Chosen.
+pub(crate) const MOST_ROUNDS: usize = 3;

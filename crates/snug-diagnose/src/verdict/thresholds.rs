@@ -1,0 +1,19 @@
+//! Thresholds of what is said.
+//! Each stands once, with its unit and how it was found: "chosen" is chosen, not measured.
+
+/// Error over noise below which what repeats beside effects that were added is their own \[–\]: the instants at which the grip
+/// sets in are never quite right. Chosen.
+pub(crate) const BESIDE_EFFECTS: f64 = 1.05;
+/// Share of the misfit that must repeat before it is called an effect \[–\]. Chosen.
+pub(crate) const REPEATS: f64 = 0.2;
+/// z that the largest of the family exceeds by chance in about 5 % of campaigns. Of 40 candidates: 40 · P(z > 3) = 0.054.
+pub(crate) const FAMILY_Z: f64 = 3.0;
+/// Normal quantile of 95 % power.
+pub(crate) const POWER_Z: f64 = 1.645;
+/// Tightenings at hand from which the new ones are made. Chosen.
+pub(crate) const PATTERNS: usize = 6;
+/// Squared distance over noise that tells two models apart with 95 % power at 95 % confidence: (2 · (1.645 + 1.96))².
+pub(crate) const TELLING: f64 = 52.0;
+
+/// More tightenings than anybody makes to tell two effects apart; chosen, not measured.
+pub(crate) const MOST_TIGHTENINGS: usize = 10_000;
