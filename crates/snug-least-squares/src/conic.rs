@@ -6,3 +6,4 @@ pub(crate) mod inequalities;
 pub(crate) mod interior_point;
 pub(crate) mod program;
 pub(crate) mod solution;
+pub(crate) mod thresholds;

@@ -7,3 +7,4 @@
 pub(crate) mod member;
 pub(crate) mod problem;
 pub(crate) mod solve;
+pub(crate) mod thresholds;

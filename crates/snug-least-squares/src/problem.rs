@@ -4,3 +4,4 @@ pub(crate) mod difference_residual;
 pub(crate) mod least_squares;
 pub(crate) mod linearization;
 pub(crate) mod residual;
+pub(crate) mod thresholds;

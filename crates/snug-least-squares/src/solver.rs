@@ -7,3 +7,4 @@ pub(crate) mod multistart;
 pub(crate) mod settings;
 pub(crate) mod solve;
 pub(crate) mod step;
+pub(crate) mod thresholds;

@@ -3,3 +3,4 @@
 pub(crate) mod covariance;
 pub(crate) mod identifiability;
 pub(crate) mod leverage;
+pub(crate) mod thresholds;

@@ -1,6 +1,7 @@
 //! Newton's method on the optimality conditions of a conic program with a given active set.
 
 use crate::conic::program::{Candidate, ConicProgram};
+use crate::conic::thresholds::{NEWTON_LIMIT, TOLERANCE};
 use crate::matrix::{add_scaled, dot, norm};
 use faer::Mat;
 use faer::linalg::solvers::Solve;
@@ -14,11 +15,6 @@ pub enum Defect {
     /// This inequality is violated.
     Violated(usize),
 }
-
-/// Newton steps before a set is given up.
-const NEWTON_LIMIT: usize = 25;
-/// Feasibility and stationarity, relative to the size of the step and of the gradient (both about 1).
-const TOLERANCE: f64 = 1e-11;
 
 impl ConicProgram {
     /// Solves ∇f + Σ μ ∇g = 0, g = 0 from `candidate`; returns the Newton steps taken, or `None` when they do not

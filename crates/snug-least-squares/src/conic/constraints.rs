@@ -1,5 +1,6 @@
 //! The convex set that parameters stay in: bounds, linear inequalities and rotated second-order cones, each with a name.
 
+use crate::conic::thresholds::NO_VIOLATION;
 use crate::error::SolveError;
 use crate::matrix::dot;
 
@@ -87,9 +88,6 @@ pub struct Constraints {
     pub(crate) linear: Vec<LinearInequality>,
     pub(crate) cones: Vec<RotatedCone>,
 }
-
-/// Relative rounding that is no violation of an inequality.
-const ROUNDING: f64 = 1e-12;
 
 impl Constraints {
     /// A rotated cone is kept strict by this relative margin: (w (1 + margin))² ≤ 4 u v.
@@ -243,7 +241,7 @@ impl LinearInequality {
         let terms = self.coefficients.iter().zip(parameters);
         let magnitude: f64 = terms.map(|(a, p)| (a * p).abs()).sum();
         dot(&self.coefficients, parameters) - self.limit
-            <= ROUNDING * (magnitude + self.limit.abs())
+            <= NO_VIOLATION * (magnitude + self.limit.abs())
     }
 }
 
@@ -251,7 +249,7 @@ impl RotatedCone {
     fn holds(&self, parameters: &[f64]) -> bool {
         let [u, v, w] = [&self.u, &self.v, &self.w].map(|affine| affine.at(parameters));
         let [u_size, v_size, w_size] =
-            [&self.u, &self.v, &self.w].map(|affine| ROUNDING * affine.magnitude(parameters));
+            [&self.u, &self.v, &self.w].map(|affine| NO_VIOLATION * affine.magnitude(parameters));
         u >= -u_size
             && v >= -v_size
             && w.abs() <= 2.0 * ((u + u_size).max(0.0) * (v + v_size).max(0.0)).sqrt() + w_size

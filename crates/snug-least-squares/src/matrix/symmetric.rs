@@ -1,6 +1,7 @@
 //! Small symmetric matrices.
 
 use super::triangular::inner_product as dot;
+use crate::matrix::thresholds::ROUNDING;
 
 /// A small symmetric matrix, n × n.
 #[derive(Debug, Clone, PartialEq)]
@@ -8,9 +9,6 @@ pub struct SymmetricMatrix {
     size: usize,
     entries: Vec<f64>,
 }
-
-/// Pivots below this share of their diagonal are rounding.
-const ROUNDING: f64 = 1e-10;
 
 impl SymmetricMatrix {
     /// From n² entries, row after row.

@@ -1,5 +1,6 @@
 //! Dense kernels on column-major arrays.
 
+use crate::matrix::thresholds::LONG;
 use pulp::Arch;
 
 /// Σ aᵢ bᵢ with four partial sums, always in the same order.
@@ -77,9 +78,6 @@ pub fn triangularize(matrix: &mut [f64], right: &mut [f64], rows: usize, columns
         || reflect(matrix, right, rows, columns, long_dot),
     );
 }
-
-/// Rows from which wide registers pay.
-const LONG: usize = 256;
 
 #[inline(always)]
 fn reflect(

@@ -4,31 +4,14 @@ use super::member::{Member, reduce};
 use super::problem::{PooledFit, PooledResidual, PooledSettings, Trial};
 use crate::conic::constraints::Constraints;
 use crate::error::SolveError;
+use crate::pooled_fit::thresholds::{
+    INITIAL_DAMPING, LEAST_DAMPING, MOST_IDLE_STEPS, MOST_PASSES, POOLED_FIRST_DAMPING,
+    POOLED_MOST_DAMPING, TOGETHER,
+};
 use crate::solver::damping::Damping;
 use crate::solver::fit::Work;
 use crate::solver::step::{Stepper, project};
-
-/// How many members are handed over together: so many can stand side by side in the widest vector registers.
-const TOGETHER: usize = 8;
-
-/// Predicted decreases below this share of the cost cannot be told from rounding.
-const RESOLUTION: f64 = 1e-13;
-/// Damping beyond which a fit is stuck.
-const MOST_DAMPING: f64 = 1e12;
-/// Damping of the first step.
-const INITIAL_DAMPING: f64 = 1e-3;
-/// Damping that cannot be told from none.
-const LEAST_DAMPING: f64 = 1e-15;
-/// Where damping that was as good as none begins to grow again.
-const FIRST_DAMPING: f64 = 1e-8;
-/// Share of the predicted decrease that a step must keep to be accepted.
-const SUFFICIENT: f64 = 1e-4;
-/// Steps in a row that hardly lower the cost after which a fit has arrived. Where the residual bends sharply, as at the
-/// edge of a gap, every step predicts more than it keeps, and a fit would creep on for hundreds of simulations.
-const MOST_IDLE_STEPS: usize = 3;
-
-/// Steps of α after which members' active sets are taken as they are: they shape that step, which in turn may change them.
-const MOST_PASSES: usize = 4;
+use crate::solver::thresholds::{RESOLUTION, SUFFICIENT};
 
 /// Fits all members together from one start.
 ///
@@ -115,7 +98,7 @@ impl<'a> PooledSolver<'a> {
             cost: 0.0,
             cost_there: 0.0,
             gain: 1.0,
-            damping: Damping::new(INITIAL_DAMPING, LEAST_DAMPING, FIRST_DAMPING),
+            damping: Damping::new(INITIAL_DAMPING, LEAST_DAMPING, POOLED_FIRST_DAMPING),
             work,
         };
         let shared = &solver.shared;
@@ -218,7 +201,7 @@ impl<'a> PooledSolver<'a> {
     /// After a rejected step; false when no damping is left that would change anything.
     fn damp_more(&mut self) -> bool {
         self.damping.raise();
-        self.damping.value < MOST_DAMPING
+        self.damping.value < POOLED_MOST_DAMPING
     }
 
     fn finish(self, converged: bool) -> PooledFit {

@@ -2,6 +2,7 @@
 
 use crate::error::EvaluationError;
 use crate::matrix::{dot, solve_upper, triangularize, upper_times, upper_transposed_times};
+use crate::problem::thresholds::{FACTORED_RANK_TOLERANCE, NORMAL_RANK_TOLERANCE};
 
 /// The local model of a least-squares problem: ½‖r + J d‖² = ½‖q + R d‖² + constant.
 ///
@@ -16,11 +17,6 @@ pub struct Linearization {
     /// Singular values of the column-scaled R below this share of the largest are rounding.
     pub(crate) rank_tolerance: f64,
 }
-
-/// Relative rank tolerance when R comes from a factorisation of J itself.
-const FACTORED_RANK_TOLERANCE: f64 = 1e-11;
-/// The same when R comes from JᵀJ, whose rounding is the square root of that.
-const NORMAL_RANK_TOLERANCE: f64 = 1e-7;
 
 impl Linearization {
     /// Room for `parameter_count` parameters.

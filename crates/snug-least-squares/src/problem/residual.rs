@@ -4,6 +4,7 @@ use crate::error::EvaluationError;
 use crate::matrix::{add_scaled, dot};
 use crate::problem::least_squares::LeastSquares;
 use crate::problem::linearization::Linearization;
+use crate::problem::thresholds::PROBE_SHARE;
 
 /// A residual r(p) = measured − simulated, weighted so that equal sizes mean equally unlikely.
 pub trait Residual {
@@ -64,9 +65,6 @@ struct Evaluation {
     residual: Vec<f64>,
     jacobian: Vec<f64>,
 }
-
-/// Part of a step over which its second_derivative is measured.
-const PROBE_SHARE: f64 = 0.1;
 
 /// Where a step's second_derivative is measured.
 pub fn further_along(parameters: &[f64], direction: &[f64]) -> Vec<f64> {

@@ -1,5 +1,7 @@
 //! The damping λ of a step, and how it follows what steps came to.
 
+use crate::solver::thresholds::{GOOD_GAIN, GOOD_RELIEF, LEAST_RELIEF};
+
 /// λ relative to the squared length of each parameter's sensitivity.
 pub struct Damping {
     /// λ.
@@ -9,13 +11,6 @@ pub struct Damping {
     least: f64,
     first: f64,
 }
-
-/// Gain beyond which the model is good enough to relax much.
-const GOOD_GAIN: f64 = 0.9;
-/// Factor then.
-const GOOD_RELIEF: f64 = 0.05;
-/// The smallest factor otherwise.
-const LEAST_RELIEF: f64 = 0.2;
 
 impl Damping {
     /// Never below `least`; a rise begins at `first` at least.

@@ -12,23 +12,12 @@ use crate::problem::linearization::Linearization;
 use crate::solver::damping::Damping;
 use crate::solver::fit::{ActiveConstraint, Fit, Status, Work};
 use crate::solver::settings::Settings;
-use crate::solver::step::{NO_DAMPING, Stepper, project};
+use crate::solver::step::{Stepper, project};
+use crate::solver::thresholds::{
+    FIRST_DAMPING, LONG_FIT, MOST_DAMPING, NO_DAMPING, RESOLUTION, SHORT_MEMORY, SUFFICIENT,
+};
 use crate::uncertainty::identifiability::analyse;
 use stall::{StallCriteria, TO_CHANCE, TO_ROUNDING};
-
-/// A decrease below this share of the cost drowns in the cost's rounding.
-const RESOLUTION: f64 = 1e-13;
-/// Damping at which no parameter moves any more.
-const MOST_DAMPING: f64 = 1e30;
-/// Where damping that was as good as none begins to grow again.
-const FIRST_DAMPING: f64 = 1e-12;
-/// Share of the predicted decrease that a trial must keep to be accepted.
-const SUFFICIENT: f64 = 1e-4;
-/// Steps after which the scale of the parameters no longer remembers the start: the way to the optimum may lead through a
-/// valley where they matter a thousand times less than there.
-const LONG_FIT: usize = 400;
-/// Share of its scale that a parameter keeps per step then.
-const SHORT_MEMORY: f64 = 0.5;
 
 /// What a fit asks next.
 pub enum Query<'s> {

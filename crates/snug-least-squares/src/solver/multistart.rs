@@ -6,6 +6,7 @@ use crate::problem::least_squares::LeastSquares;
 use crate::solver::fit::{Fit, Status, Work};
 use crate::solver::settings::Settings;
 use crate::solver::solve::solve;
+use crate::solver::thresholds::CLEARLY_LOWER;
 use std::cmp::Ordering;
 
 /// Fits from every start and keeps the best: the lowest cost among those that ended at an optimum, unless one that did not
@@ -42,10 +43,6 @@ pub fn best(ends: Vec<Fit>, work: Work) -> Result<Fit, SolveError> {
     best.map(|fit| Fit { work, ..fit })
         .ok_or(SolveError::NoStart)
 }
-
-/// Share of the cost by which an end that is no optimum must lie lower to be more useful than one that is: a hundredth is
-/// far more than chance, and such an optimum is in the wrong valley.
-const CLEARLY_LOWER: f64 = 0.01;
 
 /// Whether `fit` is more useful than `other`; costs that agree to 1e-9 count as equal.
 fn is_better(fit: &Fit, other: &Fit) -> bool {

@@ -8,15 +8,7 @@ use crate::matrix::{
 };
 use crate::problem::linearization::Linearization;
 use crate::solver::fit::Work;
-
-/// Damping below this cannot be told from none.
-pub const NO_DAMPING: f64 = 1e-22;
-
-/// Share of a vector's length below which what is orthogonal to others is rounding.
-const DEPENDENT: f64 = 1e-9;
-
-/// Largest acceleration a step may have, relative to its length (Transtrum & Sethna: 2‖a‖ ≤ 0.75 ‖d‖).
-const LARGEST_ACCELERATION: f64 = 0.375;
+use crate::solver::thresholds::{DEPENDENT, LARGEST_ACCELERATION};
 
 /// Where a step leads and what the local model predicts.
 pub struct Step {

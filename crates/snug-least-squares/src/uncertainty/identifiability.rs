@@ -1,6 +1,7 @@
 //! Rank, condition and correlations of what a residual tells about its parameters.
 
 use crate::matrix::{dot, norm};
+use crate::uncertainty::thresholds::{BLOCKED, UNDETERMINED};
 use faer::{Mat, MatRef};
 
 /// How well the residual determines the parameters together.
@@ -28,11 +29,6 @@ pub struct Analysis {
     pub covariance_root: Vec<f64>,
     pub determined: Vec<bool>,
 }
-
-/// A parameter that moves by less than this share along every free direction is blocked.
-const BLOCKED: f64 = 1e-8;
-/// A parameter with at least this share in an undetermined direction is not determined.
-const UNDETERMINED: f64 = 1e-6;
 
 /// Analyses R (n × n, column-major, upper) on the tangent space of constraints with the given `normals` (∇g, n each).
 pub fn analyse(factor: &[f64], normals: &[Vec<f64>], rank_tolerance: f64) -> Analysis {

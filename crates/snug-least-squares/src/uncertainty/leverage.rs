@@ -6,9 +6,7 @@
 //! what such samples seem to tell is left out of the uncertainty.
 
 use crate::matrix::{dot, solve_upper_transposed, triangularize};
-
-/// Share of an estimate's information that one sample of thousands may hold in a motion without jumps.
-const MOST: f64 = 0.01;
+use crate::uncertainty::thresholds::MOST_LEVERAGE;
 
 /// M for which (JᵀJ)⁻¹ M (JᵀJ)⁻¹ = (J'ᵀJ')⁻¹, J' being J without the rows that determine the estimate by themselves; row-major.
 /// `None` where there are none, or nothing is left without them.
@@ -25,7 +23,7 @@ pub fn without_high_leverage(jacobian: &[f64], columns: usize, matrix: &[f64]) -
         .filter(|&index| {
             let mut share = row(index);
             solve_upper_transposed(&all, columns, &mut share);
-            dot(&share, &share) <= MOST
+            dot(&share, &share) <= MOST_LEVERAGE
         })
         .collect();
     if kept.len() == rows || kept.len() <= columns {

@@ -1,20 +1,11 @@
 //! When there is nothing left to gain: the optimality test, and what takes its place where rounding or a rugged cost hides it.
 
-use super::{LevenbergMarquardt, NO_DAMPING};
+use super::LevenbergMarquardt;
 use crate::matrix::norm;
 use crate::solver::fit::Status;
-
-/// Below this much damping a step is as good as undamped for the optimality tests.
-const LITTLE_DAMPING: f64 = 1e-9;
-/// Part of the damping that a step goes on with when less of it would have shown more to gain.
-const LESS_DAMPING: f64 = 1e-3;
-/// Steps taken on trust, because the cost cannot resolve them, before the fit rests.
-const TRUSTED_STEPS: usize = 20;
-/// A fit crawls when a step leaves more than this share of what the one before had left; near a smooth optimum steps leave
-/// far less.
-const CRAWL: f64 = 0.1;
-/// Relative change of the parameters accepted when rounding forbids a smaller one.
-const ROUGH_TOLERANCE: f64 = 1e-5;
+use crate::solver::thresholds::{
+    CRAWL, LESS_DAMPING, LITTLE_DAMPING, NO_DAMPING, ROUGH_TOLERANCE, TRUSTED_STEPS,
+};
 
 impl LevenbergMarquardt<'_> {
     /// Whether the step just found shows that there is nothing left to gain.
