@@ -1,5 +1,6 @@
 //! What must hold of m, c and k, as a study names it and as the solver takes it.
 
+use crate::thresholds::STRICT;
 use serde::{Deserialize, Serialize};
 use snug_least_squares::{Affine, Constraints};
 use snug_model::Model;
@@ -15,9 +16,6 @@ pub enum ConstraintKind {
     /// The motion decays: I_n + m l² > 0, c > 0, k > 0, with m of either sign.
     Stable,
 }
-
-/// What keeps a strict inequality strict in floating point, in the parameter's own unit.
-const STRICT: f64 = 1e-9;
 
 /// The convex set of a model's free parameters: their bounds and the constraints asked for.
 pub fn convex_set(model: &Model, kinds: &[ConstraintKind]) -> Constraints {

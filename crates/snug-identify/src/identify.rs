@@ -14,6 +14,7 @@ use crate::residual::tightening::TighteningResidual;
 use crate::residual::whitening::Whitening;
 use crate::settings::IdentifySettings;
 use crate::task::FitTask;
+use crate::thresholds::CONFIDENCE;
 use snug_campaign::{
     Estimate, FitStatus, Identifiability, Interval, Parameter, ParameterEstimate, Quantity,
     Tightening,
@@ -239,9 +240,6 @@ fn nearer(usual: &[Vec<f64>], near: &[f64], is_rugged: bool) -> Vec<Vec<f64>> {
         .chain(kept.iter().cloned())
         .collect()
 }
-
-/// Of every interval.
-const CONFIDENCE: f64 = 0.95;
 
 /// The fit in the words everyone shares; intervals end where a parameter's own bounds do.
 fn estimate(model: &Model, set: &Constraints, fit: &Fit, covariance: &Covariance) -> Estimate {

@@ -12,6 +12,7 @@ mod noise;
 mod residual;
 mod settings;
 mod task;
+mod thresholds;
 
 pub use batches::{SIDE_BY_SIDE, in_batches};
 pub use constraint_kind::{ConstraintKind, convex_set};

@@ -6,3 +6,4 @@ pub(crate) mod integral_start;
 pub(crate) mod multiple_shooting;
 pub(crate) mod search;
 pub(crate) mod smoothing;
+pub(crate) mod thresholds;

@@ -3,3 +3,4 @@
 pub(crate) mod fixed;
 pub(crate) mod integrated;
 pub(crate) mod score_covariance;
+pub(crate) mod thresholds;

@@ -2,5 +2,6 @@
 
 pub mod agreement;
 pub(crate) mod restarts;
+pub(crate) mod thresholds;
 pub(crate) mod tightening;
 pub(crate) mod whitening;

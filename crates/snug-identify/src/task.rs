@@ -3,6 +3,7 @@
 use crate::residual::restarts::motions_at;
 use crate::residual::whitening::Whitening;
 use crate::settings::IdentifySettings;
+use crate::thresholds::RESTARTED_EVERY_S;
 use snug_campaign::{Quantity, Tightening};
 use snug_model::{Effect, Input, Model, ModelError};
 use std::borrow::Cow;
@@ -19,9 +20,6 @@ pub struct FitTask<'a> {
     /// How.
     pub settings: Cow<'a, IdentifySettings>,
 }
-
-/// From one restart along the measured motion to the next \[s\]: enough for a law to show in the velocity.
-const RESTARTED_EVERY_S: f64 = 3e-3;
 
 impl<'a> FitTask<'a> {
     /// Of parts that belong to others.

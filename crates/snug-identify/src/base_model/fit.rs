@@ -4,6 +4,7 @@
 //! vector registers ask. A search that has ended gives its lane to the next tightening at once, so a hard fit does not hold
 //! the others up. No lane knows its neighbours: a fit has the same bits alone and in any company.
 
+use crate::base_model::thresholds::CLEAR;
 use crate::residual::tightening::TighteningResidual;
 use snug_campaign::Quantity;
 use snug_least_squares::matrix::{entries_at, submatrix_at};
@@ -24,10 +25,6 @@ pub(crate) struct BaseFit<'r, 'a> {
     /// m, c, k and the sums where the search stood last.
     pub latest: &'r mut Option<([f64; 3], NormalEquations)>,
 }
-
-/// Column-scaled condition of J up to which JᵀJ gives the covariance to eight digits. A fit beyond it, or one that does
-/// not converge, is done again with J factored by reflections.
-const CLEAR: f64 = 1e4;
 
 /// Fits them all; one by itself needs no vector registers.
 pub(crate) fn fit_all(fits: &mut [BaseFit<'_, '_>], quantity: Quantity, settings: &Settings) {

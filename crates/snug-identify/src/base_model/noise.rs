@@ -1,7 +1,8 @@
 //! The noise in base-model fits, asked about for as many tightenings side by side as vector registers hold.
 
 use crate::noise::integrated::{IntegratedNoise, drift, to_source};
-use crate::noise::score_covariance::{OwnedNoise, STRETCHES, ScoreCovariance, ScoreSums, Source};
+use crate::noise::score_covariance::{OwnedNoise, ScoreCovariance, ScoreSums, Source};
+use crate::noise::thresholds::STRETCHES;
 use crate::residual::tightening::TighteningResidual;
 use crate::task::FitTask;
 use snug_campaign::Quantity;

@@ -4,7 +4,11 @@
 //! the work. Only the ends of the best decimated fits are worth a fit of every sample.
 
 use crate::batch::BatchSimulator;
-use crate::multistart::early_stopping::{EarlyStopping, fit_starts};
+use crate::multistart::early_stopping::fit_starts;
+use crate::multistart::thresholds::{
+    APART, COST_RATIO_LIMIT, ENOUGH_SAMPLES, LONGEST_INTERVAL_S, MOST_DECIMATED_ENDS, MOST_STEPS,
+    SAME_MINIMUM, SMOOTHED_TOLERANCE, STOP_SMOOTHED,
+};
 use crate::residual::restarts::motions_at;
 use crate::residual::tightening::TighteningResidual;
 use crate::settings::IdentifySettings;
@@ -12,25 +16,6 @@ use crate::task::FitTask;
 use snug_campaign::{Intersample, Quantity};
 use snug_least_squares::{Constraints, Fit, Settings, SolveError, Work};
 use snug_model::{Input, Model};
-
-/// Samples that a decimated record should have: its noise is then still small beside a whole tightening's motion.
-const ENOUGH_SAMPLES: usize = 375;
-/// Longest interval between decimated samples \[s\]: a shut-off, the fastest event of a tightening, takes several of them.
-const LONGEST_INTERVAL_S: f64 = 1e-3;
-/// A decimated fit has gone far enough when this share of the residual could still be removed.
-const ROUGH_TOLERANCE: f64 = 1e-2;
-/// Most steps of any fit that need not go far: what takes longer crawls.
-const MOST_STEPS: usize = 20;
-/// Ends are worth a fit of every sample up to this multiple of the lowest decimated cost, and at most so many.
-pub(crate) const COST_RATIO_LIMIT: f64 = 1.2;
-const MOST_ENDS: usize = 2;
-/// When a start on the decimated record is stopped.
-const RULES: EarlyStopping = EarlyStopping {
-    warm_up_steps: 12,
-    cost_ratio_limit: COST_RATIO_LIMIT,
-};
-/// Decimated costs that agree to this share are those of one minimum.
-const SAME_VALLEY: f64 = 1e-3;
 
 /// Where fits of every sample should begin.
 pub(crate) struct Tried {
@@ -118,15 +103,13 @@ impl DecimatedRecord {
         simulator: &BatchSimulator<'a>,
     ) -> Result<Option<Tried>, SolveError> {
         let residual = self.residual(&task.model, &self.input, settings);
-        let solver = coarse_solver(settings, ROUGH_TOLERANCE);
-        let (ends, work) = fit_starts(&residual, starts, set, &solver, RULES, simulator).await?;
-        let starts = apart(ends, MOST_ENDS);
+        let solver = coarse_solver(settings, SMOOTHED_TOLERANCE);
+        let (ends, work) =
+            fit_starts(&residual, starts, set, &solver, STOP_SMOOTHED, simulator).await?;
+        let starts = apart(ends, MOST_DECIMATED_ENDS);
         Ok((!starts.is_empty()).then_some(Tried { starts, work }))
     }
 }
-
-/// Decimated samples from one restart to the next, some 3 ms: enough for a law to show in the velocity.
-const APART: usize = 4;
 
 /// A decimated record's torque with restarts from the measured motion.
 fn along_motion(input: Input, angle_rad: &[f64], velocity_rad_per_s: &[f64]) -> Input {
@@ -145,7 +128,7 @@ pub(crate) fn coarse_solver(settings: &IdentifySettings, tolerance: f64) -> Sett
 /// Of `ends`, lowest first, one of every minimum whose cost is worth it, at most so many.
 pub(crate) fn apart(mut ends: Vec<Fit>, most: usize) -> Vec<Vec<f64>> {
     ends.retain(|end| end.cost.is_finite());
-    ends.dedup_by(|next, kept| (next.cost / kept.cost - 1.0).abs() < SAME_VALLEY);
+    ends.dedup_by(|next, kept| (next.cost / kept.cost - 1.0).abs() < SAME_MINIMUM);
     let lowest = ends.first().map_or(f64::NAN, |end| end.cost);
     let worthy = ends
         .into_iter()

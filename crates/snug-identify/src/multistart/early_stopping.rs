@@ -4,6 +4,7 @@
 //! bottom another has found already: it need not be followed to the end.
 
 use crate::batch::{BatchSimulator, SimulationRequest};
+use crate::multistart::thresholds::{ALIKE, OVERACHIEVEMENT, RESOLUTION};
 use crate::residual::tightening::TighteningResidual;
 use snug_least_squares::{
     Constraints, DenseResidual, Fit, LevenbergMarquardt, Query, Residual, Settings, SolveError,
@@ -79,20 +80,11 @@ pub(crate) async fn fit_starts<'a>(
     Ok((ends, work))
 }
 
-/// Share of the way up from an end by which a cost may differ from what the end foretells, ...
-const ALIKE: f64 = 0.1;
-/// ... and share of the cost itself that says nothing.
-const RESOLUTION: f64 = 1e-6;
-
 /// One search and the problem that answers it.
 struct StartFit<'s, 'a> {
     search: LevenbergMarquardt<'s>,
     problem: DenseResidual<TighteningResidual<'a>>,
 }
-
-/// Multiple of the decrease that its derivatives predict which a fit may still come to: down the side of a narrow valley, as contacts make,
-/// the cost falls up to three times faster than they say.
-const OVERACHIEVEMENT: f64 = 4.0;
 
 /// Lets all make the steps of the warm-up, in turns. Those that cannot come as low as the limit beside the lowest end so far
 /// wait, and are stopped.

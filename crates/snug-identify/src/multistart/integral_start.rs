@@ -9,6 +9,7 @@
 //! One regression over the samples is off by a per cent or so, because the noise is in θ on the left as well. A fit from
 //! there takes about half the sweeps of one from anywhere.
 
+use crate::multistart::thresholds::SCORED;
 use crate::task::FitTask;
 use snug_campaign::{Parameter, ParameterSource, Quantity};
 use snug_least_squares::Linearization;
@@ -57,9 +58,6 @@ pub(crate) fn integral_start(task: &FitTask<'_>) -> Option<Vec<f64>> {
     let is_sensible = |value: &f64| value.is_finite() && *value > 0.0;
     values.iter().all(is_sensible).then_some(values)
 }
-
-/// Every this many samples enter the regression: a start need not be better, and the integrals know them all.
-const SCORED: usize = 8;
 
 /// A signal's integral and the integral of that, both trapezoids.
 struct Integrals {

@@ -5,23 +5,12 @@
 //! of the free run lies close by. If it is not, that is one minimum of many.
 
 use crate::batch::BatchSimulator;
-use crate::multistart::decimated::{
-    COST_RATIO_LIMIT, DecimatedRecord, Tried, apart, coarse_solver,
-};
-use crate::multistart::early_stopping::{EarlyStopping, fit_starts};
+use crate::multistart::decimated::{DecimatedRecord, Tried, apart, coarse_solver};
+use crate::multistart::early_stopping::fit_starts;
+use crate::multistart::thresholds::{LED_TOLERANCE, MOST_LED_ENDS, STOP_LED};
 use crate::settings::IdentifySettings;
 use crate::task::FitTask;
 use snug_least_squares::{Constraints, SolveError};
-
-/// A restarted fit has gone far enough when this share of the residual could still be removed.
-const TOLERANCE: f64 = 0.1;
-/// Most ends that go on freely.
-const MOST_ENDS: usize = 3;
-/// When a start along the measured motion is stopped.
-const RULES: EarlyStopping = EarlyStopping {
-    warm_up_steps: 8,
-    cost_ratio_limit: COST_RATIO_LIMIT,
-};
 
 /// Tries `starts` along the measured motion, and what that leads to on the decimated record, run freely; `None` where
 /// nothing guides.
@@ -37,9 +26,9 @@ pub(crate) async fn try_multiple_shooting<'a>(
         return Ok(None);
     };
     let residual = decimated.residual(&task.model, restarted, settings);
-    let solver = coarse_solver(settings, TOLERANCE);
-    let (ends, work) = fit_starts(&residual, starts, set, &solver, RULES, simulator).await?;
-    let ends = apart(ends, MOST_ENDS);
+    let solver = coarse_solver(settings, LED_TOLERANCE);
+    let (ends, work) = fit_starts(&residual, starts, set, &solver, STOP_LED, simulator).await?;
+    let ends = apart(ends, MOST_LED_ENDS);
     let mut tried = decimated
         .try_from(&ends, task, set, settings, simulator)
         .await?;

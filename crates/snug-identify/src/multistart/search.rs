@@ -1,12 +1,13 @@
 //! One tightening's fit where its cost has minimum beside minimum: an effect with several starts, or one with unilateral contact.
 
 use crate::batch::BatchSimulator;
-use crate::multistart::decimated::{
-    COST_RATIO_LIMIT, DecimatedRecord, Tried, apart, coarse_solver,
-};
-use crate::multistart::early_stopping::{EarlyStopping, fit_starts};
+use crate::multistart::decimated::{DecimatedRecord, Tried, apart, coarse_solver};
+use crate::multistart::early_stopping::fit_starts;
 use crate::multistart::multiple_shooting::try_multiple_shooting;
 use crate::multistart::smoothing::HALF_WIDTHS;
+use crate::multistart::thresholds::{
+    CLOSE, FAR_OFF, NEAR, SMOOTHED_TOLERANCE, STOP_FREE, STOP_SMOOTHED, SURE,
+};
 use crate::residual::tightening::TighteningResidual;
 use crate::settings::IdentifySettings;
 use crate::task::FitTask;
@@ -15,30 +16,6 @@ use snug_least_squares::{
 };
 use snug_model::BASE_PARAMETERS;
 use std::iter::once;
-
-/// When a start with every sample is stopped.
-const RULES: EarlyStopping = EarlyStopping {
-    warm_up_steps: 12,
-    cost_ratio_limit: 1.0,
-};
-
-/// Samples to either side over which the residual is averaged on the way to where it is not: less than a millisecond.
-const NEAR: usize = 8;
-/// When a start with the smoothed residual is stopped: the same minimum may be lower by as much without smoothing.
-const NEAR_RULES: EarlyStopping = EarlyStopping {
-    warm_up_steps: 12,
-    cost_ratio_limit: COST_RATIO_LIMIT,
-};
-
-/// Mean square of a whitened residual beyond which a fit may have ended in the wrong minimum.
-const FAR_OFF: f64 = 2.0;
-/// Mean square of a whitened residual up to which it is hardly more than noise.
-const CLOSE: f64 = 1.1;
-/// Standard errors that an effect's parameter is away from zero when the effect is surely there.
-const SURE: f64 = 8.0;
-
-/// An averaged fit has gone far enough when this share of the residual could still be removed.
-const NEARER_TOLERANCE: f64 = 1e-2;
 
 /// What is searched, and from where.
 pub(crate) struct MultistartSearch<'s, 'a> {
@@ -83,7 +60,7 @@ impl<'a> MultistartSearch<'_, 'a> {
 
     /// Where the residual leads to that is averaged over ever fewer samples.
     async fn ever_nearer(&self, start: &[f64], work: &mut Work) -> Result<Fit, SolveError> {
-        let decimated = coarse_solver(self.settings, NEARER_TOLERANCE);
+        let decimated = coarse_solver(self.settings, SMOOTHED_TOLERANCE);
         let mut values = start.to_vec();
         for half_width in HALF_WIDTHS {
             let smoothed = self.residual.smoothed(half_width);
@@ -102,8 +79,15 @@ impl<'a> MultistartSearch<'_, 'a> {
         solver: &Settings,
         work: &mut Work,
     ) -> Result<Fit, SolveError> {
-        let (ends, more) =
-            fit_starts(residual, &[start], self.set, solver, RULES, self.simulator).await?;
+        let (ends, more) = fit_starts(
+            residual,
+            &[start],
+            self.set,
+            solver,
+            STOP_FREE,
+            self.simulator,
+        )
+        .await?;
         work.add(&more);
         best(ends, more)
     }
@@ -146,15 +130,16 @@ impl<'a> MultistartSearch<'_, 'a> {
     ) -> Result<(Vec<Fit>, Work), SolveError> {
         let (set, simulator, solver) = (self.set, self.simulator, &self.settings.solver);
         if !self.is_rugged() {
-            return fit_starts(self.residual, starts, set, solver, RULES, simulator).await;
+            return fit_starts(self.residual, starts, set, solver, STOP_FREE, simulator).await;
         }
         let smoothed = self.residual.smoothed(NEAR);
-        let decimated = coarse_solver(self.settings, NEARER_TOLERANCE);
+        let decimated = coarse_solver(self.settings, SMOOTHED_TOLERANCE);
         let (ends, before) =
-            fit_starts(&smoothed, starts, set, &decimated, NEAR_RULES, simulator).await?;
+            fit_starts(&smoothed, starts, set, &decimated, STOP_SMOOTHED, simulator).await?;
         let led = apart(ends, starts.len());
         let starts = if led.is_empty() { starts } else { &led };
-        let fitted_from_starts = fit_starts(self.residual, starts, set, solver, RULES, simulator);
+        let fitted_from_starts =
+            fit_starts(self.residual, starts, set, solver, STOP_FREE, simulator);
         let (ends, mut work) = fitted_from_starts.await?;
         work.add(&before);
         Ok((ends, work))

@@ -2,21 +2,13 @@
 
 use crate::batch::BatchSimulator;
 use crate::noise::integrated::{IntegratedNoise, drift, to_source};
+use crate::noise::thresholds::{BEYOND_PARAMETER_ERROR, MISFIT, STRETCHES};
 use crate::residual::agreement::error_over_noise;
 use crate::residual::tightening::TighteningResidual;
 use crate::task::FitTask;
 use snug_campaign::{Quantity, Tightening};
 use snug_least_squares::matrix::inner_product;
 use snug_least_squares::{Fit, Residual, ResidualNoise, without_high_leverage};
-
-/// Number of stretches whose summed scores are taken as independent where the residual holds more than noise.
-pub(crate) const STRETCHES: usize = 30;
-/// Standard deviations by which the mean square residual must exceed the noise to count as misfit.
-const MISFIT: f64 = 4.0;
-
-/// Mean square of the whitened acceleration residual beyond which a fit of the displacement shows misfit: the parameter
-/// errors that integrated noise causes are visible in the acceleration by themselves, but do not double it.
-const BEYOND_PARAMETER_ERROR: f64 = 2.0;
 
 /// The noise in a residual, owned.
 pub(crate) enum OwnedNoise {

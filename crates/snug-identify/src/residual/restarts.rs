@@ -1,5 +1,6 @@
 //! How the model is run beside a measurement: freely, or again and again from the measured motion.
 
+use crate::residual::thresholds::{AS_WELL, FEWEST_APART, LEAST_HALF_WIDTH, PLACES};
 use serde::{Deserialize, Serialize};
 use snug_campaign::{Quantity, Tightening};
 use snug_model::Input;
@@ -111,15 +112,6 @@ pub fn motions_at(angle_rad: &[f64], velocity_rad_per_s: &[f64], apart: usize) -
         .map(|(angle, velocity)| [*angle, *velocity])
         .collect()
 }
-
-/// Fewest samples from one restart to the next.
-const FEWEST_APART: usize = 8;
-/// Fewest samples on either side that a cubic is fitted to.
-const LEAST_HALF_WIDTH: usize = 2;
-/// Places at which a measurement is looked at.
-const PLACES: usize = 400;
-/// Growth of the residual's spread up to which a wider cubic still describes the measurement as well.
-const AS_WELL: f64 = 1.1;
 
 /// The cubic through the samples around one, by least squares.
 struct Local {

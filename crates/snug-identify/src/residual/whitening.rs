@@ -1,5 +1,6 @@
 //! The filter that makes a measured noise white, so that equal residuals are equally unlikely.
 
+use crate::residual::thresholds::BLOCK;
 use snug_campaign::{NoiseFloor, Quantity, Tightening};
 use snug_model::with_processor_instructions;
 
@@ -11,9 +12,6 @@ pub struct Whitening {
     autoregression: Vec<f64>,
     innovation_sd: f64,
 }
-
-/// Samples that are whitened together.
-const BLOCK: usize = 512;
 
 impl Whitening {
     /// The filter that whitens `noise`; `None` when its innovations have no positive standard deviation.
