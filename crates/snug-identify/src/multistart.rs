@@ -1,4 +1,6 @@
-//! Fits from several starts where a cost has more than one minimum.
+//! Multistart where a cost has more than one minimum: many starts side by side, of which those without a prospect are stopped.
+//!
+//! snug-least-squares' plain multistart, which follows every start to its end, is another thing; tests hold this one against it.
 
 pub(crate) mod decimated;
 pub(crate) mod early_stopping;

@@ -18,7 +18,7 @@ pub use problem::linearization::Linearization;
 pub use problem::residual::{DenseResidual, Residual, further_along};
 pub use solver::fit::{ActiveConstraint, Fit, Status, Work};
 pub use solver::levenberg_marquardt::{LevenbergMarquardt, Query};
-pub use solver::multistart::{best, solve_from_starts};
+pub use solver::plain_multistart::{best, solve_from_starts};
 pub use solver::settings::Settings;
 pub use solver::solve::{answer, solve};
 pub use uncertainty::covariance::{Covariance, ResidualNoise};

@@ -3,7 +3,7 @@
 pub(crate) mod damping;
 pub(crate) mod fit;
 pub(crate) mod levenberg_marquardt;
-pub(crate) mod multistart;
+pub(crate) mod plain_multistart;
 pub(crate) mod settings;
 pub(crate) mod solve;
 pub(crate) mod step;

@@ -1,4 +1,8 @@
 //! The sizes of a fitted hypothesis' effects, with intervals that survive coloured noise and a little misfit.
+//!
+//! Its sandwich is S⁻¹ (Σ g gᵀ) S⁻¹ times U/(U − p) over U clusters (CR1), whole tightenings or stretches of few, never below
+//! the S⁻¹ of unit noise; Student's t with U − 1. That of one tightening's samples is snug-identify's (M of known noise or of
+//! scores over time), that of regressions on what was fitted snug-statistics' (CR2).
 
 use crate::pooled::fitted::Fitted;
 use crate::pooled::model::first_parameter;

@@ -1,4 +1,8 @@
 //! What the noise does to an estimate: M = Jᵀ cov(r) J at the optimum, for the sandwich (JᵀJ)⁻¹ M (JᵀJ)⁻¹.
+//!
+//! It is of one tightening, within which samples depend on each other: M comes from what is known of the noise and, where the
+//! residual holds more, from scores summed over stretches of time. snug-least-squares puts bread around it; the sandwiches over
+//! tightenings (snug-diagnose, CR1) and over clusters of values (snug-statistics, CR2) are others.
 
 use crate::batch::BatchSimulator;
 use crate::noise::integrated::{IntegratedNoise, drift, to_source};

@@ -1,4 +1,7 @@
 //! Covariance of an estimate under what is known of the noise; its intervals.
+//!
+//! Its sandwich (JᵀJ)⁻¹ M (JᵀJ)⁻¹ takes M as it is given and corrects nothing for small samples: whoever knows the noise
+//! makes M, and where it is made of the residuals of few clusters a correction (CR1, CR2) is up to them.
 
 use crate::matrix::{add_scaled, dot};
 use crate::solver::fit::Fit;

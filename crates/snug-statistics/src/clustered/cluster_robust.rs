@@ -1,4 +1,7 @@
 //! Regression with a sandwich covariance over clusters, and the degrees of freedom that few clusters leave.
+//!
+//! Each cluster's residuals are adjusted so that the covariance is unbiased where rows are independent after all (CR2), and the
+//! degrees of freedom are estimated: few clusters with designs that differ need both. It is of linear regressions only.
 
 use faer::Mat;
 

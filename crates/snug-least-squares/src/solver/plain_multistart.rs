@@ -1,4 +1,7 @@
-//! Fits from several starts, the best of which counts.
+//! Plain multistart: every start is followed to its end, one after the other, and the best end counts.
+//!
+//! Who follows many starts side by side and stops those without a prospect runs each as a
+//! [`LevenbergMarquardt`](crate::LevenbergMarquardt) and lets [`best`] say which end counts.
 
 use crate::conic::constraints::Constraints;
 use crate::error::SolveError;
