@@ -1,10 +1,10 @@
 //! One verb of the diagnosis from tightenings to answer: compare, diagnose, add, improve.
 
 use crate::data::cases::{Cases, Tally};
-use crate::data::clusters::Units;
+use crate::data::clusters::Clusters;
 use crate::error::DiagnoseError;
 use crate::question::{Goal, Question};
-use crate::selection::search::Search;
+use crate::selection::model_selection::ModelSelection;
 use crate::settings::DiagnoseSettings;
 use crate::verdict::answer::{Answer, Examination};
 use crate::watch::Watch;
@@ -25,25 +25,25 @@ pub fn examine(
     let tally = Tally::default();
     let left_out = "every tightening was left out; the findings say why";
     let counted = Cases::checked(cases, &tally, left_out)?;
-    let search = Search {
+    let selection = ModelSelection {
         cases: counted,
         own: &question.effects,
         custom: &question.custom,
-        units: Units::of(cases),
+        clusters: Clusters::of(cases),
         settings,
         watch,
     };
-    let climb = match &question.goal {
-        Goal::Compare => search.compare()?,
-        Goal::Diagnose => search.diagnose()?,
-        Goal::Add(effects) => search.add(effects)?,
-        Goal::Improve => search.improve()?,
+    let path = match &question.goal {
+        Goal::Compare => selection.compare()?,
+        Goal::Diagnose => selection.diagnose()?,
+        Goal::Add(effects) => selection.add(effects)?,
+        Goal::Improve => selection.improve()?,
     };
     Examination {
         question,
         cases: counted,
         settings,
-        climb,
+        path,
         // What was found is told, however it ended.
         watch: watch.to_the_end(),
     }

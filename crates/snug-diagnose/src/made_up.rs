@@ -1,6 +1,6 @@
 //! Made-up tightenings, candidates and rankings for tests: of a few numbers, small enough to be worked out by hand.
 
-use crate::data::clusters::Units;
+use crate::data::clusters::Clusters;
 use crate::library::terms;
 use crate::pooled::fitted::Fitted;
 use crate::ranking::rank::{Candidate, Ranking};
@@ -21,8 +21,8 @@ pub(crate) const INTERVAL_S: f64 = 1e-3;
 pub(crate) const SAMPLES: usize = 250;
 /// Standard deviation of the acceleration's noise \[rad/s²\].
 pub(crate) const NOISE: f64 = 0.3;
-/// Every tightening is a unit.
-pub(crate) const WHOLE: Units = Units { per_case: 1 };
+/// Every tightening is a cluster.
+pub(crate) const WHOLE: Clusters = Clusters { per_case: 1 };
 
 /// m, c, k of the hand that holds the tool in tightening `number`.
 pub(crate) fn hand(number: usize) -> [f64; 3] {

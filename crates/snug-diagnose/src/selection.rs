@@ -2,6 +2,6 @@
 
 pub(crate) mod backward_elimination;
 pub(crate) mod forward_selection;
+pub(crate) mod model_selection;
 pub(crate) mod path;
-pub(crate) mod search;
 pub(crate) mod thresholds;

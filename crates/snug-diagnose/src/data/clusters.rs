@@ -5,14 +5,14 @@ use snug_campaign::words::reason::Cluster;
 use snug_identify::FitTask;
 use std::ops::Range;
 
-/// How tightenings are cut into units.
+/// How tightenings are cut into clusters.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Units {
-    /// Units per tightening.
+pub(crate) struct Clusters {
+    /// Clusters per tightening.
     pub per_case: usize,
 }
 
-impl Units {
+impl Clusters {
     pub fn of(cases: &[FitTask<'_>]) -> Self {
         if cases.len() >= FEWEST_WHOLE {
             return Self { per_case: 1 };
@@ -29,7 +29,7 @@ impl Units {
         }
     }
 
-    /// Whether each unit is a whole tightening, so that its own parameters can follow.
+    /// Whether each cluster is a whole tightening, so that its own parameters can follow.
     pub fn are_whole(self) -> bool {
         self.per_case == 1
     }
@@ -42,11 +42,12 @@ impl Units {
         }
     }
 
-    /// The units of one tightening with `samples` residuals.
+    /// The clusters of one tightening with `samples` residuals.
     pub fn ranges(self, samples: usize) -> impl Iterator<Item = Range<usize>> {
         let length = samples.div_ceil(self.per_case).max(1);
-        (0..self.per_case)
-            .map(move |unit| (unit * length).min(samples)..((unit + 1) * length).min(samples))
+        (0..self.per_case).map(move |cluster| {
+            (cluster * length).min(samples)..((cluster + 1) * length).min(samples)
+        })
     }
 }
 
@@ -64,34 +65,37 @@ mod tests {
 
     #[test]
     fn eight_tightenings_are_units_seven_are_cut() {
-        assert!(Units::of(&cases(8, 250, 0)).are_whole());
-        assert_eq!(Units::of(&cases(8, 250, 0)).named(), "tightenings");
-        // 24 stretches are wanted: four of each of seven are 28, three would be 21.
-        assert_eq!(Units::of(&cases(7, 250, 0)).per_case, 4);
+        assert!(Clusters::of(&cases(8, 250, 0)).are_whole());
         assert_eq!(
-            Units::of(&cases(7, 250, 0)).named(),
+            Clusters::of(&cases(8, 250, 0)).cluster().plural(),
+            "tightenings"
+        );
+        // 24 stretches are wanted: four of each of seven are 28, three would be 21.
+        assert_eq!(Clusters::of(&cases(7, 250, 0)).per_case, 4);
+        assert_eq!(
+            Clusters::of(&cases(7, 250, 0)).cluster().plural(),
             "stretches of the record"
         );
     }
 
     #[test]
     fn stretches_are_no_shorter_than_forty_scored_samples() {
-        assert_eq!(Units::of(&cases(1, 250, 0)).per_case, 6);
-        assert_eq!(Units::of(&cases(1, 250, 11)).per_case, 5);
-        assert_eq!(Units::of(&cases(1, 30, 0)).per_case, 1);
+        assert_eq!(Clusters::of(&cases(1, 250, 0)).per_case, 6);
+        assert_eq!(Clusters::of(&cases(1, 250, 11)).per_case, 5);
+        assert_eq!(Clusters::of(&cases(1, 30, 0)).per_case, 1);
     }
 
     #[test]
     fn the_shortest_tightening_says_how_finely_all_are_cut() {
         let mut mixed = cases(1, 250, 0);
         mixed.extend(cases(1, 85, 0));
-        assert_eq!(Units::of(&mixed).per_case, 2);
+        assert_eq!(Clusters::of(&mixed).per_case, 2);
     }
 
     #[test]
     fn stretches_follow_each_other_and_leave_nothing_out() {
         for samples in [0, 5, 239, 240, 241, 250] {
-            let ranges: Vec<Range<usize>> = Units { per_case: 6 }.ranges(samples).collect();
+            let ranges: Vec<Range<usize>> = Clusters { per_case: 6 }.ranges(samples).collect();
             assert_eq!(ranges.len(), 6);
             assert_eq!((ranges[0].start, ranges[5].end), (0, samples));
             assert!(ranges.windows(2).all(|pair| pair[0].end == pair[1].start));

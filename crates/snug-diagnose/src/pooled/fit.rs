@@ -1,11 +1,11 @@
 //! Given effects fitted to all tightenings, or asked of some of them.
 
 use crate::data::cases::Cases;
-use crate::data::clusters::Units;
+use crate::data::clusters::Clusters;
 use crate::error::DiagnoseError;
 use crate::pooled::fitted::Fitted;
 use crate::pooled::long_record;
-use crate::pooled::model::{Hypothesis, Start};
+use crate::pooled::model::{PooledModel, Start};
 use snug_least_squares::PooledSettings;
 use snug_model::Effect;
 
@@ -14,18 +14,18 @@ pub(crate) fn fit_effects(
     cases: Cases<'_>,
     effects: &[Effect],
     from: Option<&Fitted>,
-    units: Units,
+    clusters: Clusters,
 ) -> Result<Fitted, DiagnoseError> {
-    let mut hypothesis = Hypothesis::new(cases, effects)?;
+    let mut pooled = PooledModel::new(cases, effects)?;
     let start = match from {
-        Some(fitted) => fitted.start(&hypothesis),
-        None => hypothesis.usual_start(),
+        Some(fitted) => fitted.start(&pooled),
+        None => pooled.usual_start(),
     };
-    let end = match units.are_whole() {
-        true => hypothesis.fit(&start, &PooledSettings::default())?,
-        false => long_record::to_the_end(&mut hypothesis, &start)?,
+    let end = match clusters.are_whole() {
+        true => pooled.fit(&start, &PooledSettings::default())?,
+        false => long_record::to_the_end(&mut pooled, &start)?,
     };
-    Ok(Fitted::new(&hypothesis, end, &units))
+    Ok(Fitted::new(&pooled, end, &clusters))
 }
 
 /// What `fitted` says of the tightenings `members`, which are `cases`, when they are asked alone.
@@ -33,13 +33,13 @@ pub(crate) fn fit_part(
     cases: Cases<'_>,
     members: &[usize],
     fitted: &Fitted,
-    units: Units,
+    clusters: Clusters,
 ) -> Result<Fitted, DiagnoseError> {
-    let mut hypothesis = Hypothesis::new(cases, &fitted.effects)?;
+    let mut pooled = PooledModel::new(cases, &fitted.effects)?;
     let start = Start {
         own: fitted.own.clone(),
         shared: fitted.shared.clone(),
     };
-    let end = hypothesis.fit(&start.of_members(members), &PooledSettings::default())?;
-    Ok(Fitted::new(&hypothesis, end, &units))
+    let end = pooled.fit(&start.of_members(members), &PooledSettings::default())?;
+    Ok(Fitted::new(&pooled, end, &clusters))
 }

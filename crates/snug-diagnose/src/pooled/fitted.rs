@@ -1,7 +1,7 @@
-//! A hypothesis after its fit: sizes, errors, and what it is worth in data that took no part.
+//! A pooled model after its fit: sizes, errors, and what it is worth in data that took no part.
 
-use crate::data::clusters::Units;
-use crate::pooled::model::{Hypothesis, Room, Start, first_parameter, index_among};
+use crate::data::clusters::Clusters;
+use crate::pooled::model::{PooledModel, Room, Start, first_parameter, index_among};
 use crate::pooled::thresholds::{AT_FLOOR, HARDLY};
 use crate::pooled::torque_noise::passed_on;
 use crate::settings::DiagnoseSettings;
@@ -11,20 +11,20 @@ use snug_model::{BASE_PARAMETERS, Effect};
 use snug_statistics::descriptive::median;
 use std::collections::BTreeMap;
 
-/// What a unit says about the parameters around the optimum: squared residual, gradient and curvature.
+/// What a cluster says about the parameters around the optimum: squared residual, gradient and curvature.
 #[derive(Debug, Clone)]
 pub(crate) struct Block {
-    /// Σ r² over the unit.
+    /// Σ r² over the cluster.
     pub squares: f64,
     /// Number of residuals.
     pub count: usize,
-    /// Jᵀr; over the shared parameters where the unit is a whole tightening, else over own and shared.
+    /// Jᵀr; over the shared parameters where the cluster is a whole tightening, else over own and shared.
     gradient: Vec<f64>,
     /// JᵀJ likewise.
     curvature: SymmetricMatrix,
 }
 
-/// A fitted hypothesis.
+/// A fitted pooled model.
 #[derive(Debug, Clone)]
 pub(crate) struct Fitted {
     pub effects: Vec<Effect>,
@@ -36,16 +36,16 @@ pub(crate) struct Fitted {
     pub own: Vec<Vec<f64>>,
     pub shared: Vec<f64>,
     pub converged: bool,
-    /// Unit by unit, tightening by tightening.
+    /// Cluster by cluster, tightening by tightening.
     pub blocks: Vec<Block>,
-    /// Which tightening a unit belongs to.
+    /// Which tightening a cluster belongs to.
     pub members: Vec<usize>,
-    /// Σ r² of each unit that the noise of the logged torque alone makes.
+    /// Σ r² of each cluster that the noise of the logged torque alone makes.
     torque_noise: Vec<f64>,
-    units: Units,
+    clusters: Clusters,
     /// Whether residuals are in units of a measured noise.
     pub is_weighted: bool,
-    /// Per tightening curvature over own and shared (only where units are stretches).
+    /// Per tightening curvature over own and shared (only where clusters are stretches).
     member_curvature: Vec<SymmetricMatrix>,
     /// Per tightening projected curvature and gradient over the shared parameters.
     profiles: Vec<(SymmetricMatrix, Vec<f64>)>,
@@ -55,8 +55,8 @@ pub(crate) struct Fitted {
 
 impl Fitted {
     /// A fit with what follows from it.
-    pub fn new(hypothesis: &Hypothesis<'_>, fit: PooledFit, units: &Units) -> Self {
-        let p = hypothesis.shared.len();
+    pub fn new(pooled: &PooledModel<'_>, fit: PooledFit, clusters: &Clusters) -> Self {
+        let p = pooled.shared.len();
         let profiles = fit
             .profiles
             .iter()
@@ -68,20 +68,20 @@ impl Fitted {
             })
             .collect();
         let mut fitted = Self {
-            effects: hypothesis.effects.clone(),
-            own_names: hypothesis.names(&hypothesis.own),
-            shared_names: hypothesis.names(&hypothesis.shared),
-            own_indices: hypothesis.own.clone(),
-            shared_indices: hypothesis.shared.clone(),
+            effects: pooled.effects.clone(),
+            own_names: pooled.names(&pooled.own),
+            shared_names: pooled.names(&pooled.shared),
+            own_indices: pooled.own.clone(),
+            shared_indices: pooled.shared.clone(),
             converged: fit.converged,
             blocks: Vec::new(),
             members: Vec::new(),
             torque_noise: Vec::new(),
-            units: *units,
-            is_weighted: hypothesis.is_weighted(),
+            clusters: *clusters,
+            is_weighted: pooled.is_weighted(),
             member_curvature: Vec::new(),
             profiles,
-            own_effect_count: hypothesis
+            own_effect_count: pooled
                 .own
                 .iter()
                 .filter(|&&index| index >= BASE_PARAMETERS.len())
@@ -89,26 +89,26 @@ impl Fitted {
             own: fit.own,
             shared: fit.shared,
         };
-        fitted.work_out_blocks(hypothesis, &fit.profiles);
+        fitted.work_out_blocks(pooled, &fit.profiles);
         fitted
     }
 
-    /// Where this fit ended as a start for `hypothesis`, which may hold other effects; those begin as usual.
-    pub fn start(&self, hypothesis: &Hypothesis<'_>) -> Start {
-        let mut start = hypothesis.usual_start();
+    /// Where this fit ended as a start for `pooled`, which may hold other effects; those begin as usual.
+    pub fn start(&self, pooled: &PooledModel<'_>) -> Start {
+        let mut start = pooled.usual_start();
         let take = |places: &[usize], to: &mut [f64], known: &[usize], from: &[f64]| {
             for (&place, to) in places.iter().zip(to) {
-                let index = index_among(&self.effects, &hypothesis.effects, place);
+                let index = index_among(&self.effects, &pooled.effects, place);
                 if let Some(column) = known.iter().position(|&known| Some(known) == index) {
                     *to = from[column];
                 }
             }
         };
         for (to, from) in start.own.iter_mut().zip(&self.own) {
-            take(&hypothesis.own, to, &self.own_indices, from);
+            take(&pooled.own, to, &self.own_indices, from);
         }
         take(
-            &hypothesis.shared,
+            &pooled.shared,
             &mut start.shared,
             &self.shared_indices,
             &self.shared,
@@ -118,35 +118,35 @@ impl Fitted {
 
     fn work_out_blocks(
         &mut self,
-        hypothesis: &Hypothesis<'_>,
+        pooled: &PooledModel<'_>,
         profiles: &[snug_least_squares::Profile],
     ) {
-        let order: Vec<usize> = match self.units.are_whole() {
+        let order: Vec<usize> = match self.clusters.are_whole() {
             true => Vec::new(),
-            false => [hypothesis.own.as_slice(), &hypothesis.shared].concat(),
+            false => [pooled.own.as_slice(), &pooled.shared].concat(),
         };
         let mut room = Room::default();
         let values: Vec<Vec<f64>> = (self.own.iter().enumerate())
-            .map(|(member, own)| hypothesis.values(member, own, &self.shared))
+            .map(|(member, own)| pooled.values(member, own, &self.shared))
             .collect();
-        self.torque_noise = passed_on(hypothesis, &values, &self.units);
+        self.torque_noise = passed_on(pooled, &values, &self.clusters);
         for (member, profile) in profiles.iter().enumerate() {
             let values = &values[member];
-            if self.units.are_whole() {
+            if self.clusters.are_whole() {
                 let (curvature, gradient) = self.profiles[member].clone();
                 self.blocks.push(Block {
                     squares: 2.0 * profile.cost,
-                    count: hypothesis.residual_count(member),
+                    count: pooled.residual_count(member),
                     gradient,
                     curvature,
                 });
                 self.members.push(member);
                 continue;
             }
-            let (residual, jacobian) = hypothesis.weighted(member, values, &order, &mut room);
+            let (residual, jacobian) = pooled.weighted(member, values, &order, &mut room);
             let count = residual.len();
             let mut whole = SymmetricMatrix::zero(order.len());
-            for range in self.units.ranges(count) {
+            for range in self.clusters.ranges(count) {
                 let r = &residual[range.clone()];
                 let column = |index: usize| &jacobian[index * count..][range.clone()];
                 let mut curvature = SymmetricMatrix::zero(order.len());
@@ -172,8 +172,8 @@ impl Fitted {
     pub fn spread(&self, most: usize) -> Vec<usize> {
         let mut order: Vec<usize> = (0..self.own.len()).collect();
         let squares = |member: usize| -> f64 {
-            let units = self.members.iter().zip(&self.blocks);
-            units
+            let clusters = self.members.iter().zip(&self.blocks);
+            clusters
                 .filter(|(m, _)| **m == member)
                 .map(|(_, b)| b.squares)
                 .sum()
@@ -259,7 +259,7 @@ impl Fitted {
 
     /// Free parameters of the base model, the mean over records; none where there are many tightenings.
     pub fn base(&self) -> Vec<(String, f64)> {
-        if self.units.are_whole() {
+        if self.clusters.are_whole() {
             return Vec::new();
         }
         let count = self.own.len() as f64;
@@ -297,18 +297,18 @@ impl Fitted {
         sum
     }
 
-    /// Curvature and the gradient of each unit, whose last entries belong to the shared parameters. Stretches of one
+    /// Curvature and the gradient of each cluster, whose last entries belong to the shared parameters. Stretches of one
     /// tightening speak of its own parameters, too.
     pub fn shared_evidence(&self) -> (SymmetricMatrix, Vec<Vec<f64>>) {
         let gradients = |scale: &dyn Fn(usize) -> bool| -> Vec<Vec<f64>> {
-            let units = (0..self.blocks.len()).filter(|&unit| scale(unit));
-            units
-                .map(|unit| self.blocks[unit].gradient.clone())
+            let clusters = (0..self.blocks.len()).filter(|&cluster| scale(cluster));
+            clusters
+                .map(|cluster| self.blocks[cluster].gradient.clone())
                 .collect()
         };
         match self.member_curvature.first() {
             Some(whole) if self.own.len() == 1 => (whole.clone(), gradients(&|_| true)),
-            _ if self.units.are_whole() => (self.shared_curvature(), gradients(&|_| true)),
+            _ if self.clusters.are_whole() => (self.shared_curvature(), gradients(&|_| true)),
             _ => {
                 let profiles = self.profiles.iter().map(|(_, gradient)| gradient.clone());
                 (self.shared_curvature(), profiles.collect())
@@ -321,52 +321,52 @@ impl Fitted {
         &self.profiles
     }
 
-    /// The same without what torque noise alone makes of each unit: what models are compared by.
+    /// The same without what torque noise alone makes of each cluster: what models are compared by.
     pub fn heldout_beyond_torque_noise(&self) -> Vec<f64> {
-        let squares = self.heldout(&|unit| unit).into_iter();
+        let squares = self.heldout(&|cluster| cluster).into_iter();
         squares
             .zip(&self.torque_noise)
             .map(|(squares, noise)| squares - noise)
             .collect()
     }
 
-    /// Σ r² of each unit as predicted for sizes that were fixed without its group: δ = (S − S_g)⁻¹ g_g, then
-    /// r² + 2 gᵀδ + δᵀSδ. `group_of` names the group of a unit; each tightening's own parameters follow, and pay for it.
+    /// Σ r² of each cluster as predicted for sizes that were fixed without its group: δ = (S − S_g)⁻¹ g_g, then
+    /// r² + 2 gᵀδ + δᵀSδ. `group_of` names the group of a cluster; each tightening's own parameters follow, and pay for it.
     pub fn heldout(&self, group_of: &dyn Fn(usize) -> usize) -> Vec<f64> {
         let scale = self.scale();
         let mut groups: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
-        for unit in 0..self.blocks.len() {
-            groups.entry(group_of(unit)).or_default().push(unit);
+        for cluster in 0..self.blocks.len() {
+            groups.entry(group_of(cluster)).or_default().push(cluster);
         }
         let mut squares: Vec<f64> = vec![0.0; self.blocks.len()];
         let all = self.shared_curvature();
-        for units in groups.values() {
-            if self.units.are_whole() {
-                self.hold_out(units, all.clone(), &mut squares);
+        for clusters in groups.values() {
+            if self.clusters.are_whole() {
+                self.hold_out(clusters, all.clone(), &mut squares);
             } else {
-                self.hold_out_stretches(units, &mut squares);
+                self.hold_out_stretches(clusters, &mut squares);
             }
         }
-        if self.units.are_whole() {
+        if self.clusters.are_whole() {
             let pays = 2.0 * self.own_effect_count as f64 * scale;
             squares.iter_mut().for_each(|value| *value += pays);
         }
         squares
     }
 
-    fn hold_out(&self, units: &[usize], total: SymmetricMatrix, squares: &mut [f64]) {
+    fn hold_out(&self, clusters: &[usize], total: SymmetricMatrix, squares: &mut [f64]) {
         let mut rest = total;
         let mut gradient = vec![0.0; rest.size()];
-        for &unit in units {
-            rest.subtract(&self.blocks[unit].curvature);
-            for (sum, g) in gradient.iter_mut().zip(&self.blocks[unit].gradient) {
+        for &cluster in clusters {
+            rest.subtract(&self.blocks[cluster].curvature);
+            for (sum, g) in gradient.iter_mut().zip(&self.blocks[cluster].gradient) {
                 *sum += g;
             }
         }
         let shift = rest.solve_scaled(&gradient);
-        for &unit in units {
-            let block = &self.blocks[unit];
-            squares[unit] = block.squares
+        for &cluster in clusters {
+            let block = &self.blocks[cluster];
+            squares[cluster] = block.squares
                 + shift.as_ref().map_or(0.0, |shift| {
                     2.0 * dot(&block.gradient, shift) + block.curvature.quadratic(shift)
                 });
@@ -374,12 +374,15 @@ impl Fitted {
     }
 
     /// Own parameters are fixed by the other stretches of the same tightening, the shared ones by everything else.
-    fn hold_out_stretches(&self, units: &[usize], squares: &mut [f64]) {
+    fn hold_out_stretches(&self, clusters: &[usize], squares: &mut [f64]) {
         let mut by_member: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
-        for &unit in units {
-            by_member.entry(self.members[unit]).or_default().push(unit);
+        for &cluster in clusters {
+            by_member
+                .entry(self.members[cluster])
+                .or_default()
+                .push(cluster);
         }
-        for (member, own_units) in by_member {
+        for (member, own_clusters) in by_member {
             let mut total = self.member_curvature[member].clone();
             let first_shared = total.size() - self.shared.len();
             for (other, (curvature, _)) in self.profiles.iter().enumerate() {
@@ -387,7 +390,7 @@ impl Fitted {
                     total.add_at(first_shared, curvature);
                 }
             }
-            self.hold_out(&own_units, total, squares);
+            self.hold_out(&own_clusters, total, squares);
         }
     }
 }

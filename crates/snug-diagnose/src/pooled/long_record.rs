@@ -1,7 +1,7 @@
 //! A candidate's refit to a few long records, where mass, damping and stiffness are no matter of each tightening.
 
 use crate::error::DiagnoseError;
-use crate::pooled::model::{Hypothesis, Start};
+use crate::pooled::model::{PooledModel, Start};
 use crate::pooled::thresholds::{BEGINNING, SHORTEST_BEGINNING, SOON, TRIAL_OF_A_START};
 use snug_identify::{FitTask, TighteningResidual, convex_set};
 use snug_least_squares::{DenseResidual, PooledFit, PooledSettings, Settings, solve};
@@ -12,20 +12,20 @@ use snug_least_squares::{DenseResidual, PooledFit, PooledSettings, Settings, sol
 ///
 /// A model without the effect may have been led far off by what it lacks, to where no step leads back.
 pub(crate) fn best_of(
-    hypothesis: &mut Hypothesis<'_>,
+    pooled: &mut PooledModel<'_>,
     starts: &[Start],
     settings: &PooledSettings,
 ) -> Result<PooledFit, DiagnoseError> {
-    let samples: usize = (hypothesis.cases.iter())
+    let samples: usize = (pooled.cases.iter())
         .map(|case| case.measured().len())
         .sum();
     if samples <= SOON {
-        return lowest(hypothesis, starts, settings);
+        return lowest(pooled, starts, settings);
     }
-    let beginnings: Vec<FitTask<'_>> = hypothesis.cases.iter().map(beginning).collect();
-    let mut there = Hypothesis::new(hypothesis.cases.others(&beginnings), &hypothesis.effects)?;
+    let beginnings: Vec<FitTask<'_>> = pooled.cases.iter().map(beginning).collect();
+    let mut there = PooledModel::new(pooled.cases.others(&beginnings), &pooled.effects)?;
     let start = Start::at(&lowest(&mut there, starts, settings)?);
-    hypothesis.fit(&start, settings)
+    pooled.fit(&start, settings)
 }
 
 /// What comes first and holds enough of the motion.
@@ -42,11 +42,11 @@ fn beginning(record: &FitTask<'_>) -> FitTask<'static> {
 }
 
 fn lowest(
-    hypothesis: &mut Hypothesis<'_>,
+    pooled: &mut PooledModel<'_>,
     starts: &[Start],
     settings: &PooledSettings,
 ) -> Result<PooledFit, DiagnoseError> {
-    let own = hypothesis.usual_start().own;
+    let own = pooled.usual_start().own;
     let afresh = |start: &Start| Start {
         own: own.clone(),
         shared: start.shared.clone(),
@@ -57,7 +57,7 @@ fn lowest(
         .iter()
         .flat_map(|start| [start.clone(), afresh(start)])
     {
-        match hypothesis.fit(&start, &TRIAL_OF_A_START) {
+        match pooled.fit(&start, &TRIAL_OF_A_START) {
             Ok(end) if best.as_ref().is_none_or(|b| end.cost() < b.cost()) => best = Some(end),
             Ok(_) => {}
             Err(error) => refused = Some(error),
@@ -67,31 +67,31 @@ fn lowest(
         let none = || snug_least_squares::SolveError::NoStart.into();
         return Err(refused.unwrap_or_else(none));
     };
-    hypothesis.fit(&Start::at(&best), settings)
+    pooled.fit(&Start::at(&best), settings)
 }
 
 /// Fits from one start until nothing more is to be had: with little noise the way along a valley is long. One record
 /// alone is a problem of few parameters, which the solver for single tightenings follows further.
 pub(crate) fn to_the_end(
-    hypothesis: &mut Hypothesis<'_>,
+    pooled: &mut PooledModel<'_>,
     start: &Start,
 ) -> Result<PooledFit, DiagnoseError> {
-    let end = hypothesis.fit(start, &PooledSettings::default())?;
-    let Some(further) = further(hypothesis, &Start::at(&end)) else {
+    let end = pooled.fit(start, &PooledSettings::default())?;
+    let Some(further) = further(pooled, &Start::at(&end)) else {
         return Ok(end);
     };
-    match hypothesis.fit(&further, &PooledSettings::default()) {
+    match pooled.fit(&further, &PooledSettings::default()) {
         Ok(other) if other.cost() < end.cost() => Ok(other),
         _ => Ok(end),
     }
 }
 
 /// Where the solver for single tightenings ends; nothing where there are several records.
-fn further(hypothesis: &Hypothesis<'_>, from: &Start) -> Option<Start> {
-    let ([case], [model]) = (&*hypothesis.cases, hypothesis.models.as_slice()) else {
+fn further(pooled: &PooledModel<'_>, from: &Start) -> Option<Start> {
+    let ([case], [model]) = (&*pooled.cases, pooled.models.as_slice()) else {
         return None;
     };
-    let values = hypothesis.values(0, &from.own[0], &from.shared);
+    let values = pooled.values(0, &from.own[0], &from.shared);
     let free = model.free();
     let whitening = case.whitening();
     let mut problem = DenseResidual::new(TighteningResidual::new(
@@ -118,7 +118,7 @@ fn further(hypothesis: &Hypothesis<'_>, from: &Start) -> Option<Start> {
             .collect()
     };
     Some(Start {
-        own: vec![pick(&hypothesis.own)?],
-        shared: pick(&hypothesis.shared)?,
+        own: vec![pick(&pooled.own)?],
+        shared: pick(&pooled.shared)?,
     })
 }

@@ -10,7 +10,7 @@ use snug_least_squares::{
 use snug_model::{BASE_PARAMETERS, Effect, Law, Model, Scope};
 
 /// A set of effects, ready to be fitted to all tightenings together.
-pub(crate) struct Hypothesis<'a> {
+pub(crate) struct PooledModel<'a> {
     pub cases: Cases<'a>,
     pub effects: Vec<Effect>,
     pub models: Vec<Model>,
@@ -22,7 +22,7 @@ pub(crate) struct Hypothesis<'a> {
     own_sets: Vec<Constraints>,
     shared_set: Constraints,
     room: Room,
-    /// Samples to either side over which residuals are averaged, see [`Hypothesis::fit_averaged`].
+    /// Samples to either side over which residuals are averaged, see [`PooledModel::fit_averaged`].
     reach: usize,
 }
 
@@ -64,7 +64,7 @@ pub(crate) fn pick(own: &[Vec<f64>], members: &[usize]) -> Vec<Vec<f64>> {
     members.iter().map(|&member| own[member].clone()).collect()
 }
 
-impl<'a> Hypothesis<'a> {
+impl<'a> PooledModel<'a> {
     /// The study's base model with exactly these effects.
     pub fn new(cases: Cases<'a>, effects: &[Effect]) -> Result<Self, DiagnoseError> {
         let models = cases
@@ -358,7 +358,7 @@ pub(crate) fn first_parameter(effects: &[Effect], effect: Effect) -> usize {
             .sum::<usize>()
 }
 
-impl PooledResidual for Hypothesis<'_> {
+impl PooledResidual for PooledModel<'_> {
     fn member_count(&self) -> usize {
         self.cases.len()
     }

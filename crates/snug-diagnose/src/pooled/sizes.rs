@@ -1,4 +1,4 @@
-//! The sizes of a fitted hypothesis' effects, with intervals that survive coloured noise and a little misfit.
+//! The sizes of a fitted pooled model's effects, with intervals that survive coloured noise and a little misfit.
 //!
 //! Its sandwich is S⁻¹ (Σ g gᵀ) S⁻¹ times U/(U − p) over U clusters (CR1), whole tightenings or stretches of few, never below
 //! the S⁻¹ of unit noise; Student's t with U − 1. That of one tightening's samples is snug-identify's (M of known noise or of
@@ -14,7 +14,7 @@ use statrs::distribution::{ContinuousCDF, StudentsT};
 
 /// Every parameter of one of the model's effects.
 ///
-/// Shared: variance S⁻¹ of unit noise, or, where larger, S⁻¹ (Σ g gᵀ) S⁻¹ over units (sandwich), Student's t over units.
+/// Shared: variance S⁻¹ of unit noise, or, where larger, S⁻¹ (Σ g gᵀ) S⁻¹ over clusters (sandwich), Student's t over clusters.
 /// Of each tightening's own: mean, its interval over tightenings, and the spread between them.
 pub(crate) fn parameters(
     cases: &[FitTask<'_>],
@@ -72,9 +72,9 @@ pub(crate) fn described(spec: &ParameterSpec) -> EffectParameter {
     }
 }
 
-/// 97.5 % quantile of Student's t with one degree of freedom less than there are units.
-fn student(units: usize) -> f64 {
-    let freedom = units.saturating_sub(1).max(1) as f64;
+/// 97.5 % quantile of Student's t with one degree of freedom less than there are clusters.
+fn student(clusters: usize) -> f64 {
+    let freedom = clusters.saturating_sub(1).max(1) as f64;
     StudentsT::new(0.0, 1.0, freedom).map_or(1.96, |t| t.inverse_cdf(0.975))
 }
 
@@ -111,8 +111,8 @@ impl Fitted {
         let p = self.shared.len();
         let (curvature, gradients) = self.shared_evidence();
         let inverse = curvature.inverse()?;
-        let units = gradients.len() as f64;
-        let correction = units / (units - p as f64).max(1.0);
+        let clusters = gradients.len() as f64;
+        let correction = clusters / (clusters - p as f64).max(1.0);
         let floor = if self.is_weighted { 1.0 } else { 0.0 };
         let skipped = curvature.size() - p;
         Some(

@@ -1,7 +1,7 @@
 //! Effects fitted to many tightenings together, nothing judged: what a person sees who tries an effect by hand.
 
 use crate::data::cases::{Cases, Tally};
-use crate::data::clusters::Units;
+use crate::data::clusters::Clusters;
 use crate::error::DiagnoseError;
 use crate::pooled::fit::fit_effects;
 use snug_campaign::WorkDone;
@@ -34,7 +34,7 @@ pub struct Together {
 pub fn fit_together(cases: &[FitTask<'_>], effects: &[Effect]) -> Result<Together, DiagnoseError> {
     let tally = Tally::default();
     let counted = Cases::checked(cases, &tally, "there is none to fit")?;
-    let fitted = fit_effects(counted, effects, None, Units::of(cases))?;
+    let fitted = fit_effects(counted, effects, None, Clusters::of(cases))?;
     Ok(Together {
         shared: fitted.shared_named(),
         own: (0..cases.len())

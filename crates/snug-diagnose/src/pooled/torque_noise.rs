@@ -4,10 +4,10 @@
 //! simulated output is in every residual. A lag or a smoothing delay takes it out and fits better although nothing lags.
 //! Models are therefore compared by what their residual holds beyond it.
 
-use crate::data::clusters::Units;
+use crate::data::clusters::Clusters;
 use crate::data::simulation::Asked;
 use crate::data::thresholds::SIMULATED_TOGETHER;
-use crate::pooled::model::Hypothesis;
+use crate::pooled::model::PooledModel;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
@@ -15,21 +15,21 @@ use snug_least_squares::matrix::inner_product as dot;
 use snug_model::Input;
 use snug_signal::white_noise_level;
 
-/// Expected Σ r² of each unit of every member from torque noise alone, the models at `values`; from one drawn noise, the
+/// Expected Σ r² of each cluster of every member from torque noise alone, the models at `values`; from one drawn noise, the
 /// same for every model.
 pub(crate) fn passed_on(
-    hypothesis: &Hypothesis<'_>,
+    pooled: &PooledModel<'_>,
     values: &[Vec<f64>],
-    units: &Units,
+    clusters: &Clusters,
 ) -> Vec<f64> {
     let members = 0..values.len();
-    if !hypothesis.is_weighted() {
+    if !pooled.is_weighted() {
         // Without a known noise nothing is compared with it; and a signal of another rig need not be straight.
-        return vec![0.0; units.per_case * values.len()];
+        return vec![0.0; clusters.per_case * values.len()];
     }
     let mut passed_on = Vec::new();
     for some in members.collect::<Vec<_>>().chunks(SIMULATED_TOGETHER) {
-        let noisy: Vec<Input> = some.iter().map(|&m| noisy(hypothesis, m)).collect();
+        let noisy: Vec<Input> = some.iter().map(|&m| noisy(pooled, m)).collect();
         let with = some.iter().zip(&noisy).map(|(&member, input)| Asked {
             member,
             input,
@@ -37,18 +37,18 @@ pub(crate) fn passed_on(
         });
         let without = some.iter().map(|&member| Asked {
             member,
-            input: &hypothesis.cases[member].input,
+            input: &pooled.cases[member].input,
             values: &values[member],
         });
-        let mut change = hypothesis.outputs(&with.collect::<Vec<_>>());
-        let plain = hypothesis.outputs(&without.collect::<Vec<_>>());
+        let mut change = pooled.outputs(&with.collect::<Vec<_>>());
+        let plain = pooled.outputs(&without.collect::<Vec<_>>());
         for ((&member, change), plain) in some.iter().zip(&mut change).zip(plain) {
             change
                 .iter_mut()
                 .zip(plain)
                 .for_each(|(with, without)| *with -= without);
-            let weighted = hypothesis.weigh_signal(member, change);
-            let ranges = units.ranges(weighted.len());
+            let weighted = pooled.weigh_signal(member, change);
+            let ranges = clusters.ranges(weighted.len());
             passed_on.extend(ranges.map(|range| dot(&weighted[range.clone()], &weighted[range])));
         }
     }
@@ -56,8 +56,8 @@ pub(crate) fn passed_on(
 }
 
 /// A member's torque with as much noise again as it has.
-fn noisy(hypothesis: &Hypothesis<'_>, member: usize) -> Input {
-    let case = &hypothesis.cases[member];
+fn noisy(pooled: &PooledModel<'_>, member: usize) -> Input {
+    let case = &pooled.cases[member];
     let level = white_noise_level(&case.tightening.torque_nm);
     let mut random = ChaCha8Rng::seed_from_u64(0);
     random.set_stream(member as u64);
@@ -80,7 +80,7 @@ mod tests {
     /// What torque noise of this standard deviation makes of a tool that is held as tightening 0 is.
     fn passed_on_of(
         torque_noise_nm: f64,
-        units: Units,
+        clusters: Clusters,
         change: impl Fn(&mut FitTask<'_>),
     ) -> Vec<f64> {
         let mut case = exact(0, &[], &[]);
@@ -91,9 +91,9 @@ mod tests {
         }
         change(&mut case);
         let (cases, tally) = ([case], Tally::default());
-        let hypothesis = Hypothesis::new(Cases::new(&cases, &tally), &[]);
-        let hypothesis = hypothesis.expect("the base model is one");
-        passed_on(&hypothesis, &[hand(0).to_vec()], &units)
+        let pooled = PooledModel::new(Cases::new(&cases, &tally), &[]);
+        let pooled = pooled.expect("the base model is one");
+        passed_on(&pooled, &[hand(0).to_vec()], &clusters)
     }
 
     /// At single samples the acceleration is (T − l F) / (I_n + m l²), and F, of the velocity, hardly moves within one. The
@@ -110,14 +110,14 @@ mod tests {
     #[test]
     fn stretches_share_out_what_reaches_their_tightening() {
         let whole = passed_on_of(0.2, WHOLE, |_| {})[0];
-        let stretches = passed_on_of(0.2, Units { per_case: 5 }, |_| {});
+        let stretches = passed_on_of(0.2, Clusters { per_case: 5 }, |_| {});
         assert_eq!(stretches.len(), 5);
         close(stretches.iter().sum(), whole, 1e-12);
     }
 
     #[test]
     fn nothing_is_taken_off_where_the_noise_of_the_residual_is_not_known() {
-        let unknown = passed_on_of(0.2, Units { per_case: 5 }, |case| {
+        let unknown = passed_on_of(0.2, Clusters { per_case: 5 }, |case| {
             case.tightening.to_mut().noise = None
         });
         assert_eq!(unknown, [0.0; 5]);

@@ -1,4 +1,4 @@
-//! Family-wise p: how often the largest statistic of all candidates reaches as far when whole units flip their sign
+//! Family-wise p: how often the largest statistic of all candidates reaches as far when whole clusters flip their sign
 //! (Westfall and Young's max-T).
 
 use crate::ranking::sensitivity::Column;
@@ -6,7 +6,7 @@ use rand::{RngCore, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use snug_model::Effect;
 
-/// Sign flips of the units, the same for all columns.
+/// Sign flips of the clusters, the same for all columns.
 pub(crate) struct Family {
     /// Largest statistic over all columns of each flip, ascending.
     largest: Vec<f64>,
@@ -15,9 +15,9 @@ pub(crate) struct Family {
 
 impl Family {
     pub fn new(columns: &[Column], flips: usize, seed: u64) -> Self {
-        let units = columns.first().map_or(0, |column| column.scores.len());
+        let clusters = columns.first().map_or(0, |column| column.scores.len());
         let mut random = ChaCha8Rng::seed_from_u64(seed);
-        let mut signs = vec![1.0; units];
+        let mut signs = vec![1.0; clusters];
         let mut largest = vec![0.0_f64; flips];
         let shared: Vec<&Column> = columns.iter().filter(|column| !column.is_own()).collect();
         for largest in &mut largest {
@@ -71,9 +71,9 @@ mod tests {
         EFFECTS
             .iter()
             .map(|&effect| {
-                let scores = common.iter().enumerate().map(|(unit, common)| {
+                let scores = common.iter().enumerate().map(|(cluster, common)| {
                     let own: f64 = StandardNormal.sample(random);
-                    let loud = if unit % 6 == 0 { 8.0 } else { 1.0 };
+                    let loud = if cluster % 6 == 0 { 8.0 } else { 1.0 };
                     loud * (0.8 * common + 0.6 * own + shift)
                 });
                 Column::with_scores(effect, scores.collect())
@@ -81,7 +81,7 @@ mod tests {
             .collect()
     }
 
-    /// Without any effect, at most the level of campaigns has a candidate at or below it, however loud single units are.
+    /// Without any effect, at most the level of campaigns has a candidate at or below it, however loud single clusters are.
     #[test]
     fn false_alarms_stay_at_the_level() {
         let mut random = ChaCha8Rng::seed_from_u64(5);

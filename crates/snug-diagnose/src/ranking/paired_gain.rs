@@ -1,10 +1,10 @@
-//! How clearly a sum over units differs from zero, when a few loud units may carry most of it.
+//! How clearly a sum over clusters differs from zero, when a few loud clusters may carry most of it.
 
 use crate::ranking::thresholds::CHANCE;
 use snug_least_squares::matrix::inner_product as dot;
 use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
 
-/// Standard error of Σ x over independent units.
+/// Standard error of Σ x over independent clusters.
 pub(crate) fn spread_of_sum(values: &[f64]) -> f64 {
     let n = values.len() as f64;
     if n < 2.0 {
@@ -16,7 +16,7 @@ pub(crate) fn spread_of_sum(values: &[f64]) -> f64 {
 }
 
 /// Standard deviations by which Σ x exceeds 0: the larger of the plain one and that of x bounded at `CHANCE` times
-/// `scale`, which one loud unit cannot hide. Vuong's statistic where x are differences between two models.
+/// `scale`, which one loud cluster cannot hide. Vuong's statistic where x are differences between two models.
 pub(crate) fn clearness(values: &[f64], scale: f64) -> f64 {
     let (plain, bounded) = statistics(values, scale);
     plain.max(bounded)
@@ -74,7 +74,7 @@ mod tests {
         assert_eq!(
             spread_of_sum(&[7.0]),
             f64::INFINITY,
-            "one unit has no scatter"
+            "one cluster has no scatter"
         );
         assert_eq!(spread_of_sum(&[]), f64::INFINITY);
     }
@@ -121,7 +121,7 @@ mod tests {
         values[0] = 1e5;
         assert!(
             spread_of_sum(&values) > 9e4,
-            "the plain statistic sees one unit only"
+            "the plain statistic sees one cluster only"
         );
         assert!(clearness(&values, 1.0) > 4.0);
     }
@@ -143,7 +143,7 @@ mod tests {
         assert!(clearness(&values, 1.0) < 1.5);
     }
 
-    /// 22 of 24 units gain much: a chance of 1.8e-5 for fair coins (300 / 2²⁴).
+    /// 22 of 24 clusters gain much: a chance of 1.8e-5 for fair coins (300 / 2²⁴).
     #[test]
     fn the_chance_of_what_nearly_all_agree_on_is_that_of_coins() {
         let mut values: Vec<f64> = (0..24).map(|i| 1e3 * f64::from(i * i)).collect();

@@ -1,11 +1,11 @@
 //! Every candidate scored, refitted and held out; best first.
 
 use crate::data::cases::Cases;
-use crate::data::clusters::Units;
+use crate::data::clusters::Clusters;
 use crate::error::DiagnoseError;
 use crate::pooled::fit::fit_effects;
 use crate::pooled::fitted::Fitted;
-use crate::pooled::model::Hypothesis;
+use crate::pooled::model::PooledModel;
 use crate::ranking::max_t::Family;
 use crate::ranking::paired_gain::{chance, clearness, spread_of_sum};
 use crate::ranking::refit::refit;
@@ -25,7 +25,7 @@ pub(crate) struct Candidate {
     pub score: f64,
     pub p_family: f64,
     pub fitted: Fitted,
-    /// Decrease of the squared residual of each unit with sizes that were fixed without it.
+    /// Decrease of the squared residual of each cluster with sizes that were fixed without it.
     pub gains: Vec<f64>,
 }
 
@@ -35,15 +35,15 @@ impl Candidate {
         self.gains.iter().sum()
     }
 
-    /// Follows the fit to its end; `heldout` is what the units leave without the effect.
+    /// Follows the fit to its end; `heldout` is what the clusters leave without the effect.
     fn settle(
         &mut self,
         cases: Cases<'_>,
-        units: Units,
+        clusters: Clusters,
         heldout: &[f64],
     ) -> Result<(), DiagnoseError> {
         let from = Some(&self.fitted);
-        self.fitted = fit_effects(cases, &self.fitted.effects, from, units)?;
+        self.fitted = fit_effects(cases, &self.fitted.effects, from, clusters)?;
         self.gains = gains(heldout, &self.fitted);
         Ok(())
     }
@@ -58,19 +58,19 @@ impl Candidate {
         clearness(&self.beyond(other), self.fitted.scale())
     }
 
-    /// By how much it explains more than `other` of each unit.
+    /// By how much it explains more than `other` of each cluster.
     pub fn beyond(&self, other: &Self) -> Vec<f64> {
         let pairs = self.gains.iter().zip(&other.gains);
         pairs.map(|(own, other)| own - other).collect()
     }
 
-    /// Chance of so clear a gain in held-out units, among `family` candidates (Bonferroni): for effects that push
+    /// Chance of so clear a gain in held-out clusters, among `family` candidates (Bonferroni): for effects that push
     /// elsewhere once the model follows them, so that no score against the model without them sees them.
     fn p_of_gain(&self, family: usize) -> f64 {
         (chance(&self.gains, self.fitted.scale()) * family as f64).min(1.0)
     }
 
-    /// Standard error over units of the share of `misfit` (per unit) that it removes: that of the ratio of two sums.
+    /// Standard error over clusters of the share of `misfit` (per cluster) that it removes: that of the ratio of two sums.
     pub fn share_error(&self, misfit: &[f64]) -> f64 {
         let whole: f64 = misfit.iter().sum();
         let share = self.gain() / whole;
@@ -97,18 +97,18 @@ pub(crate) fn rank(
     cases: Cases<'_>,
     current: &Fitted,
     candidates: &[Effect],
-    units: Units,
+    clusters: Clusters,
     settings: &DiagnoseSettings,
     control_campaigns: usize,
     watch: &Watch<'_>,
 ) -> Result<Ranking, DiagnoseError> {
     cases.tally().ranking();
-    let hypothesis = Hypothesis::new(cases, &current.effects)?;
+    let pooled = PooledModel::new(cases, &current.effects)?;
     let control = Control {
         campaigns: control_campaigns,
         seed: settings.seed,
     };
-    let scorer = Scorer::new(&hypothesis, current, units, control);
+    let scorer = Scorer::new(&pooled, current, clusters, control);
     let scored = scorer.score(candidates)?;
     let control = negative_control(&scorer, &scored, candidates, settings);
     let columns = scored.columns;
@@ -119,7 +119,7 @@ pub(crate) fn rank(
         .par_iter()
         .map(|&effect| {
             watch.go_on()?;
-            let fitted = refit(cases, current, effect, &columns, units, settings);
+            let fitted = refit(cases, current, effect, &columns, clusters, settings);
             let Some(fitted) = possible(fitted)? else {
                 return Ok(None);
             };
@@ -140,9 +140,9 @@ pub(crate) fn rank(
     let impossible = impossible.map(|(&effect, _)| effect).collect();
     let mut candidates: Vec<Candidate> = refitted.into_iter().flatten().collect();
     sort(&mut candidates);
-    if units.are_whole() && !current.is_at_floor() {
+    if clusters.are_whole() && !current.is_at_floor() {
         let best = candidates.par_iter_mut().take(BEST);
-        best.try_for_each(|candidate| candidate.settle(cases, units, &heldout))?;
+        best.try_for_each(|candidate| candidate.settle(cases, clusters, &heldout))?;
     }
     let family_size = candidates.len() * STRICTER;
     for candidate in &mut candidates {
@@ -189,7 +189,7 @@ fn possible(refitted: Result<Fitted, DiagnoseError>) -> Result<Option<Fitted>, D
     }
 }
 
-/// What held-out units lose in squared residual.
+/// What held-out clusters lose in squared residual.
 pub(crate) fn gains(heldout: &[f64], fitted: &Fitted) -> Vec<f64> {
     let with = fitted.heldout_beyond_torque_noise();
     heldout

@@ -1,13 +1,13 @@
 //! A candidate's refit: from its most promising starts, found on a few tightenings, to all of them.
 
 use crate::data::cases::Cases;
-use crate::data::clusters::Units;
+use crate::data::clusters::Clusters;
 use crate::error::DiagnoseError;
 use crate::library::is_unlisted;
 use crate::pooled::fit::fit_effects;
 use crate::pooled::fitted::Fitted;
 use crate::pooled::long_record;
-use crate::pooled::model::{Hypothesis, Start, first_parameter, pick};
+use crate::pooled::model::{PooledModel, Start, first_parameter, pick};
 use crate::ranking::sensitivity::Column;
 use crate::ranking::thresholds::{
     CANDIDATE, FEW, FREELY, LED, LED_REACH, LEFT_BEHIND, LITTLE, MOST_ROUNDS, ROUGH_REFIT,
@@ -24,7 +24,7 @@ pub(crate) fn refit(
     current: &Fitted,
     effect: Effect,
     columns: &[Column],
-    units: Units,
+    clusters: Clusters,
     settings: &DiagnoseSettings,
 ) -> Result<Fitted, DiagnoseError> {
     let mut effects = current.effects.clone();
@@ -36,13 +36,13 @@ pub(crate) fn refit(
         settings.starts
     };
     let starts = promising(effect, columns, most);
-    let mut hypothesis = Hypothesis::new(cases, &effects)?;
+    let mut pooled = PooledModel::new(cases, &effects)?;
     let starts: Vec<Start> = (starts.iter())
-        .map(|values| with_effect(&hypothesis, current, effect, values))
+        .map(|values| with_effect(&pooled, current, effect, values))
         .collect();
     let end = match starts.as_slice() {
-        [] => return fit_effects(cases, &effects, Some(current), units),
-        starts if !units.are_whole() => long_record::best_of(&mut hypothesis, starts, &CANDIDATE)?,
+        [] => return fit_effects(cases, &effects, Some(current), clusters),
+        starts if !clusters.are_whole() => long_record::best_of(&mut pooled, starts, &CANDIDATE)?,
         // Beside an effect that lets go, what another one changes moves every instant of contact.
         [only]
             if !current.is_at_floor()
@@ -51,17 +51,17 @@ pub(crate) fn refit(
                     .iter()
                     .any(|one| one.has_unilateral_contact()) =>
         {
-            let end = from_afar(&mut hypothesis, only, &CANDIDATE)?;
-            catch_up(&mut hypothesis, current, end)?
+            let end = from_afar(&mut pooled, only, &CANDIDATE)?;
+            catch_up(&mut pooled, current, end)?
         }
-        [only] => hypothesis.fit(only, &CANDIDATE)?,
+        [only] => pooled.fit(only, &CANDIDATE)?,
         several => {
-            let start = rough(&hypothesis, current, several)?;
-            let end = from_afar(&mut hypothesis, &start, &CANDIDATE)?;
-            catch_up(&mut hypothesis, current, end)?
+            let start = rough(&pooled, current, several)?;
+            let end = from_afar(&mut pooled, &start, &CANDIDATE)?;
+            catch_up(&mut pooled, current, end)?
         }
     };
-    Ok(Fitted::new(&hypothesis, end, &units))
+    Ok(Fitted::new(&pooled, end, &clusters))
 }
 
 /// At most `most` different starts of an effect, those whose columns promise most.
@@ -81,12 +81,12 @@ fn promising(effect: Effect, columns: &[Column], most: usize) -> Vec<&[f64]> {
 /// Fits what is seen from afar, then as it is; by way of ever nearer where the acceleration jumps as an effect lets go. What is
 /// only a place to go on from is fitted roughly.
 fn from_afar(
-    hypothesis: &mut Hypothesis<'_>,
+    pooled: &mut PooledModel<'_>,
     start: &Start,
     settings: &PooledSettings,
 ) -> Result<PooledFit, DiagnoseError> {
     let mut start = start.clone();
-    let jumps = hypothesis
+    let jumps = pooled
         .effects
         .iter()
         .any(|effect| effect.has_unilateral_contact());
@@ -96,21 +96,21 @@ fn from_afar(
         &HALF_WIDTHS[..1]
     };
     for &reach in reaches {
-        start = Start::at(&hypothesis.fit_averaged(&start, &ROUGH_REFIT, reach)?);
+        start = Start::at(&pooled.fit_averaged(&start, &ROUGH_REFIT, reach)?);
     }
-    hypothesis.fit(&start, settings)
+    pooled.fit(&start, settings)
 }
 
 /// The start that leads lowest on a few tightenings, as seen from afar: their shared sizes, and every tightening's own
 /// parameters corrected by what the few had to correct theirs. Where only noise is left to find, nothing is led astray.
 fn rough(
-    hypothesis: &Hypothesis<'_>,
+    pooled: &PooledModel<'_>,
     current: &Fitted,
     starts: &[Start],
 ) -> Result<Start, DiagnoseError> {
     let few = current.spread(FEW);
-    let some = hypothesis.cases.some(&few);
-    let mut there = Hypothesis::new(hypothesis.cases.others(&some), &hypothesis.effects)?;
+    let some = pooled.cases.some(&few);
+    let mut there = PooledModel::new(pooled.cases.others(&some), &pooled.effects)?;
     let of_few: Vec<Start> = starts.iter().map(|start| start.of_members(&few)).collect();
     let led = match current.is_at_floor() {
         true => None,
@@ -122,7 +122,7 @@ fn rough(
     });
     let lowest = ends.min_by(|a, b| a.cost().total_cmp(&b.cost()));
     let end = lowest.ok_or(SolveError::NoStart)?;
-    let factors = astray(hypothesis, &end.own, &of_few[0].own);
+    let factors = astray(pooled, &end.own, &of_few[0].own);
     let mut start = starts[0].clone();
     start.own.iter_mut().for_each(|own| times(own, &factors));
     start.shared = end.shared;
@@ -135,15 +135,14 @@ fn rough(
 /// valley. Where the simulation takes up the measured motion every few milliseconds, no error grows beyond the next
 /// restart, and most starts lead to the same place.
 fn led_along_motion(
-    hypothesis: &Hypothesis<'_>,
+    pooled: &PooledModel<'_>,
     starts: &[Start],
 ) -> Result<Option<Start>, DiagnoseError> {
-    let led: Option<Vec<FitTask<'_>>> =
-        hypothesis.cases.iter().map(FitTask::along_motion).collect();
+    let led: Option<Vec<FitTask<'_>>> = pooled.cases.iter().map(FitTask::along_motion).collect();
     let Some(led) = led else {
         return Ok(None);
     };
-    let mut there = Hypothesis::new(hypothesis.cases.others(&led), &hypothesis.effects)?;
+    let mut there = PooledModel::new(pooled.cases.others(&led), &pooled.effects)?;
     let ends = starts
         .iter()
         .filter_map(|start| there.fit_averaged(start, &LED, LED_REACH).ok());
@@ -154,23 +153,23 @@ fn led_along_motion(
 /// The tightenings that were left behind, each fitted by itself with what all share where the others put it and, where that
 /// is lower, all on from there; again while others are left behind then.
 fn catch_up(
-    hypothesis: &mut Hypothesis<'_>,
+    pooled: &mut PooledModel<'_>,
     current: &Fitted,
     mut end: PooledFit,
 ) -> Result<PooledFit, DiagnoseError> {
-    let begun = current.start(hypothesis).own;
+    let begun = current.start(pooled).own;
     for _ in 0..MOST_ROUNDS {
-        let (behind, ahead) = left_behind(hypothesis, current, &end);
+        let (behind, ahead) = left_behind(pooled, current, &end);
         let little = LITTLE * end.cost();
         let (with, without) = (pick(&end.own, &ahead), pick(&begun, &ahead));
-        let factors = astray(hypothesis, &with, &without);
+        let factors = astray(pooled, &with, &without);
         let mut start = Start::at(&end);
         let mut lowered = 0.0;
         for some in behind.chunks(SIDE_BY_SIDE) {
             let before = lowered;
             let mut again = pick(&begun, some);
             again.iter_mut().for_each(|own| times(own, &factors));
-            let alone = hypothesis.fit_alone(some, &again, &end.shared);
+            let alone = pooled.fit_alone(some, &again, &end.shared);
             for (&member, found) in some.iter().zip(alone) {
                 if let Some((own, cost)) = found
                     && cost < end.profiles[member].cost
@@ -187,20 +186,20 @@ fn catch_up(
         if lowered <= little {
             return Ok(end);
         }
-        end = hypothesis.fit(&start, &CANDIDATE)?;
+        end = pooled.fit(&start, &CANDIDATE)?;
     }
     Ok(end)
 }
 
 /// The tightenings that were left behind, which keep more of their error than the others and have more, and the others.
 fn left_behind(
-    hypothesis: &Hypothesis<'_>,
+    pooled: &PooledModel<'_>,
     current: &Fitted,
     end: &PooledFit,
 ) -> (Vec<usize>, Vec<usize>) {
     let squares = || end.profiles.iter().map(|one| 2.0 * one.cost).enumerate();
     let errors: Vec<f64> = squares()
-        .map(|(member, squares)| (squares / hypothesis.residual_count(member) as f64).sqrt())
+        .map(|(member, squares)| (squares / pooled.residual_count(member) as f64).sqrt())
         .collect();
     let kept: Vec<f64> = squares()
         .map(|(member, squares)| (squares / current.blocks[member].squares).sqrt())
@@ -211,8 +210,8 @@ fn left_behind(
 }
 
 /// By how much m, c and k are larger in `with` than in `without`, the median over tightenings; 1 for other parameters.
-fn astray(hypothesis: &Hypothesis<'_>, with: &[Vec<f64>], without: &[Vec<f64>]) -> Vec<f64> {
-    let columns = hypothesis.own.iter().enumerate();
+fn astray(pooled: &PooledModel<'_>, with: &[Vec<f64>], without: &[Vec<f64>]) -> Vec<f64> {
+    let columns = pooled.own.iter().enumerate();
     columns
         .map(|(column, &index)| match index < BASE_PARAMETERS.len() {
             true => {
@@ -232,13 +231,13 @@ fn times(own: &mut [f64], factors: &[f64]) {
 
 /// The current fit with one effect's parameters at `values`.
 fn with_effect(
-    hypothesis: &Hypothesis<'_>,
+    pooled: &PooledModel<'_>,
     current: &Fitted,
     effect: Effect,
     values: &[f64],
 ) -> Start {
-    let mut start = current.start(hypothesis);
-    let first = first_parameter(&hypothesis.effects, effect);
+    let mut start = current.start(pooled);
+    let first = first_parameter(&pooled.effects, effect);
     for (offset, (&value, spec)) in values
         .iter()
         .zip(effect.description().parameters)
@@ -247,12 +246,12 @@ fn with_effect(
         let index = first + offset;
         match spec.scope {
             Scope::Shared => {
-                if let Some(column) = hypothesis.shared.iter().position(|&i| i == index) {
+                if let Some(column) = pooled.shared.iter().position(|&i| i == index) {
                     start.shared[column] = value;
                 }
             }
             Scope::PerTightening => {
-                if let Some(column) = hypothesis.own.iter().position(|&i| i == index) {
+                if let Some(column) = pooled.own.iter().position(|&i| i == index) {
                     start.own.iter_mut().for_each(|own| own[column] = value);
                 }
             }

@@ -3,12 +3,12 @@
 //! With J_i the sensitivities of the fitted model, z_ij the effect's signature and everything weighted,
 //! z̃ = z − J (JᵀJ)⁻¹ Jᵀ z, s_ij = z̃ᵀ r_i, I_ij = z̃ᵀ z̃; predicted size Σ s / Σ I.
 
-use crate::data::clusters::Units;
+use crate::data::clusters::Clusters;
 use crate::data::simulation::Asked;
 use crate::data::thresholds::SIMULATED_TOGETHER;
 use crate::error::DiagnoseError;
 use crate::pooled::fitted::Fitted;
-use crate::pooled::model::{Hypothesis, Room};
+use crate::pooled::model::{PooledModel, Room};
 use crate::ranking::nuisance::{Nuisance, coordinates};
 use crate::ranking::sensitivity::{Column, directions};
 use crate::ranking::thresholds::{INSTANT_REACH, NOISE_REACH};
@@ -23,9 +23,9 @@ use snug_model::{Effect, Input};
 
 /// The fitted model against which effects are scored.
 pub(crate) struct Scorer<'a, 'h> {
-    hypothesis: &'h Hypothesis<'a>,
+    pooled: &'h PooledModel<'a>,
     fitted: &'h Fitted,
-    units: Units,
+    clusters: Clusters,
     /// Campaigns of nothing but noise that are scored beside the measured one.
     control: Control,
 }
@@ -46,7 +46,7 @@ pub(crate) struct Scored {
 
 /// What one tightening adds to every column.
 struct Contribution {
-    /// Column by column: s of each unit.
+    /// Column by column: s of each cluster.
     scores: Vec<Vec<f64>>,
     variances: Vec<Vec<f64>>,
     information: Vec<f64>,
@@ -57,20 +57,20 @@ struct Contribution {
 
 impl<'a, 'h> Scorer<'a, 'h> {
     pub fn new(
-        hypothesis: &'h Hypothesis<'a>,
+        pooled: &'h PooledModel<'a>,
         fitted: &'h Fitted,
-        units: Units,
+        clusters: Clusters,
         control: Control,
     ) -> Self {
-        let campaigns = if units.are_whole() && fitted.is_weighted {
+        let campaigns = if clusters.are_whole() && fitted.is_weighted {
             control.campaigns
         } else {
             0
         };
         Self {
-            hypothesis,
+            pooled,
             fitted,
-            units,
+            clusters,
             control: Control {
                 campaigns,
                 ..control
@@ -80,8 +80,8 @@ impl<'a, 'h> Scorer<'a, 'h> {
 
     /// All columns of `effects`.
     pub fn score(&self, effects: &[Effect]) -> Result<Scored, DiagnoseError> {
-        let whole = self.units.are_whole();
-        let model = &self.hypothesis.cases[0].model;
+        let whole = self.clusters.are_whole();
+        let model = &self.pooled.cases[0].model;
         let mut columns: Vec<Column> = effects
             .iter()
             .flat_map(|&effect| directions(effect, &model.ranges(effect), whole))
@@ -90,9 +90,9 @@ impl<'a, 'h> Scorer<'a, 'h> {
         for &effect in effects {
             let mut with = self.fitted.effects.clone();
             with.push(effect);
-            others.push((effect, Hypothesis::new(self.hypothesis.cases, &with)?));
+            others.push((effect, PooledModel::new(self.pooled.cases, &with)?));
         }
-        let members: Vec<usize> = (0..self.hypothesis.cases.len()).collect();
+        let members: Vec<usize> = (0..self.pooled.cases.len()).collect();
         let contributions: Vec<Contribution> = (members.chunks(SIMULATED_TOGETHER))
             .flat_map(|some| self.contributions(some, &columns, &others))
             .collect();
@@ -140,14 +140,14 @@ impl<'a, 'h> Scorer<'a, 'h> {
         &self,
         members: &[usize],
         columns: &[Column],
-        others: &[(Effect, Hypothesis<'_>)],
+        others: &[(Effect, PooledModel<'_>)],
     ) -> Vec<Contribution> {
-        let hypothesis = self.hypothesis;
+        let pooled = self.pooled;
         // What an effect does is worked out from a torque without the noise that the residual has from it: a delay or a
         // lag would otherwise be seen to remove that noise.
         let smoothed: Vec<(Input, Vec<f64>)> = (members.iter())
             .map(|&member| {
-                let input = hypothesis.cases[member].input.smoothed(NOISE_REACH);
+                let input = pooled.cases[member].input.smoothed(NOISE_REACH);
                 (input, self.values(member))
             })
             .collect();
@@ -158,7 +158,7 @@ impl<'a, 'h> Scorer<'a, 'h> {
                 values,
             })
             .collect();
-        let plain = hypothesis.outputs(&asked);
+        let plain = pooled.outputs(&asked);
         let of_columns: Vec<Vec<Vec<f64>>> = (columns.par_iter())
             .map(|column| {
                 let other = others.iter().find(|(effect, _)| *effect == column.effect);
@@ -183,22 +183,22 @@ impl<'a, 'h> Scorer<'a, 'h> {
     /// All parameters of one tightening's model as fitted.
     fn values(&self, member: usize) -> Vec<f64> {
         let fitted = self.fitted;
-        self.hypothesis
+        self.pooled
             .values(member, &fitted.own[member], &fitted.shared)
     }
 
     /// What one tightening adds, given every column's signature in it.
     fn contribution(&self, member: usize, of_columns: &[&[f64]]) -> Contribution {
-        let hypothesis = self.hypothesis;
+        let pooled = self.pooled;
         // Stretches of one tightening share everything with each other.
-        let own_count = match self.units.are_whole() {
-            true => hypothesis.own.len(),
-            false => hypothesis.own.len() + hypothesis.shared.len(),
+        let own_count = match self.clusters.are_whole() {
+            true => pooled.own.len(),
+            false => pooled.own.len() + pooled.shared.len(),
         };
-        let order = [hypothesis.own.as_slice(), &hypothesis.shared].concat();
+        let order = [pooled.own.as_slice(), &pooled.shared].concat();
         let values = self.values(member);
         let mut room = Room::default();
-        let (residual, jacobian) = hypothesis.weighted(member, &values, &order, &mut room);
+        let (residual, jacobian) = pooled.weighted(member, &values, &order, &mut room);
         let count = residual.len();
         let nuisance = Nuisance::new(jacobian, count, own_count);
         // Sensitivities to the shared parameters, as far as the own ones cannot imitate them.
@@ -217,11 +217,11 @@ impl<'a, 'h> Scorer<'a, 'h> {
         let mut signatures: Vec<Vec<f64>> = Vec::new();
         let mut along_bias = Vec::new();
         for signature in of_columns {
-            let mut z = hypothesis.weigh_signal(member, signature);
+            let mut z = pooled.weigh_signal(member, signature);
             nuisance.project(&mut z);
             let (mut scores, mut variances) = (Vec::new(), Vec::new());
             let mut information = 0.0;
-            for range in self.units.ranges(count) {
+            for range in self.clusters.ranges(count) {
                 let (z, r) = (&z[range.clone()], &residual[range.clone()]);
                 let along = bias
                     .as_ref()
@@ -273,20 +273,20 @@ impl<'a, 'h> Scorer<'a, 'h> {
 
     /// What one standard error of the bias taken out in the quiet part does to the weighted output.
     fn bias_signature(&self, member: usize, nuisance: &Nuisance) -> Option<Vec<f64>> {
-        let case = &self.hypothesis.cases[member];
+        let case = &self.pooled.cases[member];
         let bias = case.tightening.correction_of(Quantity::Acceleration)?;
         if case.quantity() != Quantity::Acceleration || bias.standard_error <= 0.0 {
             return None;
         }
         let constant = vec![bias.standard_error; case.measured().len()];
-        let mut weighted = self.hypothesis.weigh_signal(member, &constant);
+        let mut weighted = self.pooled.weigh_signal(member, &constant);
         nuisance.project(&mut weighted);
         Some(weighted)
     }
 
     /// Takes out of every column what the shared parameters of the model can imitate over all tightenings together.
     fn project_shared(&self, columns: &mut [Column], gradients: &[&[f64]]) {
-        if !self.fitted.shared.is_empty() && self.units.are_whole() {
+        if !self.fitted.shared.is_empty() && self.clusters.are_whole() {
             let curvature = self.fitted.shared_curvature();
             for column in columns.iter_mut() {
                 let Some(b) = curvature.solve_scaled(&column.cross) else {

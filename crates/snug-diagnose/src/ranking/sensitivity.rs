@@ -1,7 +1,7 @@
-//! One direction in which an effect could push, and what the units say of it.
+//! One direction in which an effect could push, and what the clusters say of it.
 
 use crate::data::simulation::Asked;
-use crate::pooled::model::Hypothesis;
+use crate::pooled::model::PooledModel;
 use snug_least_squares::matrix::inner_product as dot;
 use snug_model::{Effect, Law, PlausibleRange, Scope};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
@@ -20,13 +20,13 @@ pub(crate) struct Column {
     one_sided: bool,
     /// Every tightening has its own size.
     own: bool,
-    /// s of each unit.
+    /// s of each cluster.
     pub scores: Vec<f64>,
     /// s over its noise, bounded: z / √(1 + (z/2)²).
     bounded: Vec<f64>,
     /// √Σ u² of the scores and of the bounded ones.
     lengths: [f64; 2],
-    /// Variance of s of each unit under noise alone.
+    /// Variance of s of each cluster under noise alone.
     pub variances: Vec<f64>,
     /// Σ I.
     pub information: f64,
@@ -34,13 +34,13 @@ pub(crate) struct Column {
 }
 
 impl Column {
-    /// T = Σ u / √Σ u² over units, the larger of two: u = s, and u = s in units of its noise, bounded, so that a few
+    /// T = Σ u / √Σ u² over clusters, the larger of two: u = s, and u = s in units of its noise, bounded, so that a few
     /// loud tightenings do not drown what all agree on. What is against a one-sided effect's sign counts as nothing.
     pub fn statistic(&self) -> f64 {
         self.flipped_statistic(&vec![1.0; self.scores.len()])
     }
 
-    /// The same with the signs of whole units flipped.
+    /// The same with the signs of whole clusters flipped.
     pub fn flipped_statistic(&self, signs: &[f64]) -> f64 {
         let ratio = |u: &[f64], length: f64| {
             if length > 0.0 {
@@ -77,7 +77,7 @@ impl Column {
     /// outputs without it.
     pub fn signatures(
         &self,
-        with: &Hypothesis<'_>,
+        with: &PooledModel<'_>,
         without: &[Asked<'_>],
         plain: &[Vec<f64>],
     ) -> Vec<Vec<f64>> {
@@ -116,8 +116,8 @@ impl Column {
 
     /// Works out what follows from the scores and their variances.
     pub fn bound(&mut self) {
-        let units = self.scores.iter().zip(&self.variances);
-        self.bounded = units
+        let clusters = self.scores.iter().zip(&self.variances);
+        self.bounded = clusters
             .map(|(s, v)| match *v {
                 v if v > 0.0 => s / (v + 0.25 * s * s).sqrt(),
                 _ => 0.0,

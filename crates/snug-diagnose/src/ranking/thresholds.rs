@@ -5,7 +5,7 @@ use snug_least_squares::PooledSettings;
 
 /// Squared share of a signal below which what is new in it is rounding \[–\]: 10⁻¹⁰ of its length. Chosen.
 pub(crate) const ROUNDING: f64 = 1e-20;
-/// Squared residuals, in units of the noise's variance, below which a unit's difference is within chance. Chosen.
+/// Squared residuals, in units of the noise's variance, below which a cluster's difference is within chance. Chosen.
 pub(crate) const CHANCE: f64 = 4.0;
 /// How many times stricter the chance of a gain is judged, so that the score remains what decides as a rule. Chosen.
 pub(crate) const STRICTER: usize = 10;

@@ -1,50 +1,54 @@
-//! After the climb: whether each added term is still needed, and what would do in its place.
+//! After the selection: whether each added term is still needed, and what would do in its place.
 
 use crate::error::DiagnoseError;
 use crate::pooled::fit::fit_effects;
 use crate::pooled::fitted::Fitted;
 use crate::ranking::paired_gain::clearness;
 use crate::ranking::rank::gains;
-use crate::selection::path::{Attempt, Climb, leaves_more};
-use crate::selection::search::Search;
+use crate::selection::model_selection::ModelSelection;
+use crate::selection::path::{Attempt, SelectionPath, leaves_more};
 use crate::selection::thresholds::EQUAL;
 use snug_model::Effect;
 
 /// Tries to do without each added term once.
-pub(crate) fn try_removals(search: &Search<'_>, climb: &mut Climb) -> Result<(), DiagnoseError> {
-    if climb.additions.len() < 2 {
+pub(crate) fn try_removals(
+    selection: &ModelSelection<'_>,
+    path: &mut SelectionPath,
+) -> Result<(), DiagnoseError> {
+    if path.additions.len() < 2 {
         return Ok(());
     }
-    let added: Vec<Effect> = climb.additions.iter().map(|one| one.effect).collect();
+    let added: Vec<Effect> = path.additions.iter().map(|one| one.effect).collect();
     for effect in added {
-        let full = climb.last().clone();
-        search
+        let full = path.last().clone();
+        selection
             .watch
             .begin(&format!("trying to do without {}", effect.name()))?;
         let mut effects = full.effects.clone();
         effects.retain(|known| *known != effect);
         // A model that cannot even be run without it needs it.
-        let Ok(without) = fit_effects(search.cases, &effects, Some(&full), search.units) else {
+        let Ok(without) = fit_effects(selection.cases, &effects, Some(&full), selection.clusters)
+        else {
             continue;
         };
         let losses = gains(&without.heldout_beyond_torque_noise(), &full);
         let loss: f64 = losses.iter().sum();
         let growth = loss / full.squares();
-        let hardly_matters = growth < without.smallest_gain(search.settings);
+        let hardly_matters = growth < without.smallest_gain(selection.settings);
         let removed = hardly_matters || clearness(&losses, full.scale()) < 1.0;
-        climb.attempts.push(Attempt {
+        path.attempts.push(Attempt {
             effect,
             removed,
             loss,
             growth,
         });
         if removed {
-            climb.additions.retain(|one| one.effect != effect);
-            climb.stand_on(without);
+            path.additions.retain(|one| one.effect != effect);
+            path.stand_on(without);
         }
     }
-    if climb.attempts.iter().any(|attempt| attempt.removed) {
-        climb.ranking = search.rank(climb.last(), search.settings.control_campaigns)?;
+    if path.attempts.iter().any(|attempt| attempt.removed) {
+        path.ranking = selection.rank(path.last(), selection.settings.control_campaigns)?;
     }
     Ok(())
 }
@@ -53,24 +57,24 @@ pub(crate) fn try_removals(search: &Search<'_>, climb: &mut Climb) -> Result<(),
 ///
 /// While another effect was missing, many seemed to explain equally much.
 pub(crate) fn look_at_twins_again(
-    search: &Search<'_>,
-    climb: &mut Climb,
+    selection: &ModelSelection<'_>,
+    path: &mut SelectionPath,
 ) -> Result<(), DiagnoseError> {
-    if climb.additions.len() < 2 {
+    if path.additions.len() < 2 {
         return Ok(());
     }
-    let full = climb.last().clone();
+    let full = path.last().clone();
     let heldout = full.heldout_beyond_torque_noise();
-    for addition in &mut climb.additions {
+    for addition in &mut path.additions {
         addition.twins.retain(|twin| !full.effects.contains(twin));
         let mut kept = Vec::new();
         for &twin in &addition.twins {
-            search.watch.begin(&format!(
+            selection.watch.begin(&format!(
                 "trying {} in place of {}",
                 twin.name(),
                 addition.effect.name()
             ))?;
-            if does_as_well(search, &full, &heldout, addition.effect, twin)? {
+            if does_as_well(selection, &full, &heldout, addition.effect, twin)? {
                 kept.push(twin);
             }
         }
@@ -80,7 +84,7 @@ pub(crate) fn look_at_twins_again(
 }
 
 fn does_as_well(
-    search: &Search<'_>,
+    selection: &ModelSelection<'_>,
     full: &Fitted,
     heldout: &[f64],
     effect: Effect,
@@ -88,14 +92,12 @@ fn does_as_well(
 ) -> Result<bool, DiagnoseError> {
     let swap = |known: &Effect| if *known == effect { twin } else { *known };
     let effects: Vec<Effect> = full.effects.iter().map(swap).collect();
-    let Ok(swapped) = fit_effects(search.cases, &effects, Some(full), search.units) else {
+    let Ok(swapped) = fit_effects(selection.cases, &effects, Some(full), selection.clusters) else {
         return Ok(false);
     };
     let lost: Vec<f64> = gains(heldout, &swapped).iter().map(|gain| -gain).collect();
-    Ok(
-        clearness(&lost, full.scale()) < EQUAL
-            && !leaves_more(&swapped, full, &lost, &search.units),
-    )
+    Ok(clearness(&lost, full.scale()) < EQUAL
+        && !leaves_more(&swapped, full, &lost, &selection.clusters))
 }
 
 #[cfg(test)]
@@ -108,12 +110,12 @@ mod tests {
     use snug_identify::FitTask;
     use snug_model::Effect::{CubicStiffness, QuadraticDamping, TorqueDelay, TorqueOffset};
 
-    /// Runs `look` on a climb that added `effects` to the base model of tightenings with a spring that stiffens and a torque
+    /// Runs `look` on a selection that added `effects` to the base model of tightenings with a spring that stiffens and a torque
     /// that reads too much.
-    fn after_climb<T>(
+    fn after_selection<T>(
         effects: &[Effect],
         twins: &[Effect],
-        look: impl FnOnce(&Search<'_>, &mut Climb) -> T,
+        look: impl FnOnce(&ModelSelection<'_>, &mut SelectionPath) -> T,
     ) -> T {
         let made_with = [CubicStiffness, TorqueOffset];
         let cases: Vec<FitTask> = (0..8).map(|n| noisy(n, &made_with, &[2e6, 0.5])).collect();
@@ -124,17 +126,17 @@ mod tests {
             starts: 1,
             ..DiagnoseSettings::default()
         };
-        let search = Search {
+        let selection = ModelSelection {
             cases: Cases::new(&cases, &tally),
             own: &[],
             custom: &[],
-            units: WHOLE,
+            clusters: WHOLE,
             settings: &settings,
             watch: &watch,
         };
-        let fitted = fit_effects(search.cases, effects, None, WHOLE).expect("it can be fitted");
-        let mut climb = Climb::only(fitted);
-        climb.additions = (effects.iter())
+        let fitted = fit_effects(selection.cases, effects, None, WHOLE).expect("it can be fitted");
+        let mut path = SelectionPath::only(fitted);
+        path.additions = (effects.iter())
             .map(|&effect| Addition {
                 effect,
                 p_family: 0.01,
@@ -142,15 +144,15 @@ mod tests {
                 twins: twins.to_vec(),
             })
             .collect();
-        look(&search, &mut climb)
+        look(&selection, &mut path)
     }
 
     #[test]
     fn a_term_that_the_data_do_without_is_taken_out_and_the_others_stay() {
         let added = [CubicStiffness, QuadraticDamping, TorqueOffset];
-        after_climb(&added, &[], |search, climb| {
-            try_removals(search, climb).expect("it can be fitted");
-            let attempts: Vec<(Effect, bool)> = climb
+        after_selection(&added, &[], |selection, path| {
+            try_removals(selection, path).expect("it can be fitted");
+            let attempts: Vec<(Effect, bool)> = path
                 .attempts
                 .iter()
                 .map(|one| (one.effect, one.removed))
@@ -161,16 +163,16 @@ mod tests {
                 (TorqueOffset, false),
             ];
             assert_eq!(attempts, expected);
-            assert_eq!(climb.last().effects, [CubicStiffness, TorqueOffset]);
-            let left: Vec<Effect> = climb.additions.iter().map(|one| one.effect).collect();
+            assert_eq!(path.last().effects, [CubicStiffness, TorqueOffset]);
+            let left: Vec<Effect> = path.additions.iter().map(|one| one.effect).collect();
             assert_eq!(left, [CubicStiffness, TorqueOffset]);
-            assert_eq!(climb.rungs.len(), 2, "what was left in is no new rung");
+            assert_eq!(path.rungs.len(), 2, "what was left in is no new rung");
             assert!(
-                !climb.ranking.candidates.is_empty(),
+                !path.ranking.candidates.is_empty(),
                 "the last model was ranked against"
             );
-            for attempt in &climb.attempts {
-                let share = attempt.loss / climb.rungs[0].squares();
+            for attempt in &path.attempts {
+                let share = attempt.loss / path.rungs[0].squares();
                 assert!(
                     (attempt.growth / share - 1.0).abs() < 0.05,
                     "a share of what is left"
@@ -181,13 +183,13 @@ mod tests {
 
     #[test]
     fn the_only_term_is_not_tried() {
-        after_climb(&[CubicStiffness], &[TorqueOffset], |search, climb| {
-            let before = search.cases.tally().done();
-            try_removals(search, climb).expect("nothing is fitted");
-            look_at_twins_again(search, climb).expect("nothing is fitted");
-            assert_eq!(search.cases.tally().done(), before);
-            assert!(climb.attempts.is_empty());
-            assert_eq!(climb.additions[0].twins, [TorqueOffset]);
+        after_selection(&[CubicStiffness], &[TorqueOffset], |selection, path| {
+            let before = selection.cases.tally().done();
+            try_removals(selection, path).expect("nothing is fitted");
+            look_at_twins_again(selection, path).expect("nothing is fitted");
+            assert_eq!(selection.cases.tally().done(), before);
+            assert!(path.attempts.is_empty());
+            assert_eq!(path.additions[0].twins, [TorqueOffset]);
         });
     }
 
@@ -197,14 +199,18 @@ mod tests {
     fn only_twins_that_do_as_well_beside_the_others_are_kept() {
         let again = custom_force("cubic_again", "2*p*x^3", 0.0);
         let twins = [TorqueOffset, again, TorqueDelay];
-        after_climb(&[CubicStiffness, TorqueOffset], &twins, |search, climb| {
-            look_at_twins_again(search, climb).expect("it can be fitted");
-            assert_eq!(climb.additions[0].twins, [again]);
-            assert!(
-                climb.additions[1].twins.is_empty(),
-                "{:?}",
-                climb.additions[1].twins
-            );
-        });
+        after_selection(
+            &[CubicStiffness, TorqueOffset],
+            &twins,
+            |selection, path| {
+                look_at_twins_again(selection, path).expect("it can be fitted");
+                assert_eq!(path.additions[0].twins, [again]);
+                assert!(
+                    path.additions[1].twins.is_empty(),
+                    "{:?}",
+                    path.additions[1].twins
+                );
+            },
+        );
     }
 }

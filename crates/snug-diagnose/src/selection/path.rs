@@ -1,6 +1,6 @@
-//! What a climb leaves: its rungs, what was added and why, what is still missing and why it stopped.
+//! What a selection leaves: its rungs, what was added and why, what is still missing and why it stopped.
 
-use crate::data::clusters::Units;
+use crate::data::clusters::Clusters;
 use crate::error::DiagnoseError;
 use crate::library::is_unlisted;
 use crate::pooled::fitted::Fitted;
@@ -31,21 +31,21 @@ pub(crate) struct Attempt {
     pub growth: f64,
 }
 
-/// How far the climb went.
-pub(crate) struct Climb {
+/// How far the selection went.
+pub(crate) struct SelectionPath {
     /// The models in order, the study's own first.
     pub rungs: Vec<Fitted>,
     pub additions: Vec<Addition>,
     pub attempts: Vec<Attempt>,
     /// The ranking against the last model; empty where nothing was ranked against it.
     pub ranking: Ranking,
-    /// The ranking's candidate that is supported and matters, where the climb ends without adding it.
+    /// The ranking's candidate that is supported and matters, where the selection ends without adding it.
     pub chosen: Option<usize>,
     /// Why nothing more was added; `None` where nobody tried.
     pub stopped: Option<Stop>,
 }
 
-impl Climb {
+impl SelectionPath {
     /// A model that is not to be changed and nothing ranked beside it.
     pub fn only(fitted: Fitted) -> Self {
         Self {
@@ -89,7 +89,7 @@ impl Climb {
 
     /// The last model.
     pub fn last(&self) -> &Fitted {
-        self.rungs.last().expect("a climb begins with a rung")
+        self.rungs.last().expect("a selection begins with a rung")
     }
 
     /// A candidate that is not supported, but might be with more tightenings: chance seldom does as much, or it explains a
@@ -107,7 +107,7 @@ impl Climb {
     }
 }
 
-/// Why the climb stopped.
+/// Why the selection stopped.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Stop {
     /// No candidate reaches the level.
@@ -127,15 +127,15 @@ impl Candidate {
     }
 
     /// Whether of a long record it plainly leaves more than `other`.
-    pub fn falls_short_of(&self, other: &Self, units: &Units) -> bool {
-        leaves_more(&self.fitted, &other.fitted, &other.beyond(self), units)
+    pub fn falls_short_of(&self, other: &Self, clusters: &Clusters) -> bool {
+        leaves_more(&self.fitted, &other.fitted, &other.beyond(self), clusters)
     }
 
     /// Whether it explains hardly less than `best`.
-    pub fn keeps_up_with(&self, best: &Self, units: &Units) -> bool {
+    pub fn keeps_up_with(&self, best: &Self, clusters: &Clusters) -> bool {
         self.gain() > AS_MUCH * best.gain()
             && best.ahead_of(self) < EQUAL
-            && !self.falls_short_of(best, units)
+            && !self.falls_short_of(best, clusters)
     }
 
     /// Whether held-out tightenings gain, and by more than one would expect of their scatter.
@@ -173,7 +173,7 @@ pub(crate) fn justified(
     }
 }
 
-/// Squared residual beyond the noise of each unit; where the noise is not known, all of it.
+/// Squared residual beyond the noise of each cluster; where the noise is not known, all of it.
 pub(crate) fn misfits(fitted: &Fitted) -> Vec<f64> {
     let blocks = fitted.blocks.iter();
     blocks
@@ -198,15 +198,15 @@ fn noise(fitted: &Fitted, count: usize) -> f64 {
 
 /// Whether `one` plainly leaves more than `other` of a long record, by `lost` in each stretch: its few stretches hardly
 /// make a statistic of their sum, and what wins one of them by much and loses most is another effect.
-pub(crate) fn leaves_more(one: &Fitted, other: &Fitted, lost: &[f64], units: &Units) -> bool {
-    !units.are_whole()
+pub(crate) fn leaves_more(one: &Fitted, other: &Fitted, lost: &[f64], clusters: &Clusters) -> bool {
+    !clusters.are_whole()
         && (one.squares() > PLAINLY_MORE * other.squares()
             || agreement(lost, other.scale()) > EQUAL)
 }
 
 /// Candidates that these data cannot tell from the one at `index`. A term in no catalogue is no twin of an effect: of
 /// equals the effect that is known is named.
-pub(crate) fn twins(ranking: &Ranking, index: usize, units: &Units) -> Vec<Effect> {
+pub(crate) fn twins(ranking: &Ranking, index: usize, clusters: &Clusters) -> Vec<Effect> {
     let chosen = &ranking.candidates[index];
     ranking
         .candidates
@@ -216,7 +216,7 @@ pub(crate) fn twins(ranking: &Ranking, index: usize, units: &Units) -> Vec<Effec
                 && (is_unlisted(chosen.effect) || !is_unlisted(other.effect))
                 && other.gains_clearly()
                 && chosen.ahead_of(other) > -EQUAL
-                && other.keeps_up_with(chosen, units)
+                && other.keeps_up_with(chosen, clusters)
         })
         .map(|other| other.effect)
         .collect()

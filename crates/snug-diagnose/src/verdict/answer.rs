@@ -1,7 +1,7 @@
-//! What the data answer: the climb told as a diagnosis.
+//! What the data answer: the selection told as a diagnosis.
 
 use crate::data::cases::Cases;
-use crate::data::clusters::Units;
+use crate::data::clusters::Clusters;
 use crate::error::DiagnoseError;
 use crate::library::{declaration, is_unlisted};
 use crate::locate::{compare, drifts, locate};
@@ -10,7 +10,7 @@ use crate::pooled::sizes::parameters;
 use crate::pooled::thresholds::AT_FLOOR;
 use crate::question::Question;
 use crate::ranking::rank::{Candidate, Ranking};
-use crate::selection::path::{Addition, Climb, misfit, misfits, twins};
+use crate::selection::path::{Addition, SelectionPath, misfit, misfits, twins};
 use crate::settings::DiagnoseSettings;
 use crate::verdict::experiment::separating_experiment;
 use crate::verdict::reasons::{Situation, explanation, headline, paste, reasons, removal, stopped};
@@ -49,16 +49,16 @@ pub struct Answer {
     pub models: Vec<RungModel>,
 }
 
-/// A question, and the climb that it led to.
+/// A question, and the selection that it led to.
 pub(crate) struct Examination<'a> {
     pub question: &'a Question<'a>,
     pub cases: Cases<'a>,
     pub settings: &'a DiagnoseSettings,
-    pub climb: Climb,
+    pub path: SelectionPath,
     pub watch: Watch<'a>,
 }
 
-/// Where the models at both ends of the climb fail.
+/// Where the models at both ends of the selection fail.
 struct Places {
     comparison: Comparison,
     location: Location,
@@ -74,11 +74,11 @@ impl Places {
 }
 
 impl Examination<'_> {
-    /// Everything that is told of the climb.
+    /// Everything that is told of the selection.
     pub fn answer(self) -> Result<Answer, DiagnoseError> {
         self.watch.begin("looking where the model fails")?;
         let cases = self.question.cases;
-        let last = self.climb.last();
+        let last = self.path.last();
         let places = self.places()?;
         let verdict = self.verdict(places.last().repeatable_share);
         let ranking = self.ranking(&places.drift);
@@ -90,7 +90,7 @@ impl Examination<'_> {
             reasons(&situation),
             stopped(&situation),
         );
-        let rungs = self.climb.rungs.iter();
+        let rungs = self.path.rungs.iter();
         let diagnosis = Diagnosis {
             verb: self.question.goal.verb().to_owned(),
             verdict,
@@ -98,7 +98,7 @@ impl Examination<'_> {
             reasons,
             stopped,
             level: self.settings.level,
-            interrupted: self.climb.is_interrupted(),
+            interrupted: self.path.is_interrupted(),
             tightenings: cases.len(),
             noise: preparation::noise(cases),
             compared_output: cases[0].quantity().name().to_owned(),
@@ -106,12 +106,12 @@ impl Examination<'_> {
             corrected,
             ladder: rungs.clone().map(|one| ladder::rung(cases, one)).collect(),
             ranking,
-            removals: self.climb.attempts.iter().map(removal).collect(),
+            removals: self.path.attempts.iter().map(removal).collect(),
             comparison: places.comparison,
             drift: places.drift,
             location: places.location,
             final_location: places.final_location,
-            detectability: detectability::cards(&self.climb.ranking, last, self.settings),
+            detectability: detectability::cards(&self.path.ranking, last, self.settings),
             control: self.control(),
             unlisted: self.unlisted(),
             experiment,
@@ -126,7 +126,7 @@ impl Examination<'_> {
 
     /// Where the first model fails, and where the last, if it is another.
     fn places(&self) -> Result<Places, DiagnoseError> {
-        let (first, last) = (&self.climb.rungs[0], self.climb.last());
+        let (first, last) = (&self.path.rungs[0], self.path.last());
         let (cases, seed) = (self.question.cases, self.settings.seed);
         let sight = TighteningFits::of(cases, first)?;
         let base = sight.seen();
@@ -149,33 +149,33 @@ impl Examination<'_> {
         ranking: &'s [RankedEffect],
         corrected: &'s [CorrectedEffect],
     ) -> Situation<'s> {
-        let climb = &self.climb;
-        let units = Units::of(self.question.cases);
+        let path = &self.path;
+        let clusters = Clusters::of(self.question.cases);
         Situation {
             verb: self.question.goal.verb(),
             verdict,
             tightenings: self.question.cases.len(),
-            units,
-            before: &climb.rungs[0],
-            after: climb.last(),
-            additions: &climb.additions,
-            chosen: climb.chosen.map(|index| &climb.ranking.candidates[index]),
-            twins: (climb.chosen)
-                .map_or_else(Vec::new, |index| twins(&climb.ranking, index, &units)),
+            clusters,
+            before: &path.rungs[0],
+            after: path.last(),
+            additions: &path.additions,
+            chosen: path.chosen.map(|index| &path.ranking.candidates[index]),
+            twins: (path.chosen)
+                .map_or_else(Vec::new, |index| twins(&path.ranking, index, &clusters)),
             ranking,
-            stopped: climb.stopped,
-            impossible: &climb.ranking.impossible,
+            stopped: path.stopped,
+            impossible: &path.ranking.impossible,
             corrected,
             settings: self.settings,
         }
     }
 
-    /// The experiment that tells the effect last named from its twin; who ended the climb does not wait for it.
+    /// The experiment that tells the effect last named from its twin; who ended the selection does not wait for it.
     fn experiment(&self, situation: &Situation<'_>) -> Result<Option<Experiment>, DiagnoseError> {
         let Some((first, second)) = situation.twin_pair() else {
             return Ok(None);
         };
-        if self.climb.is_interrupted() {
+        if self.path.is_interrupted() {
             return Ok(None);
         }
         self.watch
@@ -184,23 +184,23 @@ impl Examination<'_> {
     }
 
     fn verdict(&self, repeatable: Option<f64>) -> Verdict {
-        let last = self.climb.last();
+        let last = self.path.last();
         let added_unlisted = self
-            .climb
+            .path
             .additions
             .iter()
             .any(|one| is_unlisted(one.effect));
-        if self.climb.is_interrupted() {
+        if self.path.is_interrupted() {
             return Verdict::Undecided;
         }
-        if self.climb.ranking.candidates.is_empty() {
+        if self.path.ranking.candidates.is_empty() {
             return match last.is_at_floor() {
                 true => Verdict::Adequate,
                 false => Verdict::Undecided,
             };
         }
-        if let Some(chosen) = self.climb.chosen {
-            return match is_unlisted(self.climb.ranking.candidates[chosen].effect) {
+        if let Some(chosen) = self.path.chosen {
+            return match is_unlisted(self.path.ranking.candidates[chosen].effect) {
                 true => Verdict::UnlistedEffect,
                 false => Verdict::MissingEffect,
             };
@@ -209,17 +209,17 @@ impl Examination<'_> {
             return Verdict::UnlistedEffect;
         }
         // What takes several effects and still leaves more than noise is something else, in pieces.
-        if self.climb.additions.len() > 1 && last.is_beyond_noise() {
+        if self.path.additions.len() > 1 && last.is_beyond_noise() {
             return Verdict::UnlistedEffect;
         }
-        let floor = match self.climb.additions.is_empty() {
+        let floor = match self.path.additions.is_empty() {
             true => AT_FLOOR,
             false => BESIDE_EFFECTS,
         };
         if last.is_weighted && last.error() > floor && repeatable.is_some_and(|r| r > REPEATS) {
             return Verdict::UnlistedEffect;
         }
-        match self.climb.is_promising(self.settings) {
+        match self.path.is_promising(self.settings) {
             Some(_) => Verdict::Undecided,
             None => Verdict::Adequate,
         }
@@ -227,13 +227,13 @@ impl Examination<'_> {
 
     /// The candidates, the chosen one first, and behind them the trends.
     fn ranking(&self, drift: &[Drift]) -> Vec<RankedEffect> {
-        let ranking = &self.climb.ranking;
+        let ranking = &self.path.ranking;
         let mut order: Vec<usize> = (0..ranking.candidates.len()).collect();
-        if let Some(chosen) = self.climb.chosen {
+        if let Some(chosen) = self.path.chosen {
             order.retain(|&index| index != chosen);
             order.insert(0, chosen);
         }
-        let whole = misfit(self.climb.last());
+        let whole = misfit(self.path.last());
         let Some(&first) = order.first() else {
             return Vec::new();
         };
@@ -257,7 +257,7 @@ impl Examination<'_> {
         let sizes = parameters(self.question.cases, &candidate.fitted, candidate.effect);
         let supported = candidate.is_supported(self.settings);
         let twins = match supported {
-            true => twins(ranking, index, &Units::of(self.question.cases)),
+            true => twins(ranking, index, &Clusters::of(self.question.cases)),
             false => Vec::new(),
         };
         RankedEffect {
@@ -268,7 +268,7 @@ impl Examination<'_> {
             score: candidate.score,
             p_family: candidate.p_family,
             heldout_gain: candidate.gain() / misfit,
-            heldout_gain_error: candidate.share_error(&misfits(self.climb.last())),
+            heldout_gain_error: candidate.share_error(&misfits(self.path.last())),
             error_over_noise: candidate
                 .fitted
                 .is_weighted
@@ -284,13 +284,13 @@ impl Examination<'_> {
     }
 
     fn added(&self) -> Vec<AddedEffect> {
-        let (cases, last) = (self.question.cases, self.climb.last());
-        let known = self.climb.rungs[0]
+        let (cases, last) = (self.question.cases, self.path.last());
+        let known = self.path.rungs[0]
             .effects
             .iter()
             .map(|&effect| (effect, None));
         let added = self
-            .climb
+            .path
             .additions
             .iter()
             .map(|one| (one.effect, Some(one)));
@@ -311,7 +311,7 @@ impl Examination<'_> {
                     }),
                     p_family: one.map(|one| one.p_family),
                     heldout_gain: one.map(|one| one.heldout_gain),
-                    needed: (self.climb.attempts.iter())
+                    needed: (self.path.attempts.iter())
                         .find(|attempt| attempt.effect == effect)
                         .map(|attempt| attempt.loss / last.squares()),
                     explanation: explanation(effect, last),
@@ -322,7 +322,7 @@ impl Examination<'_> {
     }
 
     fn control(&self) -> Option<NegativeControl> {
-        let (campaigns, false_alarms) = self.climb.ranking.control;
+        let (campaigns, false_alarms) = self.path.ranking.control;
         if campaigns == 0 {
             return None;
         }
@@ -341,19 +341,19 @@ impl Examination<'_> {
     /// The unlisted term that was added or that the ranking chose.
     fn unlisted(&self) -> Option<UnlistedTerm> {
         let added = self
-            .climb
+            .path
             .additions
             .iter()
             .find(|one| is_unlisted(one.effect));
         let chosen = self
-            .climb
+            .path
             .chosen
-            .map(|index| &self.climb.ranking.candidates[index]);
+            .map(|index| &self.path.ranking.candidates[index]);
         let (effect, gain, fitted) = match (added, chosen) {
-            (Some(one), _) => (one.effect, one.heldout_gain, self.climb.last()),
+            (Some(one), _) => (one.effect, one.heldout_gain, self.path.last()),
             (None, Some(one)) if is_unlisted(one.effect) => (
                 one.effect,
-                one.gain() / misfit(self.climb.last()),
+                one.gain() / misfit(self.path.last()),
                 &one.fitted,
             ),
             _ => return None,
@@ -365,7 +365,7 @@ impl Examination<'_> {
                 &declared.expression,
                 &sizes,
                 gain,
-                Units::of(self.question.cases).cluster(),
+                Clusters::of(self.question.cases).cluster(),
             ),
             ron: paste(&declared, &sizes),
             expression: declared.expression,

@@ -1,10 +1,10 @@
 //! The experiment that tells twins apart: tightenings are simulated with the one and fitted with the other.
 
 use crate::data::cases::Cases;
-use crate::data::clusters::Units;
+use crate::data::clusters::Clusters;
 use crate::pooled::fit::fit_effects;
 use crate::pooled::fitted::Fitted;
-use crate::pooled::model::Hypothesis;
+use crate::pooled::model::PooledModel;
 use crate::pooled::sizes::held;
 use crate::verdict::reasons::named;
 use crate::verdict::thresholds::{MOST_TIGHTENINGS, PATTERNS, TELLING};
@@ -98,11 +98,17 @@ fn distance(
     }
     let mut effects = first.effects.clone();
     effects.pop();
-    let base = fit_effects(cases.others(&made), &effects, None, Units { per_case: 1 }).ok()?;
+    let base = fit_effects(
+        cases.others(&made),
+        &effects,
+        None,
+        Clusters { per_case: 1 },
+    )
+    .ok()?;
     effects.push(second);
-    let mut hypothesis = Hypothesis::new(cases.others(&made), &effects).ok()?;
-    let start = base.start(&hypothesis);
-    let end = hypothesis.fit(&start, &PooledSettings::default()).ok()?;
+    let mut pooled = PooledModel::new(cases.others(&made), &effects).ok()?;
+    let start = base.start(&pooled);
+    let end = pooled.fit(&start, &PooledSettings::default()).ok()?;
     Some(2.0 * end.cost() / made.len() as f64)
 }
 

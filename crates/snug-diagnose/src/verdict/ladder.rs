@@ -9,8 +9,8 @@ use std::collections::BTreeSet;
 /// All of a rung but what only an evaluation of the whole study can tell.
 pub(crate) fn rung(cases: &[FitTask<'_>], fitted: &Fitted) -> Rung {
     let squares = fitted.squares();
-    let target = |unit: usize| {
-        let target = cases[fitted.members[unit]].tightening.target_torque_nm;
+    let target = |cluster: usize| {
+        let target = cases[fitted.members[cluster]].tightening.target_torque_nm;
         if target.is_finite() {
             target.round() as usize
         } else {
@@ -23,8 +23,8 @@ pub(crate) fn rung(cases: &[FitTask<'_>], fitted: &Fitted) -> Rung {
             .map(|case| case.tightening.conditions.participant.as_ref());
         all.collect()
     };
-    let person = |unit: usize| {
-        let own = names[fitted.members[unit]];
+    let person = |cluster: usize| {
+        let own = names[fitted.members[cluster]];
         names.iter().position(|name| *name == own).unwrap_or(0)
     };
     let relative =
@@ -41,7 +41,7 @@ pub(crate) fn rung(cases: &[FitTask<'_>], fitted: &Fitted) -> Rung {
             .map(|effect| effect.name().to_owned())
             .collect(),
         error_over_noise: weighted.then(|| fitted.error()),
-        heldout_error_over_noise: weighted.then(|| relative(fitted.heldout(&|unit| unit))),
+        heldout_error_over_noise: weighted.then(|| relative(fitted.heldout(&|cluster| cluster))),
         heldout_target_error_over_noise: (weighted && several(&target))
             .then(|| relative(fitted.heldout(&target))),
         heldout_participant_error_over_noise: (weighted && several(&person))

@@ -1,6 +1,6 @@
 //! What speaks for a verdict, as data: the sentences stand in `snug_campaign::words`.
 
-use crate::data::clusters::Units;
+use crate::data::clusters::Clusters;
 use crate::library::{declaration, in_words};
 use crate::pooled::fitted::Fitted;
 use crate::ranking::rank::Candidate;
@@ -20,7 +20,7 @@ pub(crate) struct Situation<'a> {
     pub verdict: Verdict,
     pub tightenings: usize,
     /// What is held out in turn: whole tightenings, or stretches of few long records.
-    pub units: Units,
+    pub clusters: Clusters,
     pub before: &'a Fitted,
     pub after: &'a Fitted,
     pub additions: &'a [Addition],
@@ -118,7 +118,10 @@ pub(crate) fn headline(situation: &Situation<'_>) -> Headline {
         (Verdict::Adequate, _) => Headline::Adequate { added, fall: fell },
         (Verdict::Undecided, _) if situation.verb == "compare" => Headline::Compared(fell.after),
         (Verdict::Undecided | Verdict::MissingEffect, _) => Headline::TooLittle {
-            tightenings: situation.units.are_whole().then_some(situation.tightenings),
+            tightenings: situation
+                .clusters
+                .are_whole()
+                .then_some(situation.tightenings),
             left: fell.after,
         },
     }
@@ -158,7 +161,7 @@ fn removes(effect: Effect, heldout_gain: f64, p_family: f64, situation: &Situati
         effect: named(effect),
         heldout_gain,
         p_family,
-        cluster: situation.units.cluster(),
+        cluster: situation.clusters.cluster(),
         is_beyond_noise: situation.after.is_weighted,
     }
 }
@@ -208,7 +211,7 @@ fn what_would_decide(situation: &Situation<'_>) -> Option<Reason> {
     Some(Reason::WouldDecide {
         effect: first.effect.clone(),
         p_family: first.p_family,
-        more: match situation.units.are_whole() {
+        more: match situation.clusters.are_whole() {
             true => MoreData::Tightenings(needed),
             false => MoreData::Longer(times.ceil().max(2.0)),
         },

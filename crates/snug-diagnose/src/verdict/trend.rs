@@ -97,7 +97,7 @@ mod tests {
     /// Five tightenings of one file, numbers 1 to 5: four steps.
     fn fatigue(drifts: &[Drift]) -> Option<RankedEffect> {
         let cases: Vec<FitTask> = (0..5).map(|number| exact(number, &[], &[])).collect();
-        trends(drifts, &cases).next()
+        trends(drifts, &cases, 0.05).next()
     }
 
     /// 1.03⁴ − 1 = 12.55 % over four steps are 0.03 per tightening; so 2.75 % are 1.0275^¼ − 1 and 22.35 % are 1.2235^¼ − 1, which
@@ -134,7 +134,9 @@ mod tests {
         for case in &mut cases[5..] {
             case.tightening.to_mut().id.file = "another.mat".to_owned();
         }
-        let told = trends(&drifts, &cases).next().expect("a slope was tested");
+        let told = trends(&drifts, &cases, 0.05)
+            .next()
+            .expect("a slope was tested");
         close(told.parameters[0].value, 0.03, 1e-8);
     }
 

@@ -1,7 +1,7 @@
 //! Fits of a few numbers, for tests of what is made of them.
 
 use super::{Block, Fitted};
-use crate::data::clusters::Units;
+use crate::data::clusters::Clusters;
 use snug_least_squares::matrix::SymmetricMatrix;
 use snug_model::Effect;
 
@@ -28,7 +28,7 @@ impl Fitted {
             blocks: squares.iter().map(block).collect(),
             members: (0..squares.len()).collect(),
             torque_noise: vec![0.0; squares.len()],
-            units: Units { per_case: 1 },
+            clusters: Clusters { per_case: 1 },
             is_weighted: true,
             member_curvature: Vec::new(),
             profiles: squares.iter().map(|_| nothing()).collect(),
@@ -71,7 +71,7 @@ impl Fitted {
         self
     }
 
-    /// The same with so much of each unit's squares made by the noise of the torque.
+    /// The same with so much of each cluster's squares made by the noise of the torque.
     pub fn with_torque_noise(mut self, squares: &[f64]) -> Self {
         self.torque_noise = squares.to_vec();
         self

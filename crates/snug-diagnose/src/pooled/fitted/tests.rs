@@ -26,14 +26,14 @@ fn agree(found: &[f64], expected: &[f64]) {
 /// The means without each are 4, 3.5 and 1.5.
 #[test]
 fn what_is_held_out_is_judged_by_the_size_that_the_others_give() {
-    let heldout = mean_of_three().heldout(&|unit| unit);
+    let heldout = mean_of_three().heldout(&|cluster| cluster);
     agree(&heldout, &[9.0, 2.25, 20.25]);
 }
 
 /// Without the first two the mean is 6, without the third 1.5.
 #[test]
 fn a_group_is_held_out_together() {
-    let heldout = mean_of_three().heldout(&|unit| unit / 2);
+    let heldout = mean_of_three().heldout(&|cluster| cluster / 2);
     agree(&heldout, &[25.0, 16.0, 20.25]);
 }
 
@@ -43,7 +43,7 @@ fn sizes_of_its_own_cost_a_tightening_what_they_hide() {
     let fitted = mean_of_three().with_own(&["bias_rad_per_s2"], vec![vec![0.0]; 3], 1);
     let pays = 28.0 / 3.0;
     let expected = [9.0 + pays, 2.25 + pays, 20.25 + pays];
-    agree(&fitted.heldout(&|unit| unit), &expected);
+    agree(&fitted.heldout(&|cluster| cluster), &expected);
 }
 
 #[test]
@@ -68,7 +68,7 @@ fn two_lines() -> Fitted {
         block.curvature = SymmetricMatrix::new(2, vec![1.0, *t, *t, t * t]);
     }
     fitted.members = vec![0, 0, 0, 1, 1, 1];
-    fitted.units = Units { per_case: 3 };
+    fitted.clusters = Clusters { per_case: 3 };
     fitted.shared = vec![1.7];
     fitted.shared_names = vec!["k3_n_per_m3".to_owned()];
     let of_squares = |squares| SymmetricMatrix::new(2, vec![3.0, 0.0, 0.0, squares]);
@@ -82,7 +82,7 @@ fn two_lines() -> Fitted {
 /// Without (0, 1) the slope stays, and β = 5/2.
 #[test]
 fn a_stretch_is_held_out_of_its_own_record_and_of_what_all_share() {
-    let heldout = two_lines().heldout(&|unit| unit);
+    let heldout = two_lines().heldout(&|cluster| cluster);
     close(heldout[2], (39.0_f64 / 17.0).powi(2), 1e-12);
     close(heldout[1], 1.5 * 1.5, 1e-12);
 }
@@ -174,7 +174,7 @@ fn mass_damping_and_stiffness_of_a_few_records_are_their_means() {
         fitted.base().is_empty(),
         "of many tightenings each has its own"
     );
-    fitted.units = Units { per_case: 12 };
+    fitted.clusters = Clusters { per_case: 12 };
     let expected = [
         ("mass_kg".to_owned(), 3.0),
         ("damping_kg_per_s".to_owned(), 60.0),
@@ -191,9 +191,9 @@ fn an_effect_s_size_is_that_of_its_own_first_parameter() {
     assert_eq!(fitted.size(CubicStiffness), 0.0, "it was held");
 }
 
-fn fit(cases: &[FitTask<'_>], effects: &[Effect], units: Units) -> Fitted {
+fn fit(cases: &[FitTask<'_>], effects: &[Effect], clusters: Clusters) -> Fitted {
     let tally = Tally::default();
-    fit_effects(Cases::new(cases, &tally), effects, None, units).expect("it can be simulated")
+    fit_effects(Cases::new(cases, &tally), effects, None, clusters).expect("it can be simulated")
 }
 
 #[test]
@@ -205,8 +205,8 @@ fn a_fit_begins_where_another_ended_and_what_is_new_as_usual() {
         .with_own(&names, own.clone(), 0)
         .with_shared(("k3_n_per_m3", 3, 7e5), &[(1.0, 0.0); 2]);
     let tally = Tally::default();
-    let hypothesis = Hypothesis::new(Cases::new(&cases, &tally), &[TorqueOffset, CubicStiffness]);
-    let start = before.start(&hypothesis.expect("the effects go together"));
+    let pooled = PooledModel::new(Cases::new(&cases, &tally), &[TorqueOffset, CubicStiffness]);
+    let start = before.start(&pooled.expect("the effects go together"));
     assert_eq!(start.own, own);
     assert_eq!(start.shared, [0.0, 7e5]);
 }
@@ -226,8 +226,8 @@ fn a_term_begins_where_it_ended_whatever_company_it_is_named_in() {
     };
     let shared = |effects: &[Effect]| {
         let tally = Tally::default();
-        let hypothesis = Hypothesis::new(Cases::new(&cases, &tally), effects);
-        let start = both.start(&hypothesis.expect("the effects go together"));
+        let pooled = PooledModel::new(Cases::new(&cases, &tally), effects);
+        let start = both.start(&pooled.expect("the effects go together"));
         assert_eq!(start.own, both.own);
         start.shared
     };
@@ -252,12 +252,12 @@ fn sizes_that_the_data_were_made_with_are_found_without_noise() {
     assert!(fitted.squares() < 1e-4, "{}", fitted.squares());
 }
 
-/// What a unit holds depends on where it is cut, what all hold together does not; at the optimum their pulls cancel.
+/// What a cluster holds depends on where it is cut, what all hold together does not; at the optimum their pulls cancel.
 #[test]
 fn stretches_add_up_to_the_tightening_that_they_are_cut_from() {
     let cases = [noisy(0, &[], &[])];
     let whole = fit(&cases, &[TorqueOffset], WHOLE);
-    let cut = fit(&cases, &[TorqueOffset], Units { per_case: 6 });
+    let cut = fit(&cases, &[TorqueOffset], Clusters { per_case: 6 });
     assert_eq!((cut.blocks.len(), cut.members.as_slice()), (6, &[0; 6][..]));
     assert_eq!(cut.count(), whole.count());
     close(cut.squares(), whole.squares(), 1e-6);

@@ -22,7 +22,7 @@ fn error(fitted: &Fitted) -> f64 {
         .expect("the curvature can be inverted")[0]
 }
 
-/// S = 4; noise gives 1/√4 whatever the units say, as long as they pull less than that.
+/// S = 4; noise gives 1/√4 whatever the clusters say, as long as they pull less than that.
 #[test]
 fn noise_alone_makes_at_least_the_error_of_the_curvature() {
     close(error(&cubic(0.1)), 0.5, 1e-12);

@@ -33,15 +33,15 @@ fn the_starts_that_promise_most_are_tried_each_once() {
 }
 
 /// Runs `look` with `effects` asked of `count` tightenings of the base model.
-fn with_hypothesis<T>(
+fn with_pooled<T>(
     count: usize,
     effects: &[Effect],
-    look: impl FnOnce(&mut Hypothesis<'_>) -> T,
+    look: impl FnOnce(&mut PooledModel<'_>) -> T,
 ) -> T {
     let cases: Vec<FitTask> = (0..count).map(|number| exact(number, &[], &[])).collect();
     let tally = Tally::default();
-    let hypothesis = Hypothesis::new(Cases::new(&cases, &tally), effects);
-    look(&mut hypothesis.expect("the effects go together"))
+    let pooled = PooledModel::new(Cases::new(&cases, &tally), effects);
+    look(&mut pooled.expect("the effects go together"))
 }
 
 /// A fit of the base model that leaves `squares` of each tightening.
@@ -54,19 +54,19 @@ fn base(squares: &[f64]) -> Fitted {
 
 #[test]
 fn an_effect_s_values_go_where_its_parameters_are() {
-    with_hypothesis(
+    with_pooled(
         2,
         &[TorqueOffset, AccelerationBias, CubicStiffness],
-        |hypothesis| {
+        |pooled| {
             let current = base(&[1.0; 2]);
-            let cubic = with_effect(hypothesis, &current, CubicStiffness, &[7e5]);
+            let cubic = with_effect(pooled, &current, CubicStiffness, &[7e5]);
             assert_eq!(
                 cubic.shared,
                 [0.0, 7e5],
                 "behind the offset, which begins as usual"
             );
             assert_eq!(cubic.own[1][..3], hand(1), "as the current fit has them");
-            let bias = with_effect(hypothesis, &current, AccelerationBias, &[0.4]);
+            let bias = with_effect(pooled, &current, AccelerationBias, &[0.4]);
             assert_eq!(
                 (bias.own[0][3], bias.own[1][3]),
                 (0.4, 0.4),
@@ -80,14 +80,14 @@ fn an_effect_s_values_go_where_its_parameters_are() {
 /// Masses 2, 3 and 40 times what they were: 3 is usual. A bias of its own has nothing to be a multiple of.
 #[test]
 fn own_parameters_are_corrected_by_what_is_usual() {
-    with_hypothesis(1, &[AccelerationBias], |hypothesis| {
+    with_pooled(1, &[AccelerationBias], |pooled| {
         let without = vec![vec![1.0, 10.0, 100.0, 0.0]; 3];
         let with = [
             [2.0, 5.0, 100.0, 1.0],
             [3.0, 5.0, 110.0, 2.0],
             [40.0, 20.0, 90.0, 3.0],
         ];
-        let factors = astray(hypothesis, &with.map(|own| own.to_vec()), &without);
+        let factors = astray(pooled, &with.map(|own| own.to_vec()), &without);
         assert_eq!(factors, [3.0, 0.5, 1.0, 1.0]);
         let mut own = [2.0, 10.0, 7.0, 0.3];
         times(&mut own, &factors);
@@ -115,14 +115,10 @@ fn ended(squares: &[f64], own: Vec<Vec<f64>>, shared: Vec<f64>) -> PooledFit {
 /// Errors are roots: 1.33 times the usual squares are 1.153 times the usual error, 1.31 times are 1.145.
 #[test]
 fn who_keeps_more_than_the_others_and_has_more_was_left_behind() {
-    with_hypothesis(5, &[CubicStiffness], |hypothesis| {
+    with_pooled(5, &[CubicStiffness], |pooled| {
         let current = base(&[100.0, 100.0, 100.0, 100.0, 1000.0]);
         let of = |squares: [f64; 5]| {
-            left_behind(
-                hypothesis,
-                &current,
-                &ended(&squares, Vec::new(), vec![0.0]),
-            )
+            left_behind(pooled, &current, &ended(&squares, Vec::new(), vec![0.0]))
         };
         // The last has most, but kept no more of it than the others did.
         assert_eq!(
@@ -133,7 +129,7 @@ fn who_keeps_more_than_the_others_and_has_more_was_left_behind() {
         // Kept more, but has no more than the others: it was small before.
         let current = base(&[100.0, 100.0, 100.0, 100.0, 10.0]);
         let end = ended(&[10.0, 10.0, 10.0, 10.0, 10.0], Vec::new(), vec![0.0]);
-        assert!(left_behind(hypothesis, &current, &end).0.is_empty());
+        assert!(left_behind(pooled, &current, &end).0.is_empty());
     });
 }
 
@@ -146,14 +142,14 @@ fn who_was_left_behind_is_fetched_with_what_the_others_found() {
         .collect();
     let tally = Tally::default();
     let counted = Cases::new(&cases, &tally);
-    let mut hypothesis = Hypothesis::new(counted, &[CubicStiffness]).expect("they go together");
+    let mut pooled = PooledModel::new(counted, &[CubicStiffness]).expect("they go together");
     let mut own: Vec<Vec<f64>> = (0..4).map(|number| hand(number).to_vec()).collect();
     own[2][2] *= 1e4;
     let squares: Vec<f64> = (0..4)
         .map(|member| {
-            let values = hypothesis.values(member, &own[member], &[2e6]);
+            let values = pooled.values(member, &own[member], &[2e6]);
             let mut room = Room::default();
-            let (residual, _) = hypothesis.weighted(member, &values, &[], &mut room);
+            let (residual, _) = pooled.weighted(member, &values, &[], &mut room);
             residual.iter().map(|r| r * r).sum()
         })
         .collect();
@@ -161,7 +157,7 @@ fn who_was_left_behind_is_fetched_with_what_the_others_found() {
     assert!(squares[2] > 2.0 * usual, "it is off: {squares:?}");
     let current = base(&[3.0 * usual; 4]);
     let end = ended(&squares, own, vec![2e6]);
-    let fetched = catch_up(&mut hypothesis, &current, end).expect("it can be simulated");
+    let fetched = catch_up(&mut pooled, &current, end).expect("it can be simulated");
     assert!(
         fetched.profiles[2].cost < 0.6 * usual,
         "{}",
@@ -170,7 +166,7 @@ fn who_was_left_behind_is_fetched_with_what_the_others_found() {
     close(fetched.own[2][0], hand(2)[0], 0.1);
     // Who was not left behind is where it was: nobody is fetched a second time.
     let before = tally.done().pooled_fits;
-    let again = catch_up(&mut hypothesis, &current, fetched.clone()).expect("it can be simulated");
+    let again = catch_up(&mut pooled, &current, fetched.clone()).expect("it can be simulated");
     assert_eq!(tally.done().pooled_fits, before);
     assert_eq!(again, fetched);
 }
@@ -214,10 +210,10 @@ fn of_several_starts_the_one_that_leads_lowest_is_followed() {
     let tally = Tally::default();
     let counted = Cases::new(&cases, &tally);
     let current = fit_effects(counted, &[], None, WHOLE).expect("the base model can be fitted");
-    let hypothesis = Hypothesis::new(counted, &[Backlash]).expect("they go together");
-    let starts = [0.02, 5e-4].map(|gap| with_effect(&hypothesis, &current, Backlash, &[gap]));
+    let pooled = PooledModel::new(counted, &[Backlash]).expect("they go together");
+    let starts = [0.02, 5e-4].map(|gap| with_effect(&pooled, &current, Backlash, &[gap]));
     let seen_from_afar = |starts: &[Start]| {
-        rough(&hypothesis, &current, starts)
+        rough(&pooled, &current, starts)
             .expect("it can be fitted")
             .shared[0]
     };

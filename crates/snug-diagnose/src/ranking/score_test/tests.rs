@@ -19,8 +19,7 @@ fn scored<T>(
     look: impl Fn(&Scorer<'_, '_>, &Scored) -> T,
 ) -> T {
     let tally = Tally::default();
-    let hypothesis =
-        Hypothesis::new(Cases::new(cases, &tally), &[]).expect("the base model is one");
+    let pooled = PooledModel::new(Cases::new(cases, &tally), &[]).expect("the base model is one");
     let own = (0..cases.len())
         .map(|number| {
             let pairs = hand(number).into_iter().zip(factors);
@@ -31,7 +30,7 @@ fn scored<T>(
     let squares = vec![SAMPLES as f64; cases.len()];
     let fitted = Fitted::made_up(&[], &squares, SAMPLES).with_own(&names, own, 0);
     let control = Control { campaigns, seed: 1 };
-    let scorer = Scorer::new(&hypothesis, &fitted, WHOLE, control);
+    let scorer = Scorer::new(&pooled, &fitted, WHOLE, control);
     let scored = scorer.score(&[effect]).expect("it can be simulated");
     look(&scorer, &scored)
 }
@@ -69,7 +68,7 @@ fn what_mass_damping_and_stiffness_can_imitate_speaks_for_no_effect() {
         |scorer, _| {
             let values = scorer.values(0);
             let mut room = Room::default();
-            let (residual, _) = scorer.hypothesis.weighted(0, &values, &[], &mut room);
+            let (residual, _) = scorer.pooled.weighted(0, &values, &[], &mut room);
             dot(residual, residual)
         },
     );
@@ -91,8 +90,8 @@ fn what_a_shared_size_of_the_model_can_imitate_is_not_new() {
     let counted = Cases::new(&cases, &tally);
     let information = |effects: &[Effect], effect: Effect| {
         let fitted = fit_effects(counted, effects, None, WHOLE).expect("it can be fitted");
-        let hypothesis = Hypothesis::new(counted, effects).expect("the effects go together");
-        let scorer = Scorer::new(&hypothesis, &fitted, WHOLE, Control::default());
+        let pooled = PooledModel::new(counted, effects).expect("the effects go together");
+        let scorer = Scorer::new(&pooled, &fitted, WHOLE, Control::default());
         scorer
             .score(&[effect])
             .expect("it can be simulated")
@@ -140,18 +139,18 @@ fn without_a_known_noise_there_is_no_campaign_of_it() {
     let mut case = exact(0, &[], &[]);
     case.tightening.to_mut().noise = None;
     let (cases, tally) = ([case], Tally::default());
-    let hypothesis = Hypothesis::new(Cases::new(&cases, &tally), &[]).expect("it is one");
+    let pooled = PooledModel::new(Cases::new(&cases, &tally), &[]).expect("it is one");
     let fitted = Fitted::made_up(&[], &[1.0], SAMPLES);
     let control = Control {
         campaigns: 10,
         seed: 1,
     };
-    let of = |fitted: &Fitted, units| {
-        Scorer::new(&hypothesis, fitted, units, control).control_campaigns()
+    let of = |fitted: &Fitted, clusters| {
+        Scorer::new(&pooled, fitted, clusters, control).control_campaigns()
     };
     assert_eq!(of(&fitted, WHOLE), 10);
     assert_eq!(
-        of(&fitted, Units { per_case: 6 }),
+        of(&fitted, Clusters { per_case: 6 }),
         0,
         "stretches of a record are not drawn"
     );

@@ -121,8 +121,8 @@ fn an_effect_that_is_there_at_its_start_is_tried_from_each_combination_of_starts
 fn signature(effect: Effect) -> Vec<f64> {
     let (cases, tally) = ([exact(0, &[], &[])], Tally::default());
     let counted = Cases::new(&cases, &tally);
-    let without = Hypothesis::new(counted, &[]).expect("the base model is one");
-    let with = Hypothesis::new(counted, &[effect]).expect("the effect goes with it");
+    let without = PooledModel::new(counted, &[]).expect("the base model is one");
+    let with = PooledModel::new(counted, &[effect]).expect("the effect goes with it");
     let values = hand(0);
     let asked = [Asked {
         member: 0,

@@ -6,7 +6,7 @@ use snug_model::Effect::{
     Backlash, CubicStiffness, QuadraticDamping, QuadraticStiffness, TorqueDelay,
 };
 
-const STRETCHES: Units = Units { per_case: 6 };
+const STRETCHES: Clusters = Clusters { per_case: 6 };
 
 fn settings() -> DiagnoseSettings {
     DiagnoseSettings::default()
@@ -164,17 +164,16 @@ fn of_a_long_record_only_what_is_plainly_more_counts() {
     ));
 }
 
-fn climb(squares: f64, p_family: f64, mean: f64) -> Climb {
-    let mut climb = Climb::only(model(squares));
-    climb.ranking = ranking(vec![candidate(CubicStiffness, p_family, &clear(mean))]);
-    climb
+fn path(squares: f64, p_family: f64, mean: f64) -> SelectionPath {
+    let mut path = SelectionPath::only(model(squares));
+    path.ranking = ranking(vec![candidate(CubicStiffness, p_family, &clear(mean))]);
+    path
 }
 
 /// The model leaves 1200 in 400 residuals, 800 beyond the noise; 2 % of it is 24, a fifth of the misfit 160.
 #[test]
 fn an_unsupported_candidate_is_promising_where_chance_seldom_does_as_much() {
-    let is_promising =
-        |p: f64, mean: f64| climb(300.0, p, mean).is_promising(&settings()).is_some();
+    let is_promising = |p: f64, mean: f64| path(300.0, p, mean).is_promising(&settings()).is_some();
     assert!(is_promising(0.29, 6.1));
     assert!(!is_promising(0.29, 5.9), "too little to matter");
     assert!(!is_promising(0.31, 6.1), "chance does it often");
@@ -184,7 +183,7 @@ fn an_unsupported_candidate_is_promising_where_chance_seldom_does_as_much() {
         "but it explains a good part of the misfit"
     );
     assert!(!is_promising(0.31, 39.9));
-    let at_the_noise = climb(100.0, 0.31, 40.1);
+    let at_the_noise = path(100.0, 0.31, 40.1);
     assert!(
         at_the_noise.is_promising(&settings()).is_none(),
         "there is no misfit"
@@ -193,26 +192,26 @@ fn an_unsupported_candidate_is_promising_where_chance_seldom_does_as_much() {
 
 #[test]
 fn a_new_rung_has_nothing_ranked_against_it() {
-    let mut climb = climb(300.0, 0.01, 50.0);
+    let mut path = path(300.0, 0.01, 50.0);
     let addition = Addition {
         effect: CubicStiffness,
         p_family: 0.01,
         heldout_gain: 0.5,
         twins: Vec::new(),
     };
-    climb.add(addition, model(150.0));
-    assert_eq!((climb.rungs.len(), climb.additions.len()), (2, 1));
-    assert_eq!(climb.last().squares(), 600.0);
-    assert!(climb.ranking.candidates.is_empty());
+    path.add(addition, model(150.0));
+    assert_eq!((path.rungs.len(), path.additions.len()), (2, 1));
+    assert_eq!(path.last().squares(), 600.0);
+    assert!(path.ranking.candidates.is_empty());
 }
 
 #[test]
-fn who_ends_a_climb_keeps_what_it_reached_and_other_errors_are_told() {
-    let ended = climb(300.0, 0.01, 50.0).until_interrupted(Err(DiagnoseError::Interrupted));
+fn who_ends_a_selection_keeps_what_it_reached_and_other_errors_are_told() {
+    let ended = path(300.0, 0.01, 50.0).until_interrupted(Err(DiagnoseError::Interrupted));
     let ended = ended.expect("what was reached holds");
     assert!(ended.is_interrupted());
     assert_eq!((ended.rungs.len(), ended.ranking.candidates.len()), (1, 1));
-    let failed = climb(300.0, 0.01, 50.0).until_interrupted(Err(DiagnoseError::NothingToCompare {
+    let failed = path(300.0, 0.01, 50.0).until_interrupted(Err(DiagnoseError::NothingToCompare {
         tightenings: 0,
         reason: "there is none",
     }));
@@ -220,6 +219,6 @@ fn who_ends_a_climb_keeps_what_it_reached_and_other_errors_are_told() {
         failed,
         Err(DiagnoseError::NothingToCompare { .. })
     ));
-    let whole = climb(300.0, 0.01, 50.0).until_interrupted(Ok(()));
+    let whole = path(300.0, 0.01, 50.0).until_interrupted(Ok(()));
     assert!(!whole.expect("it ended by itself").is_interrupted());
 }

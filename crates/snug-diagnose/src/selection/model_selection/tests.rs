@@ -9,13 +9,13 @@ use snug_model::Effect::{
 };
 
 /// Runs `look` with a search among `cases`.
-fn with_search<T>(cases: &[FitTask<'_>], look: impl FnOnce(&Search<'_>) -> T) -> T {
+fn with_selection<T>(cases: &[FitTask<'_>], look: impl FnOnce(&ModelSelection<'_>) -> T) -> T {
     let (tally, settings, watch) = (Tally::default(), DiagnoseSettings::default(), silent());
-    look(&Search {
+    look(&ModelSelection {
         cases: Cases::new(cases, &tally),
         own: &[],
         custom: &[],
-        units: WHOLE,
+        clusters: WHOLE,
         settings: &settings,
         watch: &watch,
     })
@@ -33,7 +33,9 @@ fn clear(mean: f64) -> [f64; 8] {
 
 /// The effects that are to be added beside `ranking`, none of which is looked at together with another.
 fn chosen(ranking: &Ranking, room: usize) -> Vec<Effect> {
-    let steps = with_search(&[], |search| search.choose(&current(), ranking, 0, room));
+    let steps = with_selection(&[], |selection| {
+        selection.choose(&current(), ranking, 0, room)
+    });
     let steps = steps.expect("nothing is fitted");
     steps.iter().map(|(addition, _)| addition.effect).collect()
 }
@@ -45,7 +47,9 @@ fn one_effect_that_leaves_nothing_but_noise_is_added_alone() {
         candidate(QuadraticStiffness, 0.002, &clear(188.0)),
         candidate(QuadraticDamping, 0.002, &clear(20.0)),
     ]);
-    let steps = with_search(&[], |search| search.choose(&current(), &ranking, 0, 5));
+    let steps = with_selection(&[], |selection| {
+        selection.choose(&current(), &ranking, 0, 5)
+    });
     let steps = steps.expect("nothing is fitted");
     let [(addition, fitted)] = steps.as_slice() else {
         panic!("{} effects", steps.len())
@@ -137,8 +141,8 @@ fn of_a_pair_the_one_that_explains_more_by_itself_comes_first() {
         )
     };
     let order = |seed: usize, second: Effect| -> Vec<Effect> {
-        let steps = with_search(&[], |search| {
-            search.larger_first(&current(), &ranking, seed, both(second))
+        let steps = with_selection(&[], |selection| {
+            selection.larger_first(&current(), &ranking, seed, both(second))
         });
         assert_eq!(
             steps[1].1.squares(),
@@ -157,20 +161,20 @@ fn of_a_pair_the_one_that_explains_more_by_itself_comes_first() {
 #[test]
 fn two_are_tried_together_where_one_leaves_much() {
     let left = |misfit: f64| Fitted::made_up(&[], &[100.0 + misfit / 8.0; 8], 100);
-    with_search(&[], |search| {
-        assert!(search.leaves_much(&left(33.0), &current()));
-        assert!(!search.leaves_much(&left(31.0), &current()));
+    with_selection(&[], |selection| {
+        assert!(selection.leaves_much(&left(33.0), &current()));
+        assert!(!selection.leaves_much(&left(31.0), &current()));
         assert!(
-            search.completes(&left(15.0), &current()),
+            selection.completes(&left(15.0), &current()),
             "less than 2 % of the noise"
         );
         assert!(
-            !search.completes(&left(17.0), &current()),
+            !selection.completes(&left(17.0), &current()),
             "not the noise yet"
         );
         let unknown = current().unweighted();
         assert!(
-            !search.completes(&left(15.0).unweighted(), &unknown),
+            !selection.completes(&left(15.0).unweighted(), &unknown),
             "no noise is known"
         );
     });
@@ -181,21 +185,21 @@ fn two_are_tried_together_where_one_leaves_much() {
 fn two_effects_that_are_both_in_the_data_are_added_as_a_pair() {
     let both = [CubicStiffness, CoulombFriction];
     let cases: Vec<FitTask> = (0..8).map(|n| noisy(n, &both, &[4e6, 8.0])).collect();
-    with_search(&cases, |search| {
-        let base = fit_effects(search.cases, &[], None, WHOLE).expect("it can be fitted");
+    with_selection(&cases, |selection| {
+        let base = fit_effects(selection.cases, &[], None, WHOLE).expect("it can be fitted");
         let tried = [CubicStiffness, CoulombFriction, QuadraticDamping];
         let ranking = rank(
-            search.cases,
+            selection.cases,
             &base,
             &tried,
             WHOLE,
-            search.settings,
+            selection.settings,
             0,
-            search.watch,
+            selection.watch,
         );
         let ranking = ranking.expect("it can be ranked");
-        let best = justified(&ranking, &base, search.settings).expect("something is missing");
-        let steps = search
+        let best = justified(&ranking, &base, selection.settings).expect("something is missing");
+        let steps = selection
             .choose(&base, &ranking, best, 5)
             .expect("it can be fitted");
         let mut added: Vec<Effect> = steps.iter().map(|(addition, _)| addition.effect).collect();
@@ -209,7 +213,7 @@ fn two_effects_that_are_both_in_the_data_are_added_as_a_pair() {
         // White noise: 2000 squares ± √4000.
         assert!((fitted.squares() - 2000.0).abs() < 5.0 * 4000.0_f64.sqrt());
         // With room for one alone, the pair is not looked for.
-        let alone = search
+        let alone = selection
             .choose(&base, &ranking, best, 1)
             .expect("it can be fitted");
         assert_eq!(alone.len(), 1);

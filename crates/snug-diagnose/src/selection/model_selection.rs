@@ -1,14 +1,14 @@
 //! What is looked for beside a model: the ranking of all candidates, and which of them to add.
 
 use crate::data::cases::Cases;
-use crate::data::clusters::Units;
+use crate::data::clusters::Clusters;
 use crate::error::DiagnoseError;
 use crate::library::is_unlisted;
 use crate::pooled::fit::{fit_effects, fit_part};
 use crate::pooled::fitted::Fitted;
 use crate::ranking::applicability::candidates;
 use crate::ranking::rank::{Candidate, Ranking, gains, rank};
-use crate::selection::path::{Addition, Climb, justified, misfit, twins};
+use crate::selection::path::{Addition, SelectionPath, justified, misfit, twins};
 use crate::selection::thresholds::{
     ENOUGH_AHEAD, EQUAL, LITTLE_LEFT, MOST_EFFECTS, MUCH_LEFT, NOISE_AND_A_LITTLE, SEEDS,
 };
@@ -17,67 +17,67 @@ use crate::watch::Watch;
 use snug_model::Effect;
 
 /// What stays the same while effects are looked for.
-pub(crate) struct Search<'a> {
+pub(crate) struct ModelSelection<'a> {
     pub cases: Cases<'a>,
     /// Effects of the study's own model.
     pub own: &'a [Effect],
     /// Effects that the study declares but does not use: candidates, too.
     pub custom: &'a [Effect],
-    pub units: Units,
+    pub clusters: Clusters,
     pub settings: &'a DiagnoseSettings,
     pub watch: &'a Watch<'a>,
 }
 
-impl Search<'_> {
+impl ModelSelection<'_> {
     /// The study's own model, nothing ranked beside it.
-    pub fn compare(&self) -> Result<Climb, DiagnoseError> {
-        let fitted = fit_effects(self.cases, self.own, None, self.units)?;
-        Ok(Climb::only(fitted))
+    pub fn compare(&self) -> Result<SelectionPath, DiagnoseError> {
+        let fitted = fit_effects(self.cases, self.own, None, self.clusters)?;
+        Ok(SelectionPath::only(fitted))
     }
 
     /// The study's own model and what could be missing beside it; nothing is added. Whoever watches may end it.
-    pub fn diagnose(&self) -> Result<Climb, DiagnoseError> {
-        let mut climb = self.compare()?;
-        let ended = self.name_the_first(&mut climb);
-        climb.until_interrupted(ended)
+    pub fn diagnose(&self) -> Result<SelectionPath, DiagnoseError> {
+        let mut path = self.compare()?;
+        let ended = self.name_the_first(&mut path);
+        path.until_interrupted(ended)
     }
 
-    fn name_the_first(&self, climb: &mut Climb) -> Result<(), DiagnoseError> {
-        climb.ranking = self.rank(climb.last(), self.settings.control_campaigns)?;
-        match justified(&climb.ranking, climb.last(), self.settings) {
+    fn name_the_first(&self, path: &mut SelectionPath) -> Result<(), DiagnoseError> {
+        path.ranking = self.rank(path.last(), self.settings.control_campaigns)?;
+        match justified(&path.ranking, path.last(), self.settings) {
             Ok(best) => {
-                let steps = self.choose(climb.last(), &climb.ranking, best, MOST_EFFECTS)?;
+                let steps = self.choose(path.last(), &path.ranking, best, MOST_EFFECTS)?;
                 let first = steps.first().map(|(addition, _)| addition.effect);
-                let all = &climb.ranking.candidates;
-                climb.chosen = all
+                let all = &path.ranking.candidates;
+                path.chosen = all
                     .iter()
                     .position(|candidate| Some(candidate.effect) == first);
             }
-            Err(stop) => climb.stopped = Some(stop),
+            Err(stop) => path.stopped = Some(stop),
         }
         Ok(())
     }
 
     /// The study's own model with `effects` added one after the other, and what is missing then, or as many of them as
     /// were added before whoever watches ended it.
-    pub fn add(&self, effects: &[Effect]) -> Result<Climb, DiagnoseError> {
-        let mut climb = self.compare()?;
-        let ended = self.put_in(effects, &mut climb);
-        climb.until_interrupted(ended)
+    pub fn add(&self, effects: &[Effect]) -> Result<SelectionPath, DiagnoseError> {
+        let mut path = self.compare()?;
+        let ended = self.put_in(effects, &mut path);
+        path.until_interrupted(ended)
     }
 
-    fn put_in(&self, effects: &[Effect], climb: &mut Climb) -> Result<(), DiagnoseError> {
+    fn put_in(&self, effects: &[Effect], path: &mut SelectionPath) -> Result<(), DiagnoseError> {
         for &effect in effects {
-            let ranking = self.rank_these(climb.last(), effect)?;
+            let ranking = self.rank_these(path.last(), effect)?;
             let index = ranking.candidates.iter().position(|c| c.effect == effect);
             let Some(index) = index else { continue };
-            let (addition, fitted) = self.step(&ranking, index, climb.last());
-            climb.add(addition, self.settled(&fitted)?);
+            let (addition, fitted) = self.step(&ranking, index, path.last());
+            path.add(addition, self.settled(&fitted)?);
         }
-        climb.ranking = self.rank(climb.last(), self.settings.control_campaigns)?;
-        match justified(&climb.ranking, climb.last(), self.settings) {
-            Ok(best) => climb.chosen = Some(self.single(&climb.ranking, best)),
-            Err(stop) => climb.stopped = Some(stop),
+        path.ranking = self.rank(path.last(), self.settings.control_campaigns)?;
+        match justified(&path.ranking, path.last(), self.settings) {
+            Ok(best) => path.chosen = Some(self.single(&path.ranking, best)),
+            Err(stop) => path.stopped = Some(stop),
         }
         Ok(())
     }
@@ -96,7 +96,7 @@ impl Search<'_> {
             self.cases,
             current,
             &all,
-            self.units,
+            self.clusters,
             self.settings,
             control_campaigns,
             self.watch,
@@ -105,7 +105,7 @@ impl Search<'_> {
 
     /// The same effects, fitted from there to the end.
     pub fn settled(&self, fitted: &Fitted) -> Result<Fitted, DiagnoseError> {
-        fit_effects(self.cases, &fitted.effects, Some(fitted), self.units)
+        fit_effects(self.cases, &fitted.effects, Some(fitted), self.clusters)
     }
 
     /// The ranking, with `effect` among the candidates whatever it is.
@@ -119,7 +119,7 @@ impl Search<'_> {
             self.cases,
             current,
             &all,
-            self.units,
+            self.clusters,
             self.settings,
             0,
             self.watch,
@@ -130,7 +130,7 @@ impl Search<'_> {
     /// term that makes most of the base model superfluous.
     fn single(&self, ranking: &Ranking, best: usize) -> usize {
         let all = &ranking.candidates;
-        let is_equal = |other: usize| all[other].keeps_up_with(&all[best], &self.units);
+        let is_equal = |other: usize| all[other].keeps_up_with(&all[best], &self.clusters);
         if let Some(listed) = self.listed(ranking).filter(|&listed| is_equal(listed)) {
             return listed;
         }
@@ -169,7 +169,7 @@ impl Search<'_> {
         let challenged = is_unlisted(winner.effect) && self.listed(ranking).is_some_and(half);
         let alone = vec![self.step(ranking, single, current)];
         // In stretches of one long record the next rung shows as much, for a third of the work.
-        let pays = room > 1 && self.units.are_whole();
+        let pays = room > 1 && self.clusters.are_whole();
         if !pays || !(challenged || leaves_much) {
             return Ok(alone);
         }
@@ -179,7 +179,7 @@ impl Search<'_> {
         let one = &ranking.candidates[single];
         let better = together.gain() > one.gain() && together.ahead_of(one) > EQUAL;
         // Two catalogue effects that leave as little as one unlisted term are the likelier story.
-        let as_good = is_unlisted(one.effect) && together.keeps_up_with(one, &self.units);
+        let as_good = is_unlisted(one.effect) && together.keeps_up_with(one, &self.clusters);
         Ok(match better || as_good {
             true => self.larger_first(current, ranking, seed, second),
             false => alone,
@@ -285,8 +285,8 @@ impl Search<'_> {
         first: &Fitted,
         seconds: &[Effect],
     ) -> Result<Option<(Candidate, Step)>, DiagnoseError> {
-        let (units, settings) = (self.units, self.settings);
-        let next = rank(cases, first, seconds, units, settings, 0, self.watch)?;
+        let (clusters, settings) = (self.clusters, self.settings);
+        let next = rank(cases, first, seconds, clusters, settings, 0, self.watch)?;
         let second = justified(&next, first, settings).ok();
         Ok(second.map(|index| {
             let together = next.candidates[index].clone();
@@ -304,7 +304,7 @@ impl Search<'_> {
         let members = first.spread(ENOUGH_AHEAD);
         let part = self.cases.some(&members);
         let cases = self.cases.others(&part);
-        let of_part = fit_part(cases, &members, first, self.units)?;
+        let of_part = fit_part(cases, &members, first, self.clusters)?;
         let Some((_, (ahead, _))) = self.second_of(cases, &of_part, seconds)? else {
             return Ok(None);
         };
@@ -321,7 +321,7 @@ impl Search<'_> {
             effect: candidate.effect,
             p_family: candidate.p_family,
             heldout_gain: candidate.gain() / misfit(current),
-            twins: twins(ranking, index, &self.units),
+            twins: twins(ranking, index, &self.clusters),
         };
         (addition, candidate.fitted.clone())
     }
