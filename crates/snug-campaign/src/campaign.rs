@@ -83,6 +83,31 @@ pub struct EffectSize {
     pub interval: Option<Interval>,
 }
 
+/// How something that a test presumes stands. A check beside the test: it changes no result.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct AssumptionCheck {
+    /// What is presumed: `normal_residuals` (about the groups' means) or `equal_variances`.
+    pub assumption: String,
+    /// How it is checked, for example `shapiro_wilk`, `brown_forsythe`.
+    pub method: String,
+    /// Name of the statistic: `W`, `F`.
+    pub statistic_name: String,
+    /// Its value; `None` when the check could not be made.
+    pub statistic: Option<f64>,
+    /// Degrees of freedom, none or two.
+    pub degrees_of_freedom: Vec<f64>,
+    /// p value, not adjusted: small where the presumption does not hold; `None` when the check could not be made.
+    pub p: Option<f64>,
+    /// Values that were looked at.
+    pub values: usize,
+    /// Their groups: a group of one value takes no part.
+    pub groups: usize,
+    /// Values whose distance from their group's mean another value shares.
+    pub tied: usize,
+    /// Why the check could not be made.
+    pub note: Option<String>,
+}
+
 /// One test of one quantity against one factor.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct TestRow {
@@ -106,6 +131,9 @@ pub struct TestRow {
     pub p_adjusted: Option<f64>,
     /// Size of the difference.
     pub effect_size: Option<EffectSize>,
+    /// How what the test presumes stands; empty where it presumes nothing that was checked.
+    #[serde(default)]
+    pub assumptions: Vec<AssumptionCheck>,
     /// Why the test could not be made, or what limits it.
     pub note: Option<String>,
 }

@@ -20,8 +20,8 @@ mod units;
 pub mod words;
 
 pub use campaign::{
-    CampaignResult, ConditionSummary, EffectSize, Moments, ParameterMeaning, PresetSummary,
-    QuantitySummary, RejectionCount, TestRow,
+    AssumptionCheck, CampaignResult, ConditionSummary, EffectSize, Moments, ParameterMeaning,
+    PresetSummary, QuantitySummary, RejectionCount, TestRow,
 };
 pub use comparison::{Comparison, Misfit, TighteningMisfit};
 pub use conditions::Conditions;

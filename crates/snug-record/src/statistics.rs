@@ -78,6 +78,29 @@ const EFFECT_SIZE: &[Field] = &[
     field("interval", Kind::Object(INTERVAL), "", "95 % interval"),
 ];
 
+const ASSUMPTION: &[Field] = &[
+    field("assumption", Kind::Text, "", "What the test presumes"),
+    field("method", Kind::Text, "", "How it is checked"),
+    field("statistic_name", Kind::Text, "", "Name of the statistic"),
+    field("statistic", Kind::Double, "", "Value of the statistic"),
+    field(
+        "degrees_of_freedom",
+        Kind::List(&Kind::Double),
+        "",
+        "Degrees of freedom",
+    ),
+    field("p", Kind::Double, "", "p value, not adjusted"),
+    field("values", Kind::Count, "", "Values looked at"),
+    field("groups", Kind::Count, "", "Groups they are in"),
+    field(
+        "tied",
+        Kind::Count,
+        "",
+        "Values whose distance from their group's mean another shares",
+    ),
+    field("note", Kind::Text, "", "Why the check could not be made"),
+];
+
 const TEST: &[Field] = &[
     field("quantity", Kind::Text, "", "Name with unit suffix"),
     field("factor", Kind::Text, "", "Factor tested"),
@@ -110,6 +133,12 @@ const TEST: &[Field] = &[
         "Size of the difference",
     ),
     field("note", Kind::Text, "", "What limits the test"),
+    field(
+        "assumptions",
+        Kind::List(&Kind::Object(ASSUMPTION)),
+        "",
+        "How what the test presumes stands",
+    ),
 ];
 
 /// The table of `/statistics/tests`.

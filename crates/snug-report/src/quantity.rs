@@ -96,10 +96,10 @@ pub fn words(name: &str) -> String {
         "welch_anova" => "Welch ANOVA".into(),
         "mann_whitney" => "Mann–Whitney".into(),
         "kruskal_wallis" => "Kruskal–Wallis".into(),
+        "shapiro_wilk" => "Shapiro–Wilk".into(),
+        "brown_forsythe" => "Brown–Forsythe".into(),
         "hedges_g" => "Hedges g".into(),
-        "cohens_d" | "cohen_d" => "Cohen d".into(),
         "eta_squared" => "η²".into(),
-        "omega_squared" => "ω²".into(),
         "epsilon_squared" => "ε²".into(),
         other => other.replace('_', " "),
     }

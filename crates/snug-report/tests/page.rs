@@ -99,6 +99,11 @@ fn hostile_names_stay_text() {
     for row in &mut result.tests {
         row.method = attack.into();
         row.note = Some(attack.into());
+        for check in &mut row.assumptions {
+            check.assumption = attack.into();
+            check.method = attack.into();
+            check.statistic_name = attack.into();
+        }
     }
     let page = html(&result);
     let tags = markup::start_tags(&page).unwrap();
@@ -107,6 +112,45 @@ fn hostile_names_stay_text() {
     let scripts = |page: &str| page.matches("<script").count();
     assert_eq!(scripts(&page), 2, "the data and the page's own");
     assert!(text(&page).contains("&lt;script&gt;alert(1)"));
+}
+
+#[test]
+fn what_tests_presume_stands_below_every_factor() {
+    let mut result = specimen::campaign(24);
+    let words = text(&html(&result));
+    for line in [
+        "20 residuals: W = 0.981, p = 0.620; variances of 2 groups: F(1, 18) = 1.20, p = 0.330",
+        "variances of 2 groups: F(1, 18) = 1.20, p = 0.021.  Unequal variances: read Welch t.",
+        "20 residuals (6 tied): W = 0.981, p = 0.004",
+        "p = 0.750.  Residuals not near normal: read Mann–Whitney.",
+        "p &lt; 0.001.  Residuals not near normal, unequal variances: read Kruskal–Wallis.",
+        "about the medians (Student t, one-way ANOVA)",
+        "residuals not near normal in 8 of 16 comparisons, unequal variances in 8 of 16 comparisons",
+    ] {
+        assert!(words.contains(line), "{line}");
+    }
+    // A test that could not be made is nobody's to read, and a check that could not be made says why.
+    for row in &mut result.tests {
+        row.p = row.p.filter(|_| row.method != "kruskal_wallis");
+        for check in &mut row.assumptions {
+            if check.values == 20 && row.factor == "pace_per_min" {
+                check.p = None;
+                check.note = Some("valid up to 5000".into());
+            }
+        }
+    }
+    let page = html(&result);
+    assert!(text(&page).contains("unequal variances: no test beside presumes less."));
+    assert!(
+        page.contains("20 residuals (6 tied): <span class=\"missing\" title=\"valid up to 5000\">")
+    );
+    // Results of before the checks have no line for them.
+    result
+        .tests
+        .iter_mut()
+        .for_each(|row| row.assumptions.clear());
+    let page = html(&result);
+    assert!(!page.contains("<tr class=\"checks\">") && !text(&page).contains("presume"));
 }
 
 #[test]
@@ -318,6 +362,11 @@ fn spoiled() -> CampaignResult {
     for row in &mut result.tests {
         row.p = Some(f64::NAN);
         row.statistic = Some(f64::INFINITY);
+        for check in &mut row.assumptions {
+            check.p = Some(f64::NAN);
+            check.statistic = Some(f64::INFINITY);
+            check.degrees_of_freedom.fill(f64::NAN);
+        }
     }
     result
 }

@@ -138,6 +138,13 @@ fn statistics_hold_counts_moments_and_tests() {
             row["degrees_of_freedom"].as_array().unwrap().len(),
             test.degrees_of_freedom.len()
         );
+        let checks = row["assumptions"].as_array().unwrap();
+        assert_eq!(checks.len(), test.assumptions.len());
+        for (check, expected) in checks.iter().zip(&test.assumptions) {
+            assert_eq!(check["assumption"], expected.assumption.as_str());
+            assert_eq!(check["p"].as_f64(), expected.p);
+            assert_eq!(check["values"], expected.values);
+        }
     }
 }
 

@@ -1,5 +1,6 @@
 //! The tables of the thesis and what a reviewer would ask for, put together from `snug-statistics`.
 
+mod assumptions;
 mod conditions;
 mod factor;
 mod hypothesis_tests;

@@ -103,6 +103,18 @@ fn full_recording() -> Vec<u8> {
             value: -0.8,
             interval: None,
         }),
+        assumptions: vec![AssumptionCheck {
+            assumption: "normal_residuals".into(),
+            method: "shapiro_wilk".into(),
+            statistic_name: "W".into(),
+            statistic: Some(0.97),
+            degrees_of_freedom: vec![],
+            p: Some(0.4),
+            values: 21,
+            groups: 2,
+            tied: 0,
+            note: None,
+        }],
         note: Some("few values".into()),
     };
     recorder.statistics(&[condition], &[test]).unwrap();

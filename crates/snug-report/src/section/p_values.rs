@@ -1,5 +1,7 @@
 //! The tests as tables. Methods that respect participants come first: the others give p-values that are too small.
 
+mod assumptions;
+
 use super::{Section, nothing};
 use crate::number::{fixed, measured, missing, p_value, plain};
 use crate::quantity;
@@ -31,6 +33,7 @@ fn render(result: &CampaignResult) -> Markup {
             The effect size says whether a difference matters."
         }
         p.reading { (reading(result, &methods)) }
+        (assumptions::explanation(result))
         (side_by_side(result, &methods))
         details {
             summary { "Every test with its statistic, degrees of freedom and notes" }
@@ -87,11 +90,12 @@ fn side_by_side(result: &CampaignResult, methods: &[(&str, bool)]) -> Markup {
             None => quantities.push((&row.quantity, vec![&row.factor])),
         }
     }
-    let find = |quantity: &str, factor: &str, method: &str| {
+    let rows = |quantity: &str, factor: &str| -> Vec<&TestRow> {
         result
             .tests
             .iter()
-            .find(|row| row.quantity == quantity && row.factor == factor && row.method == method)
+            .filter(|row| row.quantity == quantity && row.factor == factor)
+            .collect()
     };
     html! {
         div.scroll.wide { table.tests {
@@ -108,15 +112,24 @@ fn side_by_side(result: &CampaignResult, methods: &[(&str, bool)]) -> Markup {
             @for (column, factors) in &quantities {
                 tbody {
                     tr.group { th colspan=(methods.len() + 1) scope="rowgroup" { (quantity::name(column, result).with_unit()) } }
-                    @for factor in factors { tr {
-                        th scope="row" { (quantity::words(factor)) }
-                        @for (method, respects) in methods {
-                            td.respected[*respects] { (cell(find(column, factor, method))) }
-                        }
-                    } }
+                    @for factor in factors { (factor_rows(factor, &rows(column, factor), methods)) }
                 }
             }
         } }
+    }
+}
+
+/// A factor's tests, and below them how what they presume stands.
+fn factor_rows(factor: &str, rows: &[&TestRow], methods: &[(&str, bool)]) -> Markup {
+    let checked = !assumptions::checks(rows).is_empty();
+    html! {
+        tr.checked[checked] {
+            th scope="row" rowspan=[checked.then_some(2)] { (quantity::words(factor)) }
+            @for (method, respects) in methods {
+                td.respected[*respects] { (cell(rows.iter().copied().find(|row| row.method == *method))) }
+            }
+        }
+        @if checked { tr.checks { td colspan=(methods.len()) { p { (assumptions::line(rows)) } } } }
     }
 }
 
@@ -157,23 +170,25 @@ fn in_full(result: &CampaignResult) -> Markup {
 
 fn full_row(row: &TestRow, result: &CampaignResult) -> Markup {
     let why = row.note.as_deref().unwrap_or("the test could not be made");
-    let freedom: Vec<String> = row
-        .degrees_of_freedom
-        .iter()
-        .map(|freedom| {
-            let decimals = if freedom.fract() == 0.0 { 0 } else { 1 };
-            fixed(*freedom, decimals)
-        })
-        .collect();
+    let freedom = freedom(&row.degrees_of_freedom);
     html! { tr {
         th scope="row" { (quantity::name(&row.quantity, result).words) }
         td.words { (quantity::words(&row.factor)) }
         td.words { (quantity::words(&row.method)) }
         td { (row.statistic_name) " = " (plain(row.statistic, 4, why)) }
-        td { @if freedom.is_empty() { (missing("the method has none")) } @else { (freedom.join(", ")) } }
+        td { @if freedom.is_empty() { (missing("the method has none")) } @else { (freedom) } }
         td { @if row.p.is_some() { (p_value(row.p)) } @else { (missing(why)) } }
         td { @if row.p_adjusted.is_some() { (p_value(row.p_adjusted)) } @else { (missing(why)) } }
         td { @if let Some(effect) = &row.effect_size { (effect_size(effect)) } @else { (missing("none is defined")) } }
         td.words { (row.note.as_deref().unwrap_or("")) }
     } }
+}
+
+/// `1, 44`, with a decimal where there is one.
+fn freedom(degrees_of_freedom: &[f64]) -> String {
+    let shown: Vec<String> = degrees_of_freedom
+        .iter()
+        .map(|freedom| fixed(*freedom, if freedom.fract() == 0.0 { 0 } else { 1 }))
+        .collect();
+    shown.join(", ")
 }

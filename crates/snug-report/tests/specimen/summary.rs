@@ -1,8 +1,8 @@
 //! Tables over the invented tightenings: presets, groups, and p-values among which some tests could not be made.
 
 use snug_campaign::{
-    ConditionSummary, EffectSize, Interval, Moments, PresetSummary, QuantitySummary, Rejection,
-    RejectionCount, TestRow, TighteningId, TighteningResult,
+    AssumptionCheck, ConditionSummary, EffectSize, Interval, Moments, PresetSummary,
+    QuantitySummary, Rejection, RejectionCount, TestRow, TighteningId, TighteningResult,
 };
 
 pub fn presets(tightenings: &[TighteningResult]) -> Vec<PresetSummary> {
@@ -139,6 +139,38 @@ const METHODS: &[(&str, &str)] = &[
     ("participant_permutation", "t"),
 ];
 
+/// What a method presumes, against strategy, joint, pace and participant: sound, unequal variances, residuals not normal,
+/// and both.
+fn presumed(method: &str, factor: usize) -> Vec<AssumptionCheck> {
+    let normal = AssumptionCheck {
+        assumption: "normal_residuals".into(),
+        method: "shapiro_wilk".into(),
+        statistic_name: "W".into(),
+        statistic: Some(0.9812),
+        degrees_of_freedom: vec![],
+        p: Some([0.62, 0.213, 0.004, 0.00002][factor]),
+        values: 20,
+        groups: 2,
+        tied: if factor == 2 { 6 } else { 0 },
+        note: None,
+    };
+    let variances = AssumptionCheck {
+        assumption: "equal_variances".into(),
+        method: "brown_forsythe".into(),
+        statistic_name: "F".into(),
+        statistic: Some(1.2),
+        degrees_of_freedom: vec![1.0, 18.0],
+        p: Some([0.33, 0.021, 0.75, 0.0004][factor]),
+        tied: 0,
+        ..normal.clone()
+    };
+    match method {
+        "student_t" | "one_way_anova" => vec![normal, variances],
+        "welch_t" | "welch_anova" => vec![normal],
+        _ => vec![],
+    }
+}
+
 pub fn tests() -> Vec<TestRow> {
     let mut rows = Vec::new();
     let quantities = [
@@ -179,6 +211,7 @@ pub fn tests() -> Vec<TestRow> {
                             high: 1.13,
                         }),
                     }),
+                    assumptions: presumed(method, f),
                     note: (!made).then(|| "each participant has one pace only".into()),
                 });
             }

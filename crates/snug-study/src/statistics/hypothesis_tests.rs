@@ -1,11 +1,12 @@
 //! The table of p values: every quantity against every factor by every method.
 
+use super::assumptions::{self, Assumption};
 use super::factor::Factor;
 use super::methods::{METHODS, Method, Outcome};
 use super::quantity;
 use super::sample::Sample;
 use super::stated::Stated;
-use snug_campaign::{SignalUnits, TestRow, TighteningResult};
+use snug_campaign::{AssumptionCheck, SignalUnits, TestRow, TighteningResult};
 use snug_statistics::multiplicity;
 
 /// Every test of every quantity against every factor over the selected tightenings; p adjusted per method.
@@ -22,11 +23,13 @@ pub fn rows(tightenings: &[&TighteningResult], units: &SignalUnits, seed: u64) -
             if sample.groups.len() < 2 {
                 continue;
             }
+            let checks = assumptions::checks(&sample.groups);
             for method in METHODS {
                 let itself = factor == Factor::Participant && method.respects_participants;
                 if (method.compares)(sample.groups.len()) && !itself {
                     let outcome = (method.test)(&sample, seed);
-                    rows.push(row(&name, factor, method, outcome));
+                    let checks = presumed(method, &checks);
+                    rows.push(row(&name, factor, method, checks, outcome));
                 }
             }
         }
@@ -35,7 +38,22 @@ pub fn rows(tightenings: &[&TighteningResult], units: &SignalUnits, seed: u64) -
     rows
 }
 
-fn row(quantity: &str, factor: Factor, method: &Method, outcome: Outcome) -> TestRow {
+/// The checks of what a method presumes.
+fn presumed(method: &Method, checks: &[(Assumption, AssumptionCheck)]) -> Vec<AssumptionCheck> {
+    checks
+        .iter()
+        .filter(|(assumption, _)| method.presumes.contains(assumption))
+        .map(|(_, check)| check.clone())
+        .collect()
+}
+
+fn row(
+    quantity: &str,
+    factor: Factor,
+    method: &Method,
+    assumptions: Vec<AssumptionCheck>,
+    outcome: Outcome,
+) -> TestRow {
     let (outcome, effect_size) = match outcome {
         Ok((test, size)) => (Ok(test), size),
         Err(error) => (Err(error), None),
@@ -52,6 +70,7 @@ fn row(quantity: &str, factor: Factor, method: &Method, outcome: Outcome) -> Tes
         p: stated.p,
         p_adjusted: None,
         effect_size,
+        assumptions,
         note: stated.note,
     }
 }

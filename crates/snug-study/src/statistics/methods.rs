@@ -1,5 +1,6 @@
 //! Every test of the table of p values: one entry of [`METHODS`] each.
 
+use super::assumptions::Assumption::{self, EqualVariances, NormalResiduals};
 use super::conditions::interval;
 use super::sample::Sample;
 use snug_campaign::EffectSize;
@@ -17,6 +18,8 @@ pub struct Method {
     pub name: &'static str,
     /// Whether it respects that tightenings of one participant resemble each other.
     pub respects_participants: bool,
+    /// What it presumes of the groups and is checked beside it.
+    pub presumes: &'static [Assumption],
     /// Whether it compares so many groups.
     pub compares: fn(groups: usize) -> bool,
     /// The test itself, with a seed where it draws.
@@ -25,12 +28,12 @@ pub struct Method {
 
 /// In the order of the table.
 pub const METHODS: &[Method] = &[
-    two_groups("student_t", student),
-    two_groups("welch_t", welch),
-    two_groups("mann_whitney", mann_whitney),
-    any_groups("one_way_anova", anova),
-    more_groups("welch_anova", welch_anova),
-    more_groups("kruskal_wallis", kruskal_wallis),
+    two_groups("student_t", student, &[NormalResiduals, EqualVariances]),
+    two_groups("welch_t", welch, &[NormalResiduals]),
+    two_groups("mann_whitney", mann_whitney, &[]),
+    any_groups("one_way_anova", anova, &[NormalResiduals, EqualVariances]),
+    more_groups("welch_anova", welch_anova, &[NormalResiduals]),
+    more_groups("kruskal_wallis", kruskal_wallis, &[]),
     per_participant("mixed_model", mixed_model),
     per_participant("cluster_robust", cluster_robust),
     per_participant("participant_permutation", permutation),
@@ -39,33 +42,35 @@ pub const METHODS: &[Method] = &[
 type Test = fn(&Sample, seed: u64) -> Outcome;
 
 /// A method for any number of groups that takes every tightening for independent.
-const fn any_groups(name: &'static str, test: Test) -> Method {
+const fn any_groups(name: &'static str, test: Test, presumes: &'static [Assumption]) -> Method {
     Method {
         name,
         respects_participants: false,
+        presumes,
         compares: |_| true,
         test,
     }
 }
 
-const fn two_groups(name: &'static str, test: Test) -> Method {
+const fn two_groups(name: &'static str, test: Test, presumes: &'static [Assumption]) -> Method {
     Method {
         compares: |groups| groups == 2,
-        ..any_groups(name, test)
+        ..any_groups(name, test, presumes)
     }
 }
 
-const fn more_groups(name: &'static str, test: Test) -> Method {
+const fn more_groups(name: &'static str, test: Test, presumes: &'static [Assumption]) -> Method {
     Method {
         compares: |groups| groups > 2,
-        ..any_groups(name, test)
+        ..any_groups(name, test, presumes)
     }
 }
 
+/// A method that respects participants: residuals about the groups' means are not what it presumes something of.
 const fn per_participant(name: &'static str, test: Test) -> Method {
     Method {
         respects_participants: true,
-        ..any_groups(name, test)
+        ..any_groups(name, test, &[])
     }
 }
 
