@@ -25,13 +25,20 @@ pub fn cargo() -> Command {
 }
 
 /// Runs a command to its end; whatever it ends with but success is a failure.
-pub fn run(mut command: Command) -> ExitCode {
-    match command.status() {
-        Ok(status) if status.success() => exit::DONE,
-        Ok(_) => exit::failed(),
-        Err(error) => {
-            complain(&format!("cargo cannot be started: {error}"));
-            exit::failed()
-        }
+pub fn run(command: Command) -> ExitCode {
+    match succeeds(command) {
+        true => exit::DONE,
+        false => exit::failed(),
     }
+}
+
+/// Whether a command, run to its end, succeeds.
+pub fn succeeds(mut command: Command) -> bool {
+    command.status().map_or_else(
+        |error| {
+            complain(&format!("cargo cannot be started: {error}"));
+            false
+        },
+        |status| status.success(),
+    )
 }

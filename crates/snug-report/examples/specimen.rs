@@ -1,4 +1,4 @@
-//! Writes the report of an invented campaign into the folder given as argument (`specimen` without one).
+//! Writes the report of an invented campaign into the folder given as argument (a temporary one without).
 //! A second argument is the number of tightenings, or `diagnose`, `improve` or `unlisted` for one with a diagnosis.
 
 #[path = "../tests/specimen/mod.rs"]
@@ -11,7 +11,8 @@ use std::path::PathBuf;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut arguments = std::env::args().skip(1);
-    let folder = PathBuf::from(arguments.next().unwrap_or_else(|| "specimen".into()));
+    let folder = (arguments.next())
+        .map_or_else(|| std::env::temp_dir().join("snug-specimen"), PathBuf::from);
     let result = match arguments.next().as_deref() {
         None => specimen::campaign(24),
         Some("0") => specimen::empty(),
