@@ -1,6 +1,7 @@
-//! Verbs and options of the command line; the comments here are what `--help` prints.
+//! Options of the command line; the comments here are what `--help` prints. The verbs stand in `verbs.rs`.
 
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use crate::verbs::Verb;
+use clap::{Args, Parser, ValueEnum};
 use std::path::PathBuf;
 
 /// Snug identifies the hand–arm model of a nutrunner from measured tightenings.
@@ -53,104 +54,6 @@ pub enum LogFormat {
     Text,
     /// One JSON object a line.
     Json,
-}
-
-/// What to do.
-#[derive(Debug, Subcommand)]
-pub enum Verb {
-    /// From recordings to identified parameters, statistics, report and MCAP.
-    ///
-    /// Without arguments on the campaign embedded in fixtures/. Writes report.html, tightenings.csv, statistics.json,
-    /// findings.json, recording.mcap (with a layout for the viewer) and study.ron, the study with every default written
-    /// out, which can be run again.
-    Run(RunOptions),
-    /// Model against measurement: how large the error is, and where it lies.
-    ///
-    /// Per tightening and pooled, in units, in percent and in multiples of the measured noise; over time, phase,
-    /// frequency, amplitude and conditions; and as a missing force.
-    Compare(RunOptions),
-    /// What is missing: every effect that could be, ranked. Changes nothing.
-    ///
-    /// Each effect of the catalogue is scored, refitted to all tightenings together and tried on tightenings that took no
-    /// part; the first of the ranking is named if chance does not do as well.
-    Diagnose(RunOptions),
-    /// Adds effects to the model, refits, and shows the error before and after.
-    ///
-    /// With --study, the effects are written into that file's model; always into the results' study.ron, with their sizes.
-    Add {
-        /// Names of effects, from the catalogue or the study's own.
-        #[arg(required = true, value_name = "EFFECT")]
-        effects: Vec<String>,
-        #[command(flatten)]
-        options: RunOptions,
-    },
-    /// Takes an effect out of a study file's model.
-    Remove {
-        /// Its name.
-        effect: String,
-        /// The study file (RON).
-        #[arg(long, value_name = "FILE.ron")]
-        study: PathBuf,
-    },
-    /// Diagnoses, adds, refits, again and again until nothing more is justified.
-    ///
-    /// Writes the whole ladder: how the error fell, what was tried and why it stopped.
-    Improve(RunOptions),
-    /// The catalogue of physical effects, or one of them in full.
-    Effects {
-        /// Name of one effect, for example coulomb_friction.
-        name: Option<String>,
-    },
-    /// Makes a recording that was cut short whole: an index at its end, so that every reader opens it.
-    ///
-    /// A run that is killed leaves its recording as recording.partial-TIME.mcap. Everything in it that can be read stays
-    /// as it is; what is missing is told. The file as it was is kept beside.
-    Recover {
-        /// The recording (MCAP).
-        #[arg(value_name = "FILE.mcap")]
-        file: PathBuf,
-    },
-    /// Makes the embedded campaigns in fixtures/ anew, bit for bit.
-    Fixtures,
-    /// Every test of the workspace.
-    Test {
-        /// Also the statistical checks with many cases (minutes).
-        #[arg(long)]
-        many: bool,
-        /// Also every effect of the catalogue hidden and searched for (half an hour and more).
-        #[arg(long)]
-        blind: bool,
-        /// Only tests whose name contains this.
-        filter: Option<String>,
-    },
-    /// Licences, advisories, dependencies, sizes and units of the workspace; needs no network.
-    Tidy {
-        /// Also what fails nothing: accepted advisories, duplicates and who needs them.
-        #[arg(long)]
-        list: bool,
-    },
-    /// Mutated inputs for everything that reads a stranger's bytes, each reader in a process of its own.
-    Fuzz {
-        /// Only readers whose name contains this: mat4, mat5, mat5_packed, hdf5, csv, mcap, mcap_packed, study, expression,
-        /// pipeline.
-        target: Option<String>,
-        /// An input that failed before, to be tried again.
-        input: Option<PathBuf>,
-        /// How long each reader is tried.
-        #[arg(long, value_name = "S", default_value_t = 60)]
-        seconds: u32,
-        /// Which mutations.
-        #[arg(long, value_name = "N", default_value_t = 0)]
-        seed: u64,
-    },
-    /// How fast Snug is beside bare loops and other programs, in one table.
-    Bench {
-        /// Sections: base, effects, ranking, improve, throughput, peers; default all.
-        sections: Vec<String>,
-        /// Also what takes minutes: 2687 tightenings.
-        #[arg(long)]
-        long: bool,
-    },
 }
 
 /// Options of the verbs that evaluate data.

@@ -12,7 +12,7 @@ mod terminal;
 mod verbs;
 mod workspace;
 
-use arguments::{Arguments, Verb};
+use arguments::Arguments;
 use clap::Parser;
 use std::process::ExitCode;
 
@@ -48,30 +48,5 @@ fn main() -> ExitCode {
         terminal::complain(&error);
         return exit::bad_arguments();
     }
-    match arguments.verb {
-        Verb::Run(options) => verbs::run(&options),
-        Verb::Compare(options) => verbs::diagnose(&options, &snug_study::Verb::Compare),
-        Verb::Diagnose(options) => verbs::diagnose(&options, &snug_study::Verb::Diagnose),
-        Verb::Add { effects, options } => {
-            verbs::diagnose(&options, &snug_study::Verb::Add(effects))
-        }
-        Verb::Remove { effect, study } => verbs::remove(&study, &effect),
-        Verb::Improve(options) => verbs::diagnose(&options, &snug_study::Verb::Improve),
-        Verb::Effects { name } => verbs::effects(name.as_deref()),
-        Verb::Recover { file } => verbs::recover(&file),
-        Verb::Fixtures => verbs::fixtures(),
-        Verb::Test {
-            many,
-            blind,
-            filter,
-        } => verbs::test(many, blind, filter.as_deref()),
-        Verb::Tidy { list } => verbs::tidy(list),
-        Verb::Fuzz {
-            target,
-            input,
-            seconds,
-            seed,
-        } => verbs::fuzz(target.as_deref(), input.as_deref(), seconds, seed),
-        Verb::Bench { sections, long } => verbs::bench(&sections, long),
-    }
+    arguments.verb.run()
 }

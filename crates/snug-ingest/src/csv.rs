@@ -8,6 +8,7 @@ pub use number::Decimal;
 pub use table::{Delimiter, Header};
 
 use crate::finding_log::{About, FindingLog};
+use crate::layout::{self, Layout};
 use crate::memory::Budget;
 use crate::range::{self, Range};
 use crate::sampling::{self, Timed};
@@ -15,6 +16,7 @@ use crate::signal::{self, Signal, Unit};
 use crate::{ConditionPattern, IngestError, Ingested};
 use serde::{Deserialize, Serialize};
 use snug_campaign::{Conditions, Motion, Recording, Segment, TimeBase};
+use snug_files::Input;
 use std::fmt;
 use std::path::Path;
 use table::Table;
@@ -153,13 +155,13 @@ impl TimeUnit {
     }
 }
 
-impl CsvLayout {
-    /// Checks the settings that no type can check.
-    ///
-    /// # Errors
-    /// [`IngestError::Setting`] naming the field.
-    pub fn check(&self) -> Result<(), IngestError> {
-        signal::check(self.declared())?;
+impl Layout for CsvLayout {
+    fn endings(&self) -> &'static [&'static str] {
+        &["csv", "tsv", "txt"]
+    }
+
+    fn check(&self) -> Result<(), IngestError> {
+        signal::check(&self.declared())?;
         range::check(&self.ranges)?;
         let (field, value, fits) = match &self.sampling {
             Sampling::Rate { hz } => ("sampling.hz", *hz, hz.is_finite() && *hz > 0.0),
@@ -188,6 +190,28 @@ impl CsvLayout {
         Ok(())
     }
 
+    fn ranges(&self) -> &[Range] {
+        &self.ranges
+    }
+
+    fn declared(&self) -> Vec<(Signal, Unit, f64)> {
+        let channels = self.channels.iter();
+        channels.map(|c| (c.signal, c.unit, c.scale)).collect()
+    }
+
+    fn read(
+        &self,
+        input: &mut dyn Input,
+        path: &Path,
+        lever_arm_m: f64,
+        budget: &Budget,
+    ) -> Result<Ingested, IngestError> {
+        let content = layout::content(input, budget, check_text)?;
+        self.within(&content, path, lever_arm_m, budget)
+    }
+}
+
+impl CsvLayout {
     /// The recording in a CSV file's content; `path` names it, `lever_arm_m` turns lengths of the grip into angles.
     ///
     /// # Errors
@@ -202,7 +226,7 @@ impl CsvLayout {
         self.within(content, path, lever_arm_m, &Budget::new(None))
     }
 
-    pub(crate) fn within(
+    fn within(
         &self,
         content: &[u8],
         path: &Path,
@@ -239,7 +263,7 @@ impl CsvLayout {
                 file,
                 label,
                 time_base,
-                self.declared().zip(columns),
+                self.declared().into_iter().zip(columns),
                 lever_arm_m,
             )
         };
@@ -247,11 +271,6 @@ impl CsvLayout {
             recordings: vec![recording],
             findings: log.finish(),
         })
-    }
-
-    /// What the channels measure, in which unit, with which factor.
-    fn declared(&self) -> impl Iterator<Item = (Signal, Unit, f64)> + Clone {
-        self.channels.iter().map(|c| (c.signal, c.unit, c.scale))
     }
 
     /// The columns to read, each with what it holds: the channels, then the times where a column has them.
@@ -346,12 +365,9 @@ pub(crate) fn assemble(
     recording
 }
 
-/// Bytes at the start of a file by which it is judged.
-const FIRST_BLOCK_BYTES: usize = 1 << 16;
-
 /// Whether the start of a file can be text: UTF-16, and whatever a broken disk leaves, has zero bytes.
-pub(crate) fn check_text(content: &[u8]) -> Result<(), IngestError> {
-    let start = &content[..content.len().min(FIRST_BLOCK_BYTES)];
+fn check_text(content: &[u8]) -> Result<(), IngestError> {
+    let start = &content[..content.len().min(layout::FIRST_BLOCK_BYTES)];
     match start.iter().position(|&byte| byte == 0) {
         Some(offset) => Err(IngestError::NotText { offset }),
         None => Ok(()),

@@ -4,6 +4,7 @@ mod condition_pattern;
 pub mod csv;
 mod error;
 mod finding_log;
+mod layout;
 pub mod mat;
 pub mod mcap;
 mod memory;

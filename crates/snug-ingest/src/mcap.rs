@@ -4,10 +4,14 @@
 mod reading;
 
 use crate::csv::default_tolerance_ratio;
+use crate::layout::{self, Layout};
+use crate::memory::Budget;
 use crate::range::{self, Range};
 use crate::signal::{self, Signal, Unit};
-use crate::{ConditionPattern, IngestError};
+use crate::{ConditionPattern, IngestError, Ingested};
 use serde::{Deserialize, Serialize};
+use snug_files::Input;
+use std::path::Path;
 
 /// What an MCAP file's topics are. Without channels the file is one that Snug wrote, and gives its measurements.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -54,19 +58,14 @@ pub struct McapChannel {
     pub scale: f64,
 }
 
-impl McapLayout {
-    /// What the channels measure, in which unit, with which factor.
-    fn declared(&self) -> impl Iterator<Item = (Signal, Unit, f64)> + Clone {
-        self.channels.iter().map(|c| (c.signal, c.unit, c.scale))
+impl Layout for McapLayout {
+    fn endings(&self) -> &'static [&'static str] {
+        &["mcap"]
     }
 
-    /// Checks the settings that no type can check.
-    ///
-    /// # Errors
-    /// [`IngestError::Setting`] naming the field.
-    pub fn check(&self) -> Result<(), IngestError> {
+    fn check(&self) -> Result<(), IngestError> {
         if !self.channels.is_empty() {
-            signal::check(self.declared())?;
+            signal::check(&self.declared())?;
         }
         range::check(&self.ranges)?;
         for (field, value) in [
@@ -83,13 +82,33 @@ impl McapLayout {
         }
         Ok(())
     }
+
+    fn ranges(&self) -> &[Range] {
+        &self.ranges
+    }
+
+    fn declared(&self) -> Vec<(Signal, Unit, f64)> {
+        let channels = self.channels.iter();
+        channels.map(|c| (c.signal, c.unit, c.scale)).collect()
+    }
+
+    fn read(
+        &self,
+        input: &mut dyn Input,
+        path: &Path,
+        lever_arm_m: f64,
+        budget: &Budget,
+    ) -> Result<Ingested, IngestError> {
+        let content = layout::content(input, budget, check_start)?;
+        read(self, &content, path, lever_arm_m, budget)
+    }
 }
 
 /// What every MCAP file starts with.
 const MAGIC: &[u8] = b"\x89MCAP0\r\n";
 
 /// Whether the start of a file is that of an MCAP file.
-pub(crate) fn check_start(start: &[u8]) -> Result<(), IngestError> {
+fn check_start(start: &[u8]) -> Result<(), IngestError> {
     if start.is_empty() {
         return Err(IngestError::EmptyFile);
     }
@@ -103,16 +122,10 @@ pub(crate) fn check_start(start: &[u8]) -> Result<(), IngestError> {
 
 /// The recordings in an MCAP file's content.
 #[cfg(feature = "mcap")]
-pub(crate) use reading::read;
+use reading::read;
 
 #[cfg(not(feature = "mcap"))]
-pub(crate) fn read(
-    _: &McapLayout,
-    _: &[u8],
-    _: &std::path::Path,
-    _: f64,
-    _: &crate::memory::Budget,
-) -> Result<crate::Ingested, IngestError> {
+fn read(_: &McapLayout, _: &[u8], _: &Path, _: f64, _: &Budget) -> Result<Ingested, IngestError> {
     Err(IngestError::FormatNotBuilt {
         format: "MCAP",
         feature: "mcap",

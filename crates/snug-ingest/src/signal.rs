@@ -182,15 +182,13 @@ pub(crate) fn as_it_is() -> f64 {
 }
 
 /// Checks a set of declared channels: units fit, torque and a motion are there, nothing is declared twice.
-pub(crate) fn check(
-    channels: impl Iterator<Item = (Signal, Unit, f64)> + Clone,
-) -> Result<(), IngestError> {
+pub(crate) fn check(channels: &[(Signal, Unit, f64)]) -> Result<(), IngestError> {
     let refused = |value: String, allowed| IngestError::Setting {
         field: "channels",
         value,
         allowed,
     };
-    for (index, (signal, unit, scale)) in channels.clone().enumerate() {
+    for (index, &(signal, unit, scale)) in channels.iter().enumerate() {
         if unit.factor(signal, 1.0).is_none() {
             let measures = |one: &Unit| one.factor(signal, 1.0).is_some();
             return Err(IngestError::UnitOfSignal {
@@ -205,22 +203,21 @@ pub(crate) fn check(
                 "a finite scale other than 0",
             ));
         }
-        if channels
-            .clone()
-            .take(index)
-            .any(|(other, ..)| other == signal)
-        {
+        if channels[..index].iter().any(|&(other, ..)| other == signal) {
             return Err(refused(
                 format!("{signal:?} twice"),
                 "every signal at most once",
             ));
         }
     }
-    let declared = |wanted: fn(Signal) -> bool| channels.clone().any(|(signal, ..)| wanted(signal));
+    let declared = |wanted: fn(Signal) -> bool| channels.iter().any(|&(signal, ..)| wanted(signal));
     if !declared(|signal| signal == Signal::Torque)
         || !declared(|signal| signal.quantity().is_some())
     {
-        let present: Vec<String> = channels.map(|(signal, ..)| format!("{signal:?}")).collect();
+        let present: Vec<String> = channels
+            .iter()
+            .map(|(signal, ..)| format!("{signal:?}"))
+            .collect();
         return Err(refused(
             format!("[{}]", present.join(", ")),
             "Torque (the input) and at least one of Displacement, Velocity, Acceleration",
@@ -276,14 +273,14 @@ mod tests {
     #[test]
     fn channels_must_make_a_rig() {
         use Signal::{Displacement, GripForce, Torque};
-        let ok = |list: &[(Signal, Unit, f64)]| check(list.iter().copied()).is_ok();
+        let ok = |list: &[(Signal, Unit, f64)]| check(list).is_ok();
         let torque = (Torque, Unit::NewtonMetre, 1.0);
         let angle = (Displacement, Unit::Degree, -1.0);
         assert!(ok(&[torque, angle]));
         assert!(!ok(&[torque]), "no motion");
         assert!(!ok(&[angle, (GripForce, Unit::Newton, 1.0)]), "no input");
         assert!(!ok(&[torque, angle, angle]), "twice");
-        let wrong = check([(Torque, Unit::Newton, 1.0), angle].into_iter()).unwrap_err();
+        let wrong = check(&[(Torque, Unit::Newton, 1.0), angle]).unwrap_err();
         assert!(
             wrong
                 .to_string()

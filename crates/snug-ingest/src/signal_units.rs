@@ -1,6 +1,6 @@
 //! Which units a source's declared channels are shown in; conversion to SI is `signal.rs`.
 
-use crate::{Format, Signal, Source, Unit};
+use crate::{Signal, Source, Unit};
 use snug_campaign::SignalUnits;
 
 impl Source {
@@ -9,19 +9,14 @@ impl Source {
     ///
     /// The first motion channel decides for the output.
     pub fn units(&self, lever_arm_m: f64) -> SignalUnits {
-        let declared: Vec<(Signal, Unit)> = match &self.format {
-            Format::Thesis(_) => Vec::new(),
-            Format::Csv(layout) => layout.channels.iter().map(|c| (c.signal, c.unit)).collect(),
-            Format::Mcap(layout) => layout.channels.iter().map(|c| (c.signal, c.unit)).collect(),
-        };
         let mut units = SignalUnits::default();
-        for (signal, unit) in declared.iter().rev() {
-            if *signal == Signal::Torque {
-                units.input = symbol(*unit).unwrap_or("Nm").to_owned();
+        for (signal, unit, _) in self.format.layout().declared().into_iter().rev() {
+            if signal == Signal::Torque {
+                units.input = symbol(unit).unwrap_or("Nm").to_owned();
             } else if signal.quantity().is_some() {
-                let length = unit.factor(*signal, 2.0) != unit.factor(*signal, 1.0);
+                let length = unit.factor(signal, 2.0) != unit.factor(signal, 1.0);
                 let standing_for = if length { "m" } else { "rad" };
-                units.output = symbol(*unit).unwrap_or(standing_for).to_owned();
+                units.output = symbol(unit).unwrap_or(standing_for).to_owned();
                 units.output_per_rad = if length { lever_arm_m } else { 1.0 };
             }
         }
@@ -41,6 +36,7 @@ fn symbol(unit: Unit) -> Option<&'static str> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Format;
     use crate::csv::{Column, CsvChannel, CsvLayout};
 
     fn units(channels: &[(Signal, Unit)]) -> (String, String, f64) {

@@ -5,16 +5,16 @@ mod listing;
 
 pub use listing::{Listing, list, list_on};
 
+use crate::IngestError;
 use crate::csv::CsvLayout;
+use crate::layout::Layout;
 use crate::mcap::McapLayout;
 use crate::memory::Budget;
 use crate::range::Range;
 use crate::thesis_layout::ThesisLayout;
-use crate::{IngestError, csv, mat, mcap};
 use serde::{Deserialize, Serialize};
 use snug_campaign::{Finding, Recording};
-use snug_files::{Disk, Host, Input};
-use std::io::{Read as _, SeekFrom};
+use snug_files::{Disk, Host};
 use std::path::{Path, PathBuf};
 
 /// Where measurements lie and how they are written: the `source` of a study.
@@ -60,13 +60,17 @@ pub struct Ingested {
 }
 
 impl Format {
+    pub(crate) fn layout(&self) -> &dyn Layout {
+        match self {
+            Self::Thesis(layout) => layout,
+            Self::Csv(layout) => layout,
+            Self::Mcap(layout) => layout,
+        }
+    }
+
     /// Endings of the files it reads, in lower case.
     pub fn endings(&self) -> &'static [&'static str] {
-        match self {
-            Self::Thesis(_) => &["mat", "mcap"],
-            Self::Csv(_) => &["csv", "tsv", "txt"],
-            Self::Mcap(_) => &["mcap"],
-        }
+        self.layout().endings()
     }
 }
 
@@ -83,20 +87,12 @@ impl Source {
                 allowed: "a positive number, or none",
             });
         }
-        match &self.format {
-            Format::Thesis(layout) => layout.check(),
-            Format::Csv(layout) => layout.check(),
-            Format::Mcap(layout) => layout.check(),
-        }
+        self.format.layout().check()
     }
 
     /// The declared ranges, which are the segments 1, 2, … of every recording; none for the layout of the thesis.
     pub fn ranges(&self) -> &[Range] {
-        match &self.format {
-            Format::Thesis(_) => &[],
-            Format::Csv(layout) => &layout.ranges,
-            Format::Mcap(layout) => &layout.ranges,
-        }
+        self.format.layout().ranges()
     }
 }
 
@@ -126,69 +122,14 @@ pub fn read_on(
     disk.open(file)
         .map_err(IngestError::Read)
         .and_then(|mut input| {
-            read_input(&source.format, input.as_mut(), file, lever_arm_m, &budget)
+            let layout = source.format.layout();
+            layout.read(input.as_mut(), file, lever_arm_m, &budget)
         })
         .map_err(|error| error.in_file(file))
 }
 
-fn read_input(
-    format: &Format,
-    input: &mut dyn Input,
-    file: &Path,
-    lever_arm_m: f64,
-    budget: &Budget,
-) -> Result<Ingested, IngestError> {
-    match format {
-        Format::Thesis(_) if ending(file) == "mcap" => {
-            let content = content(input, budget, mcap::check_start)?;
-            mcap::read(&McapLayout::default(), &content, file, lever_arm_m, budget)
-        }
-        Format::Thesis(layout) => {
-            let selection = mat::select(input, &|name| layout.wants(name), budget)?;
-            layout.within(selection, file, budget)
-        }
-        Format::Csv(layout) => {
-            let content = content(input, budget, csv::check_text)?;
-            layout.within(&content, file, lever_arm_m, budget)
-        }
-        Format::Mcap(layout) => {
-            let content = content(input, budget, mcap::check_start)?;
-            mcap::read(layout, &content, file, lever_arm_m, budget)
-        }
-    }
-}
-
-/// Bytes at the start of a file by which it is judged.
-const FIRST_BLOCK_BYTES: usize = 1 << 16;
-
-/// The whole content of a file whose start `check` lets pass.
-fn content(
-    input: &mut dyn Input,
-    budget: &Budget,
-    check: fn(&[u8]) -> Result<(), IngestError>,
-) -> Result<Vec<u8>, IngestError> {
-    let length = input.seek(SeekFrom::End(0)).map_err(IngestError::Read)?;
-    input.rewind().map_err(IngestError::Read)?;
-    let mut start = Vec::new();
-    (&mut *input)
-        .take(FIRST_BLOCK_BYTES as u64)
-        .read_to_end(&mut start)
-        .map_err(IngestError::Read)?;
-    check(&start)?;
-    let mut content: Vec<u8> =
-        budget.list("the file", usize::try_from(length).unwrap_or(usize::MAX))?;
-    content.extend_from_slice(&start);
-    // Not beyond the length for which there is room, should the file grow meanwhile.
-    let rest = length.saturating_sub(start.len() as u64);
-    input
-        .take(rest)
-        .read_to_end(&mut content)
-        .map_err(IngestError::Read)?;
-    Ok(content)
-}
-
 /// In lower case, without the point.
-fn ending(file: &Path) -> String {
+pub(crate) fn ending(file: &Path) -> String {
     file.extension()
         .unwrap_or_default()
         .to_string_lossy()

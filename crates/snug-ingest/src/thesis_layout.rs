@@ -3,11 +3,15 @@
 mod events;
 
 use crate::finding_log::{About, FindingLog};
-use crate::mat::{Content, MatFile, MatSelection, Value};
+use crate::layout::Layout;
+use crate::mat::{self, Content, MatFile, MatSelection, Value};
+use crate::mcap::McapLayout;
 use crate::memory::Budget;
+use crate::source::ending;
 use crate::{ConditionPattern, IngestError, Ingested};
 use serde::{Deserialize, Serialize};
 use snug_campaign::{Motion, Recording, Segment, TimeBase};
+use snug_files::Input;
 use std::path::Path;
 
 /// A label is a name, and names are short \[characters\].
@@ -54,12 +58,12 @@ impl Default for ThesisLayout {
     }
 }
 
-impl ThesisLayout {
-    /// Checks the settings that no type can check.
-    ///
-    /// # Errors
-    /// [`IngestError::Setting`] naming the field.
-    pub fn check(&self) -> Result<(), IngestError> {
+impl Layout for ThesisLayout {
+    fn endings(&self) -> &'static [&'static str] {
+        &["mat", "mcap"]
+    }
+
+    fn check(&self) -> Result<(), IngestError> {
         if !(self.sample_rate_hz.is_finite() && self.sample_rate_hz > 0.0) {
             return Err(IngestError::Setting {
                 field: "sample_rate_hz",
@@ -82,6 +86,22 @@ impl ThesisLayout {
         Ok(())
     }
 
+    fn read(
+        &self,
+        input: &mut dyn Input,
+        path: &Path,
+        lever_arm_m: f64,
+        budget: &Budget,
+    ) -> Result<Ingested, IngestError> {
+        if ending(path) == "mcap" {
+            return McapLayout::default().read(input, path, lever_arm_m, budget);
+        }
+        let selection = mat::select(input, &|name| self.wants(name), budget)?;
+        self.within(selection, path, budget)
+    }
+}
+
+impl ThesisLayout {
     /// Whether a variable of this name is read.
     pub fn wants(&self, name: &str) -> bool {
         [
@@ -117,7 +137,7 @@ impl ThesisLayout {
         self.within(mat, path, &Budget::new(None))
     }
 
-    pub(crate) fn within(
+    fn within(
         &self,
         mut mat: MatSelection,
         path: &Path,

@@ -17,7 +17,7 @@ mod throughput;
 type Section = (&'static str, fn(bool));
 
 /// In order of appearance.
-const SECTIONS: [Section; 6] = [
+const SECTIONS: &[Section] = &[
     ("base", base::fill),
     ("effects", effects::fill),
     ("ranking", ranking::fill),
@@ -40,7 +40,7 @@ fn main() {
     let named: Vec<&String> = (arguments.iter())
         .filter(|argument| !argument.starts_with("--"))
         .collect();
-    let known = SECTIONS.map(|(name, _)| name);
+    let known: Vec<&str> = SECTIONS.iter().map(|(name, _)| *name).collect();
     if let Some(unknown) = named.iter().find(|name| !known.contains(&name.as_str())) {
         let meant = snug_campaign::did_you_mean(unknown, &known);
         println!(
@@ -50,7 +50,7 @@ fn main() {
         std::process::exit(2);
     }
     for (name, fill) in SECTIONS {
-        if named.is_empty() || named.iter().any(|wanted| *wanted == name) {
+        if named.is_empty() || named.iter().any(|wanted| wanted == name) {
             fill(is_long);
         }
     }

@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 
 /// Script, name, fits a round.
-const PEERS: [(&str, &str, usize); 3] = [
+const PEERS: &[(&str, &str, usize)] = &[
     ("numba_levenberg_marquardt.py", "numba, hand-written", FITS),
     ("scipy_lfilter.py", "SciPy, lfilter", FITS),
     ("scipy_lsim.py", "SciPy, lsim", 4),
@@ -34,7 +34,7 @@ pub fn fill(_is_long: bool) {
     let all = Campaign::hiding(&[], FITS).cases();
     let cases = inside(&all);
     write_problem(&cases, folder.path());
-    for (script, name, most) in PEERS {
+    for &(script, name, most) in PEERS {
         let cases = &cases[..most.min(cases.len())];
         match Peer::start(&python, script, folder.path()) {
             Ok(peer) => compare(peer, name, cases),

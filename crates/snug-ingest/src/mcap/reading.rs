@@ -3,6 +3,7 @@
 use super::{McapChannel, McapLayout};
 use crate::csv::assemble;
 use crate::finding_log::{About, FindingLog};
+use crate::layout::Layout;
 use crate::memory::Budget;
 use crate::sampling::{self, Timed, Track};
 use crate::{IngestError, Ingested, range};
@@ -178,7 +179,7 @@ fn declared(
             file,
             stem,
             time_base,
-            layout.declared().zip(channels),
+            layout.declared().into_iter().zip(channels),
             lever_arm_m,
         )
     })

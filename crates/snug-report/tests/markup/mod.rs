@@ -18,6 +18,24 @@ pub fn assert_finite_attributes(page: &str) {
     }
 }
 
+/// Names of a page's sections, in order; its list of contents leads to just these.
+pub fn sections(page: &str) -> Vec<&str> {
+    let (_, rest) = page
+        .split_once("<nav class=\"contents\"")
+        .expect("a list of contents");
+    let (contents, _) = rest.split_once("</nav>").expect("its end");
+    let listed = between(contents, "href=\"#", "\"");
+    assert_eq!(listed, between(page, "<section id=\"", "\""));
+    listed
+}
+
+fn between<'a>(text: &'a str, start: &str, end: &str) -> Vec<&'a str> {
+    let starts = text.split(start).skip(1);
+    starts
+        .filter_map(|rest| Some(rest.split_once(end)?.0))
+        .collect()
+}
+
 /// Every start tag of a page, in order.
 ///
 /// # Errors
