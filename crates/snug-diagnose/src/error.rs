@@ -7,6 +7,7 @@ use thiserror::Error;
 
 /// Why a diagnosis could not be made.
 #[derive(Debug, Error)]
+#[non_exhaustive]
 pub enum DiagnoseError {
     /// No tightening can be compared with a simulation.
     #[error("none of the {tightenings} tightenings can be compared with the model: {reason}")]

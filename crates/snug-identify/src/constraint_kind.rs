@@ -7,6 +7,7 @@ use snug_model::Model;
 
 /// A constraint a study can ask for on m, c, k.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub enum ConstraintKind {
     /// m > 0, c > 0, k > 0, each as far as it is free.
     Positive,

@@ -6,6 +6,7 @@ use thiserror::Error;
 
 /// Why an identification could not even begin.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
 pub enum IdentifyError {
     /// The tightening does not hold the quantity to be fitted.
     #[error("the recording holds no {quantity:?}, which is the fitted output")]

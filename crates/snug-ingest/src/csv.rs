@@ -78,6 +78,7 @@ pub struct CsvChannel {
 
 /// A column by the header's name or by place.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub enum Column {
     /// The header's text; letter case counts only where two columns differ by it alone.
     Name(String),
@@ -97,6 +98,7 @@ impl fmt::Display for Column {
 /// Where the samples' times come from.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
+#[non_exhaustive]
 pub enum Sampling {
     /// The samples are equally spaced, the first at 0 s.
     Rate {
@@ -132,6 +134,7 @@ impl Default for Sampling {
 
 /// Unit of a time column.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub enum TimeUnit {
     /// s
     #[default]

@@ -41,6 +41,7 @@ pub(crate) const MAXIMUM_DEPTH: usize = 100;
 
 /// Which of MATLAB's file formats a file is written in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum MatFormat {
     /// Level 4: matrices and text only.
     Level4,

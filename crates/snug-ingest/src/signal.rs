@@ -7,6 +7,7 @@ use std::f64::consts::PI;
 
 /// A measured quantity of a one-degree-of-freedom rig.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[non_exhaustive]
 pub enum Signal {
     /// Input: torque about the joint.
     Torque,
@@ -34,6 +35,7 @@ impl Signal {
 
 /// The unit of a column or topic. Lengths of the grip become angles by the rig's lever arm, θ = x/l.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[non_exhaustive]
 pub enum Unit {
     /// A pure number that stands for the signal in SI units about the joint (Nm, rad, rad/s, rad/s², N) 1:1.
     One,

@@ -35,6 +35,7 @@ pub struct Source {
 
 /// How measurement files are written.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub enum Format {
     /// MAT files of any level in the layout of the thesis (`.mat`), and Snug's own recordings (`.mcap`).
     Thesis(ThesisLayout),

@@ -4,6 +4,7 @@ use thiserror::Error;
 
 /// Why a residual has no value at a point.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[non_exhaustive]
 pub enum EvaluationError {
     /// A residual, a sensitivity or the cost is infinite or not a number.
     #[error("the residual or its sensitivities are not finite")]
@@ -20,6 +21,7 @@ pub enum EvaluationError {
 
 /// Why a fit could not even begin.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
 pub enum SolveError {
     /// A vector has the wrong number of entries.
     #[error("{what} has {found} entries, the problem has {expected} parameters")]

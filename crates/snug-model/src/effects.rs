@@ -77,6 +77,7 @@ macro_rules! declare_effect {
     ([$($module:ident::$Effect:ident,)+]) => {
         /// One effect of the catalogue, or one that a study wrote itself.
         #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+        #[non_exhaustive]
         pub enum Effect {
             $(
                 #[doc = $module::page!()]

@@ -5,6 +5,7 @@ use thiserror::Error;
 
 /// Why a model cannot be assembled.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
 pub enum ModelError {
     /// A constant of the rig is out of range.
     #[error("rig: {field} is {value}, allowed is {allowed}")]

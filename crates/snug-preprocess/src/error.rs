@@ -4,6 +4,7 @@ use thiserror::Error;
 
 /// Why preprocessing could not start. Faults of the data are findings instead.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
 pub enum PreprocessError {
     /// A setting lies outside what is allowed.
     #[error("setting `{setting}` is {value}; allowed: {allowed}")]

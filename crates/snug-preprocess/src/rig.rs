@@ -8,6 +8,7 @@ use snug_campaign::{Recording, Rig};
 /// How the known inertia I_n of a recording is found.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
+#[non_exhaustive]
 pub enum KnownInertia {
     /// By whether the file holds a force channel: the transducer adds inertia (thesis).
     ByForceChannel {

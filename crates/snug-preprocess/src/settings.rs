@@ -26,6 +26,7 @@ impl Preset {
 /// Which stretch of a segment is kept.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
+#[non_exhaustive]
 pub enum Window {
     /// A torque pulse after a quiet part.
     Pulse {

@@ -6,6 +6,7 @@ use thiserror::Error;
 
 /// Why a recording could not be written or read.
 #[derive(Debug, Error)]
+#[non_exhaustive]
 pub enum RecordError {
     /// A file of that name is there already; nothing is ever replaced.
     #[error(

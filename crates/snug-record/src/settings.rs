@@ -41,6 +41,7 @@ impl Default for RecordSettings {
 /// Which samples of a tightening are written. Samples are picked, never averaged: what is written was measured.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
+#[non_exhaustive]
 pub enum Samples {
     /// Every sample of every tightening.
     All,
@@ -58,6 +59,7 @@ pub enum Samples {
 
 /// Compression of the chunks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub enum Compression {
     /// Smallest files.
     Zstd,

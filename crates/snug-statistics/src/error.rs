@@ -4,6 +4,7 @@ use crate::Sample;
 
 /// Why a statistic could not be computed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum StatisticsError {
     /// A sample holds fewer values than the method needs (an empty one holds none).
     #[error("{sample} holds {found} values; {method} needs at least {required}")]

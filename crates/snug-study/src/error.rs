@@ -15,6 +15,7 @@ use thiserror::Error;
 
 /// Why a study cannot be read or run.
 #[derive(Debug, Error)]
+#[non_exhaustive]
 pub enum StudyError {
     /// The study file cannot be read.
     #[error("{} cannot be read: {source}; a study is a text file (RON in UTF-8)", path.display())]

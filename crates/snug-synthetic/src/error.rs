@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 /// Why a campaign could not be simulated or written.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum SyntheticError {
     /// A number of the plan is outside what can be simulated.
     #[error("{field} is {value}; allowed is {allowed}")]

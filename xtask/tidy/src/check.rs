@@ -1,7 +1,9 @@
 //! What must hold of the workspace as a whole and can be checked without a network: one check, one file.
 
 use crate::lockfile::Lockfile;
-use crate::{advisories, duplicates, headers, licences, sizes, source_files, units, unused};
+use crate::{
+    advisories, duplicates, headers, licences, packages, sizes, source_files, units, unused,
+};
 use cargo_metadata::{Metadata, MetadataCommand};
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -85,6 +87,7 @@ pub fn check(root: &Path) -> Result<Vec<Outcome>, Error> {
         advisories::check(&advisories::Snapshot::read(root)?, &lockfile),
         unused::check(&unused::shared(root)?, &unused::members(&metadata)?),
         duplicates::check(&duplicates::built(root)?),
+        packages::check(&packages::published(&metadata)),
         headers::check(&files),
         sizes::check(&files),
         units::check(&files),

@@ -6,6 +6,7 @@ mod duplicates;
 mod headers;
 mod licences;
 mod lockfile;
+mod packages;
 mod sizes;
 mod source_files;
 mod units;

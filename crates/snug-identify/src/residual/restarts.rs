@@ -13,6 +13,7 @@ use snug_model::Input;
 /// predicts over that time.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
+#[non_exhaustive]
 pub enum Simulation {
     /// Restarted where the window is `Whole` and a free run of the study's own model misses the measurement by far;
     /// decided by `compare`, `diagnose`, `add` and `improve`. Otherwise free.

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 /// How decimals are written.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub enum Decimal {
     /// With a point, or with a comma where there is no point.
     #[default]

@@ -11,6 +11,7 @@ use snug_campaign::excerpt;
 
 /// What separates the columns.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub enum Delimiter {
     /// Semicolon, tab or comma: the first of them that the first line holds.
     #[default]
@@ -25,6 +26,7 @@ pub enum Delimiter {
 
 /// Whether the first line names the columns.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub enum Header {
     /// It does where a column is declared by name, or where a declared column's first cell is no number.
     #[default]

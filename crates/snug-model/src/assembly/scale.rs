@@ -11,6 +11,7 @@ use snug_campaign::Rig;
 /// such a rig before.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
+#[non_exhaustive]
 pub enum Scale {
     /// As the data show it where the window is `Whole`, otherwise as for a hand on a tool.
     #[default]

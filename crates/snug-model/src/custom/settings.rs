@@ -8,6 +8,7 @@ use std::iter::once;
 
 /// Where a custom effect's expression is added.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[non_exhaustive]
 pub enum Place {
     /// To the hand force F \[N\] (acts as −l F on the tool).
     #[default]
