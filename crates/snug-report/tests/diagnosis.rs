@@ -71,54 +71,8 @@ fn sections_stand_right_after_the_overview_and_only_with_a_diagnosis() {
 }
 
 #[test]
-fn the_work_done_is_counted() {
-    has(
-        &html(&diagnosed::improve()),
-        "effort",
-        &[
-            "rankings of all candidates 3",
-            "simulations with sensitivities in them 29616",
-        ],
-    );
-}
-
-#[test]
-fn the_verdict_states_sizes_with_intervals_units_and_certainty() {
+fn the_ladder_is_drawn() {
     let page = html(&diagnosed::improve());
-    has(
-        &page,
-        "verdict",
-        &[
-            "the model is adequate",
-            "cubic stiffness",
-            "cubic stiffness 9.90 × 10⁵ N/m³ [9.61, 10.19] × 10⁵ N/m³",
-            "It removes 83 % of the misfit",
-            "chance alone does as well in 1 of 1000 cases",
-            "delay 0.00160 s [0.00131, 0.00189] s",
-            "cannot tell it from torque lag",
-            "Check at the bench",
-            "typically 0.310 rad/s², beyond chance in 87.5 %",
-            "No further effect is supported",
-            "torque delay stays.",
-            "24 tightenings took part",
-            "standard deviation 0.900 rad/s²",
-        ],
-    );
-}
-
-#[test]
-fn the_ladder_has_every_number_and_is_drawn() {
-    let page = html(&diagnosed::improve());
-    has(
-        &page,
-        "ladder",
-        &[
-            "error over noise [× noise]",
-            "+ cubic stiffness 1.380 1.390 1.450 1.410 1.242 4.60 × 10⁻⁴ 97.90 87.5 %",
-            "+ torque delay 1.018 1.021 1.034 1.026 0.9162",
-            "fitted output [rad/s²]",
-        ],
-    );
     let picture = section(&page, "ladder").unwrap();
     // The bars of three rungs on a logarithmic axis: a longer error is a longer bar, and equal factors equal lengths.
     let bars = picture.split("g class=\"bars c-faint\"").nth(1).unwrap();
@@ -206,66 +160,8 @@ fn before_and_after_hold_the_measured_and_both_simulated_samples() {
 }
 
 #[test]
-fn candidates_stand_with_gain_chance_size_and_twins() {
-    let page = html(&diagnosed::diagnose());
-    has(
-        &page,
-        "ranking",
-        &[
-            "misfit removed in held-out tightenings [%]",
-            "cubic stiffness 83 ± 4 % p 0.001 cubic stiffness 9.90 × 10⁵ N/m³",
-            "not to be told from quadratic stiffness",
-            "fit did not settle",
-            "4 more were tried; terms that are in no catalogue among them: 1",
-            "p*x^2*v 0 ± 2 % p 0.610",
-            "whether the arm runs into a stop",
-            "plausible from −4.95 × 10⁶ to 4.95 × 10⁶ N/m³",
-        ],
-    );
-    has(
-        &page,
-        "verdict",
-        &[
-            "It removes 83 ± 4 % of the misfit",
-            "one of these, and these data cannot tell which",
-            "Check at the bench",
-            "cargo xtask add cubic_stiffness",
-            "9 tightenings on the soft joint",
-            "Tightenings needed: 9",
-        ],
-    );
-}
-
-#[test]
-fn an_unlisted_term_is_ready_to_paste() {
-    let page = html(&diagnosed::unlisted());
-    has(
-        &page,
-        "verdict",
-        &[
-            "something is missing that is in no catalogue",
-            "expression: &quot;p*x^2*v&quot;",
-            "removes 71 % of what is left",
-        ],
-    );
-}
-
-#[test]
-fn the_places_of_failure_are_drawn_and_tabled() {
+fn the_places_of_failure_are_drawn() {
     let page = html(&diagnosed::improve());
-    has(
-        &page,
-        "location",
-        &[
-            "The torque's peak holds 84 % of the misfit",
-            "97.0 % of the squared misfit repeats",
-            "peak 9.9 [8.5, 11.3] 44.5 % 4800",
-            "missing force [N]",
-            "displacement of the grip x [mm]",
-            "stiffness peak angle 62.0 [55.0, 69.0] &lt; 0.001",
-            "Nothing stands out:",
-        ],
-    );
     // k3 x³ at the map's largest displacement, 33 mm: 35.6 N; the scale is a quarter of it.
     has(&page, "location", &["27 to 36 N"]);
     let map = section(&page, "location").unwrap();
@@ -274,34 +170,13 @@ fn the_places_of_failure_are_drawn_and_tabled() {
 }
 
 #[test]
-fn errors_absence_and_false_alarms_are_stated() {
+fn errors_stand_by_tightening() {
     let page = html(&diagnosed::improve());
-    has(
-        &page,
-        "comparison",
-        &[
-            "Acceleration 5.78 rad/s² 19.6 rad/s² 9.90 91.00 6.420",
-            "acceleration rms [rad/s²]",
-        ],
-    );
-    let rows = section(&page, "comparison")
-        .unwrap()
-        .matches("data-v=")
-        .count();
+    let comparison = section(&page, "comparison").unwrap();
     assert_eq!(
-        rows,
+        comparison.matches("data-v=").count(),
         24 * 7,
         "three quantities with rms and fit, one with error over noise"
-    );
-    has(
-        &page,
-        "detectability",
-        &[
-            "2 of 40 , which is 5.0 %",
-            "[1.4, 16.5] %",
-            "meant are 5.0 %",
-            "coulomb friction friction force 0.830 N 30.0 N",
-        ],
     );
 }
 

@@ -115,20 +115,8 @@ fn hostile_names_stay_text() {
 }
 
 #[test]
-fn what_tests_presume_stands_below_every_factor() {
+fn what_tests_presume_says_what_it_cannot() {
     let mut result = specimen::campaign(24);
-    let words = text(&html(&result));
-    for line in [
-        "20 residuals: W = 0.981, p = 0.620; variances of 2 groups: F(1, 18) = 1.20, p = 0.330",
-        "variances of 2 groups: F(1, 18) = 1.20, p = 0.021.  Unequal variances: read Welch t.",
-        "20 residuals (6 tied): W = 0.981, p = 0.004",
-        "p = 0.750.  Residuals not near normal: read Mann–Whitney.",
-        "p &lt; 0.001.  Residuals not near normal, unequal variances: read Kruskal–Wallis.",
-        "about the medians (Student t, one-way ANOVA)",
-        "residuals not near normal in 8 of 16 comparisons, unequal variances in 8 of 16 comparisons",
-    ] {
-        assert!(words.contains(line), "{line}");
-    }
     // A test that could not be made is nobody's to read, and a check that could not be made says why.
     for row in &mut result.tests {
         row.p = row.p.filter(|_| row.method != "kruskal_wallis");

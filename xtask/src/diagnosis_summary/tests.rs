@@ -322,3 +322,43 @@ fn a_climb_that_was_stopped_says_so_and_how_to_go_on() {
         "{text}"
     );
 }
+
+/// `INSTA_UPDATE=always cargo test --package xtask --bin xtask` takes over what was changed on purpose.
+#[test]
+fn every_verdict_word_for_word() {
+    let told = |change: fn(&mut Diagnosis)| {
+        let mut diagnosis = missing();
+        change(&mut diagnosis);
+        text(&diagnosis, &FOLLOWING, false)
+    };
+    insta::assert_snapshot!("missing", told(|_| ()));
+    insta::assert_snapshot!(
+        "compared",
+        told(|one| {
+            one.verb = "compare".into();
+            one.verdict = Verdict::Undecided;
+        })
+    );
+    insta::assert_snapshot!(
+        "adequate",
+        told(|one| {
+            one.verb = "improve".into();
+            one.verdict = Verdict::Adequate;
+        })
+    );
+    insta::assert_snapshot!(
+        "unlisted",
+        told(|one| {
+            one.verdict = Verdict::UnlistedEffect;
+            one.unlisted = Some(damping_with_x2());
+        })
+    );
+    insta::assert_snapshot!(
+        "interrupted",
+        told(|one| {
+            one.verb = "improve".into();
+            one.verdict = Verdict::Undecided;
+            one.interrupted = true;
+        })
+    );
+}
