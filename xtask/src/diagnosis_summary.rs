@@ -104,7 +104,8 @@ fn missing(page: &mut Page, diagnosis: &Diagnosis) {
     };
     let is_twin = |one: &&RankedEffect| first.twins.contains(&one.effect);
     let twins = diagnosis.ranking.iter().filter(is_twin);
-    for one in std::iter::once(first).chain(twins) {
+    let explained = |one: &&RankedEffect| !one.explanation.is_empty();
+    for one in std::iter::once(first).chain(twins).filter(explained) {
         let name = called(&one.effect, one.expression.as_ref());
         page.heading(&format!("What {name} is"));
         for sentence in &one.explanation {

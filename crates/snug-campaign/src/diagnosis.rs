@@ -309,7 +309,7 @@ pub struct Diagnosis {
     pub reasons: Vec<Reason>,
     /// Why nothing more was added; `None` for verbs that add nothing.
     pub stopped: Option<Stopped>,
-    /// Family-wise p up to which an effect is believed.
+    /// Family-wise p up to which an effect is believed; no unit.
     pub level: f64,
     /// Whether whoever asked ended the climb: what is told is what was known by then.
     pub interrupted: bool,

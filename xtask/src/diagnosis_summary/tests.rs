@@ -46,7 +46,7 @@ fn candidate(effect: &str, gain: f64, p: f64, size: EffectParameter) -> RankedEf
         supported: p <= 0.05,
         twins: vec!["quadratic_stiffness".into()],
         plausible: true,
-        explanation: vec![],
+        explanation: vec![format!("How {effect} shows in a measurement.")],
     }
 }
 
@@ -71,13 +71,21 @@ fn left(error: f64) -> Left {
     }
 }
 
-/// An effect with so many twins.
-fn named(twins: usize) -> Named {
+/// So many that the headline takes more than a line.
+const TWINS: [&str; 5] = [
+    "quadratic_stiffness",
+    "directional_damping",
+    "coulomb_friction",
+    "stretch_reflex",
+    "end_stop",
+];
+
+fn named(effect: &str, twins: &[&str]) -> Named {
     Named {
-        effect: "cubic_stiffness".into(),
+        effect: effect.into(),
         expression: None,
         says: None,
-        twins: (0..twins).map(|_| named(0)).collect(),
+        twins: twins.iter().map(|twin| named(twin, &[])).collect(),
     }
 }
 
@@ -86,7 +94,7 @@ fn missing() -> Diagnosis {
         verb: "diagnose".into(),
         verdict: Verdict::MissingEffect,
         headline: Headline::Lacks {
-            effect: named(8),
+            effect: named("cubic_stiffness", &TWINS),
             fall: Fall {
                 before: left(6.4),
                 after: left(1.38),

@@ -10,7 +10,7 @@ use std::fmt::{self, Display, Formatter};
 /// What a fitted model leaves.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Left {
-    /// Root mean square of the residual, over the noise where that is known.
+    /// Root mean square of the residual, over the noise (no unit) where that is known, else in the output's unit.
     pub error: f64,
     /// Whether it is over the noise.
     pub is_over_noise: bool,
@@ -100,6 +100,15 @@ fn named(effects: &[Named]) -> String {
     joined(&effects.iter().map(Named::with_twins).collect::<Vec<_>>())
 }
 
+fn describe(well: bool, laws: usize) -> &'static str {
+    match (well, laws) {
+        (true, 1) => "describes",
+        (true, _) => "describe",
+        (false, 1) => "comes nearest to",
+        (false, _) => "together come nearest to",
+    }
+}
+
 impl Display for Headline {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self {
@@ -130,16 +139,11 @@ impl Display for Headline {
                 describes,
                 fall,
             } => {
-                let describes = match (describes, added.len()) {
-                    (true, 1) => "describes",
-                    (true, _) => "describe",
-                    (false, 1) => "comes nearest to",
-                    (false, _) => "together come nearest to",
-                };
                 write!(
                     f,
-                    "Something that is not in the catalogue acts here; {} {describes} it, and the error falls {fall}.",
-                    named(added)
+                    "Something that is not in the catalogue acts here; {} {} it, and the error falls {fall}.",
+                    named(added),
+                    describe(*describes, added.len())
                 )
             }
             Self::Unexplained(left) => write!(

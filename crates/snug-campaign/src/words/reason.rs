@@ -144,30 +144,9 @@ impl Display for Reason {
             Self::Error {
                 tightenings,
                 error,
-                is_at_floor: true,
-                ..
-            } => write!(
-                f,
-                "Over {tightenings} tightenings the model's error is {error:.3} times the sensor noise measured in the quiet part before each pulse; 1 means that only noise is left."
-            ),
-            Self::Error {
-                tightenings,
-                error,
+                is_at_floor,
                 is_adequate,
-                ..
-            } => {
-                write!(
-                    f,
-                    "Over {tightenings} tightenings the model's error is {error:.2} times the sensor noise measured in the quiet part before each pulse; with a complete model it would be 1."
-                )?;
-                match is_adequate {
-                    true => write!(
-                        f,
-                        " What is left beyond the noise hardly repeats from tightening to tightening, as an effect that all share would: look at the tightenings that fit worst."
-                    ),
-                    false => Ok(()),
-                }
-            }
+            } => error_over_noise(f, *tightenings, *error, *is_at_floor, *is_adequate),
             Self::Removes {
                 effect,
                 heldout_gain,
@@ -209,23 +188,7 @@ impl Display for Reason {
                 effect,
                 p_family,
                 more,
-            } => {
-                write!(
-                    f,
-                    "The best candidate is {} ({}). ",
-                    effect_name(effect),
-                    by_chance(*p_family)
-                )?;
-                match more {
-                    MoreData::Tightenings(count) => {
-                        write!(f, "About {count} tightenings like these would decide.")
-                    }
-                    MoreData::Longer(times) => write!(
-                        f,
-                        "A record about {times:.0} times as long, or several of them, would decide."
-                    ),
-                }
-            }
+            } => would_decide(f, effect, *p_family, *more),
             Self::Restarted { missed, every_s } => write!(
                 f,
                 "Run freely from its first sample on, the study's own model misses {:.0}\u{a0}% of the measured motion, so that a free run says little about single effects. Every model is therefore judged by what it predicts over {every_s} s from the measured motion, again and again (`identify.simulation: Restarted(every_s: {every_s})`; `FreeRun` in the study file asks for the whole record at once).",
@@ -236,42 +199,93 @@ impl Display for Reason {
                 all,
                 quantity,
                 has_noise,
-            } => write!(
-                f,
-                "{left_out} of {all} tightenings took no part in the diagnosis: all must be judged by one measure, here {quantity} {}, and that could not be had of {}. findings.json says why.",
-                if *has_noise {
-                    "in multiples of its measured noise"
-                } else {
-                    "without a measured noise"
-                },
-                if *left_out == 1 { "this one" } else { "these" }
-            ),
-            Self::LearntFrom { taken, read, files } => {
-                let from = match read < files {
-                    true => format!("{read} of the {files} files"),
-                    false => format!("each of the {files} files"),
-                };
-                write!(
-                    f,
-                    "There are many tightenings: what is missing, and how large it is, was learnt from {taken}, taken evenly from {from}; every tightening was then evaluated with what was learnt. `diagnosis: (most_tightenings: …)` in the study says how many may be used."
-                )
-            }
-            Self::Unread { first, more } => {
-                write!(
-                    f,
-                    "Not every file could be read, so this diagnosis is in part without it: {first}"
-                )?;
-                match more {
-                    0 => write!(f, "."),
-                    some => write!(f, " (and {some} more)."),
-                }
-            }
+            } => tightenings_left_out(f, *left_out, *all, quantity, *has_noise),
+            Self::LearntFrom { taken, read, files } => learnt_from(f, *taken, *read, *files),
+            Self::Unread { first, more } => unread(f, first, *more),
         }
     }
 }
 
 fn spoken(effects: &[Named]) -> Vec<String> {
     effects.iter().map(Named::spoken).collect()
+}
+
+fn error_over_noise(
+    f: &mut Formatter<'_>,
+    tightenings: usize,
+    error: f64,
+    is_at_floor: bool,
+    is_adequate: bool,
+) -> fmt::Result {
+    let decimals = if is_at_floor { 3 } else { 2 };
+    write!(
+        f,
+        "Over {tightenings} tightenings the model's error is {error:.decimals$} times the sensor noise measured in the quiet part before each pulse; "
+    )?;
+    f.write_str(match is_at_floor {
+        true => "1 means that only noise is left.",
+        false => "with a complete model it would be 1.",
+    })?;
+    match is_adequate && !is_at_floor {
+        true => f.write_str(
+            " What is left beyond the noise hardly repeats from tightening to tightening, as an effect that all share would: look at the tightenings that fit worst.",
+        ),
+        false => Ok(()),
+    }
+}
+
+fn would_decide(f: &mut Formatter<'_>, effect: &str, p_family: f64, more: MoreData) -> fmt::Result {
+    let (effect, chance) = (effect_name(effect), by_chance(p_family));
+    write!(f, "The best candidate is {effect} ({chance}). ")?;
+    match more {
+        MoreData::Tightenings(count) => {
+            write!(f, "About {count} tightenings like these would decide.")
+        }
+        MoreData::Longer(times) => write!(
+            f,
+            "A record about {times:.0} times as long, or several of them, would decide."
+        ),
+    }
+}
+
+fn tightenings_left_out(
+    f: &mut Formatter<'_>,
+    left_out: usize,
+    all: usize,
+    quantity: &str,
+    has_noise: bool,
+) -> fmt::Result {
+    let measure = match has_noise {
+        true => "in multiples of its measured noise",
+        false => "without a measured noise",
+    };
+    let these = if left_out == 1 { "this one" } else { "these" };
+    write!(
+        f,
+        "{left_out} of {all} tightenings took no part in the diagnosis: all must be judged by one measure, here {quantity} {measure}, and that could not be had of {these}. findings.json says why."
+    )
+}
+
+fn learnt_from(f: &mut Formatter<'_>, taken: usize, read: usize, files: usize) -> fmt::Result {
+    let from = match read < files {
+        true => format!("{read} of the {files} files"),
+        false => format!("each of the {files} files"),
+    };
+    write!(
+        f,
+        "There are many tightenings: what is missing, and how large it is, was learnt from {taken}, taken evenly from {from}; every tightening was then evaluated with what was learnt. `diagnosis: (most_tightenings: …)` in the study says how many may be used."
+    )
+}
+
+fn unread(f: &mut Formatter<'_>, first: &str, more: usize) -> fmt::Result {
+    write!(
+        f,
+        "Not every file could be read, so this diagnosis is in part without it: {first}"
+    )?;
+    match more {
+        0 => write!(f, "."),
+        some => write!(f, " (and {some} more)."),
+    }
 }
 
 fn taken_out(f: &mut Formatter<'_>, one: &CorrectedEffect, check: Option<&str>) -> fmt::Result {

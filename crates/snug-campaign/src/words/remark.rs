@@ -6,7 +6,7 @@ use std::fmt::{self, Display, Formatter};
 /// An error over the noise, or over the campaign's average error where the noise is not known.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Times {
-    /// How many times.
+    /// How many times; no unit.
     pub error: f64,
     /// Whether the noise is known.
     pub of_noise: bool,
@@ -106,6 +106,9 @@ pub enum Remark {
 
 written_as_said!(Remark);
 
+const SPREAD_OUT: &str =
+    "Nothing stands out: the misfit is spread over time, frequency and conditions.";
+
 fn percent(share: f64) -> String {
     format!("{:.0}\u{a0}%", 100.0 * share)
 }
@@ -122,109 +125,47 @@ impl Display for Remark {
                 from_s,
                 to_s,
                 since_onset,
-            } => {
-                let (scale, unit) = if *to_s < 1.0 { (1e3, "ms") } else { (1.0, "s") };
-                let whence = match since_onset {
-                    true => "after the pulse began",
-                    false => "into the recording",
-                };
-                write!(
-                    f,
-                    "Most of the misfit ({}) lies {} to {} {unit} {whence}.",
-                    percent(*share),
-                    without_last_digits(from_s * scale),
-                    without_last_digits(to_s * scale)
-                )
-            }
+            } => time(f, *share, (*from_s, *to_s), *since_onset),
             Self::Phase {
                 phase,
                 share,
                 of_time,
                 error,
-            } => {
-                let name = match phase.as_str() {
-                    "before onset" => "time before the pulse",
-                    "rise" => "rise of the torque",
-                    "peak" => "torque's peak",
-                    "release" => "release",
-                    "rebound" => "rebound",
-                    _ => "rest after the rebound",
-                };
-                write!(
-                    f,
-                    "The {name} holds {} of the misfit in {} of the time: the error there is {error}.",
-                    percent(*share),
-                    percent(*of_time)
-                )
-            }
+            } => write!(
+                f,
+                "The {} holds {} of the misfit in {} of the time: the error there is {error}.",
+                phase_name(phase),
+                percent(*share),
+                percent(*of_time)
+            ),
             Self::Frequency {
                 share,
                 from_hz,
                 to_hz,
                 quiet_from_hz,
-            } => {
-                write!(f, "Most of the misfit ({}) lies ", percent(*share))?;
-                match *from_hz == 0.0 {
-                    true => write!(f, "below {to_hz} Hz")?,
-                    false => write!(f, "between {from_hz} and {to_hz} Hz")?,
-                }
-                match quiet_from_hz {
-                    Some(from) => write!(f, "; above {from} Hz there is nothing but noise."),
-                    None => write!(f, "."),
-                }
-            }
+            } => frequency(f, *share, (*from_hz, *to_hz), *quiet_from_hz),
             Self::Amplitude {
                 grows,
-                small: (to, small),
-                large: (from, large),
-            } => {
-                let lead = match grows {
-                    true => "The misfit grows with the angle",
-                    false => "The misfit is largest at small angles",
-                };
-                write!(
-                    f,
-                    "{lead}: {small} below {to} rad, {large} above {from} rad."
-                )
-            }
+                small,
+                large,
+            } => amplitude(f, *grows, *small, *large),
             Self::Condition {
                 condition,
                 value,
                 share,
                 of_data,
-            } => {
-                let lead = match condition.as_str() {
-                    "participant" => "Participant",
-                    "strategy" => "Strategy",
-                    "joint" => "Joint",
-                    "pace_per_min" => "The pace of",
-                    _ => "The target of",
-                };
-                write!(
-                    f,
-                    "{lead} {value} carries {} of the misfit with {} of the data.",
-                    percent(*share),
-                    percent(*of_data)
-                )
-            }
+            } => write!(
+                f,
+                "{} {value} carries {} of the misfit with {} of the data.",
+                condition_name(condition),
+                percent(*share),
+                percent(*of_data)
+            ),
             Self::Follows {
                 shape,
                 share,
                 others,
-            } => {
-                write!(
-                    f,
-                    "The missing force follows {shape}: that describes {} of the misfit",
-                    percent(*share)
-                )?;
-                let others: Vec<String> = (others.iter())
-                    .map(|(shape, share)| format!("{shape} ({})", percent(*share)))
-                    .collect();
-                match others.is_empty() {
-                    true => write!(f, "."),
-                    false => write!(f, "; nearly as well: {}.", others.join("; ")),
-                }
-            }
+            } => follows(f, shape, *share, others),
             Self::FollowsNothing { shape, left } => write!(
                 f,
                 "No simple function of displacement and velocity describes the missing force: the best, {shape}, leaves {} of the misfit.",
@@ -240,10 +181,96 @@ impl Display for Remark {
                 "Only {} of the misfit can be predicted from the other tightenings: most of it is different each time, or is no simple function of time, displacement and velocity.",
                 percent(*share)
             ),
-            Self::SpreadOut => f.write_str(
-                "Nothing stands out: the misfit is spread over time, frequency and conditions.",
-            ),
+            Self::SpreadOut => f.write_str(SPREAD_OUT),
         }
+    }
+}
+
+fn time(
+    f: &mut Formatter<'_>,
+    share: f64,
+    (from_s, to_s): (f64, f64),
+    since_onset: bool,
+) -> fmt::Result {
+    let (scale, unit) = if to_s < 1.0 { (1e3, "ms") } else { (1.0, "s") };
+    let whence = match since_onset {
+        true => "after the pulse began",
+        false => "into the recording",
+    };
+    let [from, to] = [from_s, to_s].map(|at| without_last_digits(at * scale));
+    write!(
+        f,
+        "Most of the misfit ({}) lies {from} to {to} {unit} {whence}.",
+        percent(share)
+    )
+}
+
+fn phase_name(phase: &str) -> &'static str {
+    match phase {
+        "before onset" => "time before the pulse",
+        "rise" => "rise of the torque",
+        "peak" => "torque's peak",
+        "release" => "release",
+        "rebound" => "rebound",
+        _ => "rest after the rebound",
+    }
+}
+
+fn frequency(
+    f: &mut Formatter<'_>,
+    share: f64,
+    (from_hz, to_hz): (f64, f64),
+    quiet_from_hz: Option<f64>,
+) -> fmt::Result {
+    write!(f, "Most of the misfit ({}) lies ", percent(share))?;
+    match from_hz == 0.0 {
+        true => write!(f, "below {to_hz} Hz")?,
+        false => write!(f, "between {from_hz} and {to_hz} Hz")?,
+    }
+    match quiet_from_hz {
+        Some(from) => write!(f, "; above {from} Hz there is nothing but noise."),
+        None => write!(f, "."),
+    }
+}
+
+fn condition_name(condition: &str) -> &'static str {
+    match condition {
+        "participant" => "Participant",
+        "strategy" => "Strategy",
+        "joint" => "Joint",
+        "pace_per_min" => "The pace of",
+        _ => "The target of",
+    }
+}
+
+fn amplitude(
+    f: &mut Formatter<'_>,
+    grows: bool,
+    (to, small): (f64, Times),
+    (from, large): (f64, Times),
+) -> fmt::Result {
+    let lead = match grows {
+        true => "The misfit grows with the angle",
+        false => "The misfit is largest at small angles",
+    };
+    write!(
+        f,
+        "{lead}: {small} below {to} rad, {large} above {from} rad."
+    )
+}
+
+fn follows(f: &mut Formatter<'_>, shape: &str, share: f64, others: &[(&str, f64)]) -> fmt::Result {
+    write!(
+        f,
+        "The missing force follows {shape}: that describes {} of the misfit",
+        percent(share)
+    )?;
+    let others: Vec<String> = (others.iter())
+        .map(|(shape, share)| format!("{shape} ({})", percent(*share)))
+        .collect();
+    match others.is_empty() {
+        true => write!(f, "."),
+        false => write!(f, "; nearly as well: {}.", others.join("; ")),
     }
 }
 

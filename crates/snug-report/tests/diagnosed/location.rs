@@ -24,7 +24,7 @@ pub fn before() -> Location {
             },
             Remark::Condition {
                 condition: "target_torque_nm".into(),
-                value: "40".into(),
+                value: "40 Nm".into(),
                 share: 0.6,
                 of_data: 0.25,
             },
@@ -97,7 +97,7 @@ fn location(size: f64, repeatable: f64, remarks: Vec<Remark>) -> Location {
                 vec![
                     part("15", size * 1.1),
                     part("25", size * 3.9),
-                    part("40", size * 8.6),
+                    part("40 Nm", size * 8.6),
                 ],
             ),
             aspect(
