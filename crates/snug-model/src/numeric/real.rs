@@ -80,9 +80,15 @@ pub trait Real: Number<Real = Self> + std::fmt::Debug {
     fn each(self, of: impl Fn(f64) -> f64) -> Self {
         self.lane_by_lane(
             #[inline(always)]
-            |lane| of(self.lanes()[lane]),
+            |lane| only_when_asked(&of, self.lanes()[lane]),
         )
     }
+}
+
+/// The value of a function that is dear, for example a sine: inlined, it would be computed before the branch that asks.
+#[inline(never)]
+fn only_when_asked(of: &impl Fn(f64) -> f64, value: f64) -> f64 {
+    of(value)
 }
 
 /// Work for [`Real::vectorize`].
