@@ -97,7 +97,7 @@ mod tests {
         close(smallest, (21.576_025e9_f64).sqrt(), 1e-6);
         assert_eq!(
             card.statement,
-            "cubic stiffness: absent or smaller than 1.47e5 N/m^3."
+            "cubic stiffness: absent or smaller than 1.47\u{a0}×\u{a0}10⁵\u{a0}N/m³."
         );
         assert_eq!(
             (card.parameter.as_str(), card.largest_plausible),
