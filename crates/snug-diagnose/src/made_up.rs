@@ -4,6 +4,7 @@ use crate::data::clusters::Clusters;
 use crate::library::terms;
 use crate::pooled::fitted::Fitted;
 use crate::ranking::rank::{Candidate, Ranking};
+use crate::settings::DiagnoseSettings;
 use crate::watch::Watch;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
@@ -97,6 +98,16 @@ pub(crate) fn ranking(candidates: Vec<Candidate>) -> Ranking {
     Ranking {
         candidates,
         ..Ranking::default()
+    }
+}
+
+/// Settings without control campaigns: so many sign flips, one start.
+pub(crate) fn quick(sign_flips: usize) -> DiagnoseSettings {
+    DiagnoseSettings {
+        control_campaigns: 0,
+        sign_flips,
+        starts: 1,
+        ..DiagnoseSettings::default()
     }
 }
 

@@ -111,11 +111,7 @@ pub fn capitalised(text: &str) -> String {
     if first_word.contains(|letter: char| letter.is_ascii_digit()) {
         return text.into();
     }
-    let mut letters = text.chars();
-    match letters.next() {
-        Some(first) => first.to_uppercase().chain(letters).collect(),
-        None => String::new(),
-    }
+    snug_campaign::words::capitalised(text)
 }
 
 /// Splits `k3_n_per_m3` into `k3` and `N/m³`; the unit is empty where the name ends in no unit.

@@ -54,6 +54,16 @@ pub struct Named {
 }
 
 impl Named {
+    /// An effect by itself: its name, and its expression if it is in no catalogue.
+    pub fn alone(effect: String, expression: Option<String>) -> Self {
+        Self {
+            effect,
+            expression,
+            says: None,
+            twins: Vec::new(),
+        }
+    }
+
     /// Whether it is in no catalogue.
     pub fn is_unlisted(&self) -> bool {
         self.expression.is_some()

@@ -57,6 +57,11 @@ pub fn percent(share: f64) -> String {
     }
 }
 
+/// A share 0..1 in whole percent, kept on one line.
+pub fn whole_percent(share: f64) -> String {
+    format!("{}\u{a0}%", fixed(100.0 * share, 0))
+}
+
 /// `selected of all` as a share 0..1; `None` when there is nothing to share.
 pub fn share(part: usize, whole: usize) -> Option<f64> {
     (whole > 0).then(|| part as f64 / whole as f64)

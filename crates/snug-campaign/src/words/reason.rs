@@ -3,7 +3,7 @@
 use super::chance::by_chance;
 use super::effect_name::{Named, effect_name};
 use super::headline::Left;
-use super::number::fixed;
+use super::number::whole_percent;
 use super::said::written_as_said;
 use super::size::{amount, sizes};
 use super::{capitalised, joined};
@@ -90,7 +90,7 @@ pub enum Reason {
     /// What would decide.
     WouldDecide {
         /// The best candidate.
-        effect: String,
+        effect: Named,
         /// Its family-wise p.
         p_family: f64,
         /// How much more data.
@@ -160,9 +160,9 @@ impl Display for Reason {
                 };
                 write!(
                     f,
-                    "{} removes {:.0}\u{a0}% of {of} in {} that took no part in finding its size; {}.",
+                    "{} removes {} of {of} in {} that took no part in finding its size; {}.",
                     capitalised(&effect.spoken()),
-                    (100.0 * heldout_gain).clamp(0.0, 100.0),
+                    whole_percent(heldout_gain.clamp(0.0, 1.0)),
                     cluster.plural(),
                     by_chance(*p_family)
                 )
@@ -175,7 +175,8 @@ impl Display for Reason {
             ),
             Self::Drifts { trend, parameters } => write!(
                 f,
-                "Beside the misfit, mass, damping or stiffness drift with the tightening's number ({trend}): {}.",
+                "Beside the misfit, mass, damping or stiffness drift with the tightening's number ({}): {}.",
+                effect_name(trend),
                 sizes(parameters)
             ),
             Self::TakenOut { corrected, check } => taken_out(f, corrected, *check),
@@ -191,8 +192,8 @@ impl Display for Reason {
             } => would_decide(f, effect, *p_family, *more),
             Self::Restarted { missed, every_s } => write!(
                 f,
-                "Run freely from its first sample on, the study's own model misses {:.0}\u{a0}% of the measured motion, so that a free run says little about single effects. Every model is therefore judged by what it predicts over {every_s} s from the measured motion, again and again (`identify.simulation: Restarted(every_s: {every_s})`; `FreeRun` in the study file asks for the whole record at once).",
-                100.0 * missed.min(9.99)
+                "Run freely from its first sample on, the study's own model misses {} of the measured motion, so that a free run says little about single effects. Every model is therefore judged by what it predicts over {every_s} s from the measured motion, again and again (`identify.simulation: Restarted(every_s: {every_s})`; `FreeRun` in the study file asks for the whole record at once).",
+                whole_percent(missed.min(9.99))
             ),
             Self::LeftOut {
                 left_out,
@@ -234,8 +235,13 @@ fn error_over_noise(
     }
 }
 
-fn would_decide(f: &mut Formatter<'_>, effect: &str, p_family: f64, more: MoreData) -> fmt::Result {
-    let (effect, chance) = (effect_name(effect), by_chance(p_family));
+fn would_decide(
+    f: &mut Formatter<'_>,
+    effect: &Named,
+    p_family: f64,
+    more: MoreData,
+) -> fmt::Result {
+    let (effect, chance) = (effect.spoken(), by_chance(p_family));
     write!(f, "The best candidate is {effect} ({chance}). ")?;
     match more {
         MoreData::Tightenings(count) => {
@@ -291,13 +297,29 @@ fn unread(f: &mut Formatter<'_>, first: &str, more: usize) -> fmt::Result {
 fn taken_out(f: &mut Formatter<'_>, one: &CorrectedEffect, check: Option<&str>) -> fmt::Result {
     write!(
         f,
-        "Before the fit, {} was measured in the quiet part and taken out: about {} in {}\u{a0}% of the tightenings.",
+        "Before the fit, {} was measured in the quiet part and taken out: about {} in {} of the tightenings.",
         effect_name(&one.effect),
         amount(one.size, &one.unit),
-        fixed(100.0 * one.share, 0)
+        whole_percent(one.share)
     )?;
     match check {
         Some(check) => write!(f, " Check at the bench: {check}"),
         None => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_candidate_in_no_catalogue_is_named_by_what_it_is() {
+        let undecided = Reason::WouldDecide {
+            effect: Named::alone("x5_law".into(), Some("p*x^5".into())),
+            p_family: 0.2,
+            more: MoreData::Longer(3.0),
+        };
+        let said = undecided.to_string();
+        assert!(said.contains("is a force p*x^5 ("), "{said}");
     }
 }

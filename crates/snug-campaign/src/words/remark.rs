@@ -1,5 +1,6 @@
 //! What stands out of where a model fails: each remark as data, and the sentence it is said with.
 
+use super::number::whole_percent;
 use super::said::written_as_said;
 use std::fmt::{self, Display, Formatter};
 
@@ -109,10 +110,6 @@ written_as_said!(Remark);
 const SPREAD_OUT: &str =
     "Nothing stands out: the misfit is spread over time, frequency and conditions.";
 
-fn percent(share: f64) -> String {
-    format!("{:.0}\u{a0}%", 100.0 * share)
-}
-
 impl Display for Remark {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self {
@@ -135,8 +132,8 @@ impl Display for Remark {
                 f,
                 "The {} holds {} of the misfit in {} of the time: the error there is {error}.",
                 phase_name(phase),
-                percent(*share),
-                percent(*of_time)
+                whole_percent(*share),
+                whole_percent(*of_time)
             ),
             Self::Frequency {
                 share,
@@ -158,8 +155,8 @@ impl Display for Remark {
                 f,
                 "{} {value} carries {} of the misfit with {} of the data.",
                 condition_name(condition),
-                percent(*share),
-                percent(*of_data)
+                whole_percent(*share),
+                whole_percent(*of_data)
             ),
             Self::Follows {
                 shape,
@@ -169,17 +166,17 @@ impl Display for Remark {
             Self::FollowsNothing { shape, left } => write!(
                 f,
                 "No simple function of displacement and velocity describes the missing force: the best, {shape}, leaves {} of the misfit.",
-                percent(*left)
+                whole_percent(*left)
             ),
             Self::Repeats(share) => write!(
                 f,
                 "{} of the misfit can be predicted from the other tightenings: a missing effect can explain it.",
-                percent(*share)
+                whole_percent(*share)
             ),
             Self::DoesNotRepeat(share) => write!(
                 f,
                 "Only {} of the misfit can be predicted from the other tightenings: most of it is different each time, or is no simple function of time, displacement and velocity.",
-                percent(*share)
+                whole_percent(*share)
             ),
             Self::SpreadOut => f.write_str(SPREAD_OUT),
         }
@@ -201,7 +198,7 @@ fn time(
     write!(
         f,
         "Most of the misfit ({}) lies {from} to {to} {unit} {whence}.",
-        percent(share)
+        whole_percent(share)
     )
 }
 
@@ -222,7 +219,7 @@ fn frequency(
     (from_hz, to_hz): (f64, f64),
     quiet_from_hz: Option<f64>,
 ) -> fmt::Result {
-    write!(f, "Most of the misfit ({}) lies ", percent(share))?;
+    write!(f, "Most of the misfit ({}) lies ", whole_percent(share))?;
     match from_hz == 0.0 {
         true => write!(f, "below {to_hz} Hz")?,
         false => write!(f, "between {from_hz} and {to_hz} Hz")?,
@@ -263,10 +260,10 @@ fn follows(f: &mut Formatter<'_>, shape: &str, share: f64, others: &[(&str, f64)
     write!(
         f,
         "The missing force follows {shape}: that describes {} of the misfit",
-        percent(share)
+        whole_percent(share)
     )?;
     let others: Vec<String> = (others.iter())
-        .map(|(shape, share)| format!("{shape} ({})", percent(*share)))
+        .map(|(shape, share)| format!("{shape} ({})", whole_percent(*share)))
         .collect();
     match others.is_empty() {
         true => write!(f, "."),

@@ -1,6 +1,7 @@
 //! What a table of a diagnosis says of one of its rows, in a sentence.
 
 use super::effect_name::effect_name;
+use super::number::whole_percent;
 use super::reason::Cluster;
 use super::size::{amount, sizes};
 use crate::EffectParameter;
@@ -33,10 +34,10 @@ pub fn unlisted(
     cluster: Cluster,
 ) -> String {
     format!(
-        "The simplest term that describes it is a force {expression} with {} ({}); it removes {:.0}\u{a0}% of the misfit in {} that took no part in finding its size. It describes; what causes it is for the bench to find out.",
+        "The simplest term that describes it is a force {expression} with {} ({}); it removes {} of the misfit in {} that took no part in finding its size. It describes; what causes it is for the bench to find out.",
         sizes(parameters),
         symbols(expression),
-        (heldout_gain * 100.0).clamp(0.0, 100.0),
+        whole_percent(heldout_gain.clamp(0.0, 1.0)),
         cluster.plural()
     )
 }

@@ -104,9 +104,8 @@ fn does_as_well(
 mod tests {
     use super::*;
     use crate::data::cases::{Cases, Tally};
-    use crate::made_up::{WHOLE, custom_force, noisy, silent};
+    use crate::made_up::{WHOLE, custom_force, noisy, quick, silent};
     use crate::selection::path::Addition;
-    use crate::settings::DiagnoseSettings;
     use snug_identify::FitTask;
     use snug_model::Effect::{CubicStiffness, QuadraticDamping, TorqueDelay, TorqueOffset};
 
@@ -120,12 +119,7 @@ mod tests {
         let made_with = [CubicStiffness, TorqueOffset];
         let cases: Vec<FitTask> = (0..8).map(|n| noisy(n, &made_with, &[2e6, 0.5])).collect();
         let (tally, watch) = (Tally::default(), silent());
-        let settings = DiagnoseSettings {
-            control_campaigns: 0,
-            sign_flips: 99,
-            starts: 1,
-            ..DiagnoseSettings::default()
-        };
+        let settings = quick(99);
         let selection = ModelSelection {
             cases: Cases::new(&cases, &tally),
             own: &[],

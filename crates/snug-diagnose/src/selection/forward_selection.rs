@@ -43,8 +43,7 @@ impl ModelSelection<'_> {
 mod tests {
     use super::*;
     use crate::data::cases::{Cases, Tally};
-    use crate::made_up::{WHOLE, close, noisy};
-    use crate::settings::DiagnoseSettings;
+    use crate::made_up::{WHOLE, close, noisy, quick};
     use crate::watch::Watch;
     use snug_identify::FitTask;
     use snug_model::Effect::{self, CubicStiffness};
@@ -60,12 +59,7 @@ mod tests {
         let ended = AtomicBool::new(false);
         let tell = |stage: &str| ended.store(ends(stage), Ordering::Relaxed);
         let tally = Tally::default();
-        let settings = DiagnoseSettings {
-            control_campaigns: 0,
-            sign_flips: 999,
-            starts: 1,
-            ..DiagnoseSettings::default()
-        };
+        let settings = quick(999);
         let selection = ModelSelection {
             cases: Cases::new(&cases, &tally),
             own: &[],

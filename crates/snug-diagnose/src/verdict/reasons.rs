@@ -62,12 +62,8 @@ impl Situation<'_> {
 
 /// An effect by itself.
 pub(crate) fn named(effect: Effect) -> Named {
-    Named {
-        effect: effect.name().to_owned(),
-        expression: declaration(effect.name()).map(|term| term.expression),
-        says: None,
-        twins: Vec::new(),
-    }
+    let expression = declaration(effect.name()).map(|term| term.expression);
+    Named::alone(effect.name().to_owned(), expression)
 }
 
 /// An effect of `fitted` with what these data cannot tell from it.
@@ -209,7 +205,7 @@ fn what_would_decide(situation: &Situation<'_>) -> Option<Reason> {
     let times = (4.0 / first.score.max(0.5)).powi(2);
     let needed = (times * situation.tightenings as f64 / 4.0).ceil() * 4.0;
     Some(Reason::WouldDecide {
-        effect: first.effect.clone(),
+        effect: Named::alone(first.effect.clone(), first.expression.clone()),
         p_family: first.p_family,
         more: match situation.clusters.are_whole() {
             true => MoreData::Tightenings(needed),

@@ -16,12 +16,7 @@ use snug_campaign::{
 
 /// An effect of the catalogue.
 pub fn named(effect: &str) -> Named {
-    Named {
-        effect: effect.into(),
-        expression: None,
-        says: None,
-        twins: vec![],
-    }
+    Named::alone(effect.into(), None)
 }
 
 fn fall(before: f64, after: f64) -> Fall {
