@@ -5,13 +5,13 @@ mod error;
 mod examine;
 mod library;
 mod locate;
-#[cfg(test)]
-mod made_up;
 mod pooled;
 mod question;
 mod ranking;
 mod selection;
 mod settings;
+#[cfg(test)]
+mod tests;
 mod verdict;
 mod watch;
 

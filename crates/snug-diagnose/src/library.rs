@@ -297,7 +297,7 @@ pub(crate) fn is_unlisted(effect: Effect) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::made_up::{self, close};
+    use crate::tests::made_up::{self, close};
     use snug_model::{Instant, Law};
 
     #[test]

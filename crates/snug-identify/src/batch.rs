@@ -4,6 +4,7 @@
 //! A fit is a future, and all it ever waits for is a [`BatchSimulator`]. Nothing runs in the background: whoever calls
 //! [`BatchSimulator::finish`] does the work. A simulation has the same bits whatever stands beside it, and so has a fit.
 
+use rayon::prelude::*;
 use snug_campaign::Quantity;
 use snug_model::{Input, Model, Run, simulate_side_by_side};
 use std::cell::{RefCell, RefMut};
@@ -133,6 +134,24 @@ impl<'a> BatchSimulator<'a> {
 
 fn is_done(requests: &[SimulationRequest<'_>]) -> bool {
     requests.iter().all(|request| request.is_done)
+}
+
+/// Tightenings of one batch: more than the widest vector registers hold, since fits end one by one, and few enough to be shared
+/// out among threads.
+pub const SIDE_BY_SIDE: usize = 16;
+
+/// Does `work` with batch after batch of `items`; what comes of each item, in their order.
+///
+/// # Errors
+/// The first that `work` gives.
+pub fn in_batches<T: Sync, R: Send, E: Send>(
+    items: &[T],
+    work: impl Fn(&[T]) -> Result<Vec<R>, E> + Sync,
+) -> Result<Vec<R>, E> {
+    let done: Vec<Vec<R>> = (items.par_chunks(SIDE_BY_SIDE))
+        .map(&work)
+        .collect::<Result<_, E>>()?;
+    Ok(done.into_iter().flatten().collect())
 }
 
 #[cfg(test)]

@@ -1,9 +1,11 @@
 //! What must hold of m, c and k, as a study names it and as the solver takes it.
 
-use crate::thresholds::STRICT;
 use serde::{Deserialize, Serialize};
 use snug_least_squares::{Affine, Constraints};
 use snug_model::Model;
+
+/// What keeps a strict inequality strict in floating point, in the parameter's own unit. Chosen.
+const STRICT: f64 = 1e-9;
 
 /// A constraint a study can ask for on m, c, k.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]

@@ -1,10 +1,12 @@
 //! What follows from m, c and k, with its 95 % interval by the delta method: variance gᵀ C g with the gradient g of the
 //! quantity and the joint covariance C of the parameters.
 
-use crate::thresholds::HELD_RATIO;
 use snug_campaign::{Estimate, Interval, NORMAL_95, Rig};
 use snug_model::{damped_frequency_hz, damping_ratio, natural_frequency_hz};
 use std::f64::consts::PI;
+
+/// An interval narrower than this share of the value is rounding \[–\]: a constraint or fixed parameters hold the value there. Chosen.
+const HELD_RATIO: f64 = 1e-6;
 
 /// A quantity that follows from the estimated parameters.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -14,7 +14,6 @@ use crate::residual::tightening::TighteningResidual;
 use crate::residual::whitening::Whitening;
 use crate::settings::IdentifySettings;
 use crate::task::FitTask;
-use crate::thresholds::CONFIDENCE;
 use snug_campaign::{
     Estimate, FitStatus, Identifiability, Interval, Parameter, ParameterEstimate, Quantity,
     Tightening,
@@ -22,6 +21,9 @@ use snug_campaign::{
 use snug_least_squares::{Constraints, Covariance, Fit, SolveError, Status};
 use snug_model::{Input, Model, NormalEquations};
 use std::iter::once;
+
+/// Of every interval \[–\].
+const CONFIDENCE: f64 = 0.95;
 
 /// Identifies the free parameters of `model` from one tightening.
 ///

@@ -2,7 +2,6 @@
 
 mod base_model;
 mod batch;
-mod batches;
 mod constraint_kind;
 pub mod derived;
 mod error;
@@ -12,9 +11,8 @@ mod noise;
 mod residual;
 mod settings;
 mod task;
-mod thresholds;
 
-pub use batches::{SIDE_BY_SIDE, in_batches};
+pub use batch::{SIDE_BY_SIDE, in_batches};
 pub use constraint_kind::{ConstraintKind, convex_set};
 pub use error::IdentifyError;
 pub use identify::{identify, identify_all};

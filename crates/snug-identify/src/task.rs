@@ -1,9 +1,9 @@
 //! What is identified: one tightening with all it takes to fit it.
 
 use crate::residual::restarts::motions_at;
+use crate::residual::thresholds::RESTARTED_EVERY_S;
 use crate::residual::whitening::Whitening;
 use crate::settings::IdentifySettings;
-use crate::thresholds::RESTARTED_EVERY_S;
 use snug_campaign::{Quantity, Tightening};
 use snug_model::{Effect, Input, Model, ModelError};
 use std::borrow::Cow;

@@ -134,7 +134,7 @@ fn add(count: &AtomicUsize, more: usize) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::made_up::{SAMPLES, exact, silent};
+    use crate::tests::made_up::{SAMPLES, exact, silent};
     use crate::{DiagnoseSettings, Goal, Question, examine, fit_together};
 
     #[test]

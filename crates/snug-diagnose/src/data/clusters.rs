@@ -54,7 +54,7 @@ impl Clusters {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::made_up::exact;
+    use crate::tests::made_up::exact;
 
     /// So many tightenings of so many samples, of which the first `unscored` count for nothing.
     fn cases(count: usize, samples: usize, unscored: usize) -> Vec<FitTask<'static>> {

@@ -74,7 +74,7 @@ fn noisy(pooled: &PooledModel<'_>, member: usize) -> Input {
 mod tests {
     use super::*;
     use crate::data::cases::{Cases, Tally};
-    use crate::made_up::{NOISE, RIG, SAMPLES, WHOLE, close, exact, hand};
+    use crate::tests::made_up::{NOISE, RIG, SAMPLES, WHOLE, close, exact, hand};
     use snug_identify::FitTask;
 
     /// What torque noise of this standard deviation makes of a tool that is held as tightening 0 is.

@@ -59,7 +59,7 @@ impl Nuisance {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::made_up::close;
+    use crate::tests::made_up::close;
 
     /// Two columns of three samples in the plane of the first two; a signal keeps what stands on it.
     #[test]

@@ -61,7 +61,7 @@ fn statistics(values: &[f64], scale: f64) -> (f64, f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::made_up::close;
+    use crate::tests::made_up::close;
 
     /// 1, 2, 3, 4: variance 5/3, of the sum of four 20/3.
     #[test]

@@ -104,8 +104,8 @@ fn does_as_well(
 mod tests {
     use super::*;
     use crate::data::cases::{Cases, Tally};
-    use crate::made_up::{WHOLE, custom_force, noisy, quick, silent};
     use crate::selection::path::Addition;
+    use crate::tests::made_up::{WHOLE, custom_force, noisy, quick, silent};
     use snug_identify::FitTask;
     use snug_model::Effect::{CubicStiffness, QuadraticDamping, TorqueDelay, TorqueOffset};
 

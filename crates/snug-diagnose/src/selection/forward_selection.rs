@@ -43,7 +43,7 @@ impl ModelSelection<'_> {
 mod tests {
     use super::*;
     use crate::data::cases::{Cases, Tally};
-    use crate::made_up::{WHOLE, close, noisy, quick};
+    use crate::tests::made_up::{WHOLE, close, noisy, quick};
     use crate::watch::Watch;
     use snug_identify::FitTask;
     use snug_model::Effect::{self, CubicStiffness};

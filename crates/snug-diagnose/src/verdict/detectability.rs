@@ -60,7 +60,7 @@ fn card(column: &Column, needed: f64) -> Detectability {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::made_up::{candidate, close, ranking, term};
+    use crate::tests::made_up::{candidate, close, ranking, term};
     use snug_model::Effect::{self, Backlash, CubicStiffness, QuadraticStiffness};
 
     /// Nothing but noise: in units of it, as much as there are residuals.

@@ -64,7 +64,7 @@ pub(crate) fn noise(cases: &[FitTask<'_>]) -> NoiseStatement {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::made_up::{close, exact};
+    use crate::tests::made_up::{close, exact};
     use snug_campaign::{Correction, NoiseFloor};
 
     fn with_corrections(corrections: &[(&str, f64, bool)]) -> FitTask<'static> {

@@ -77,7 +77,7 @@ fn candidate(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::made_up::{close, exact};
+    use crate::tests::made_up::{close, exact};
     use snug_campaign::Interval;
 
     fn drift(parameter: &str, against: &str, change_percent: f64, p: Option<f64>) -> Drift {

@@ -4,10 +4,10 @@
 //! the work. Only the ends of the best decimated fits are worth a fit of every sample.
 
 use crate::batch::BatchSimulator;
-use crate::multistart::early_stopping::fit_starts;
+use crate::multistart::early_stopping::{STOP_SMOOTHED, fit_starts};
 use crate::multistart::thresholds::{
     APART, COST_RATIO_LIMIT, ENOUGH_SAMPLES, LONGEST_INTERVAL_S, MOST_DECIMATED_ENDS, MOST_STEPS,
-    SAME_MINIMUM, SMOOTHED_TOLERANCE, STOP_SMOOTHED,
+    SAME_MINIMUM, SMOOTHED_TOLERANCE,
 };
 use crate::residual::restarts::motions_at;
 use crate::residual::tightening::TighteningResidual;

@@ -4,7 +4,9 @@
 //! bottom another has found already: it need not be followed to the end.
 
 use crate::batch::{BatchSimulator, SimulationRequest};
-use crate::multistart::thresholds::{ALIKE, OVERACHIEVEMENT, RESOLUTION};
+use crate::multistart::thresholds::{
+    ALIKE, COST_RATIO_LIMIT, OVERACHIEVEMENT, RESOLUTION, WARM_UP_STEPS, WARM_UP_STEPS_LED,
+};
 use crate::residual::tightening::TighteningResidual;
 use snug_least_squares::{
     Constraints, DenseResidual, Fit, LevenbergMarquardt, Query, Residual, Settings, SolveError,
@@ -19,6 +21,23 @@ pub(crate) struct EarlyStopping {
     /// How far above the lowest end a search may lie to be followed further: a multiple of that end's cost.
     pub cost_ratio_limit: f64,
 }
+
+/// Of starts along the measured motion.
+pub(crate) const STOP_LED: EarlyStopping = EarlyStopping {
+    warm_up_steps: WARM_UP_STEPS_LED,
+    cost_ratio_limit: COST_RATIO_LIMIT,
+};
+/// Of starts on the decimated record or with the smoothed residual: the same minimum may be lower by as much with every sample
+/// and without smoothing.
+pub(crate) const STOP_SMOOTHED: EarlyStopping = EarlyStopping {
+    warm_up_steps: WARM_UP_STEPS,
+    ..STOP_LED
+};
+/// Of starts with every sample.
+pub(crate) const STOP_FREE: EarlyStopping = EarlyStopping {
+    cost_ratio_limit: 1.0,
+    ..STOP_SMOOTHED
+};
 
 /// Every start makes the steps of the warm-up, as long as it has a prospect; then the lowest goes on to its end, and of the
 /// others those that are not stopped by then. The ends that were reached, lowest first, and the work of all starts together.

@@ -6,8 +6,8 @@
 
 use crate::batch::BatchSimulator;
 use crate::multistart::decimated::{DecimatedRecord, Tried, apart, coarse_solver};
-use crate::multistart::early_stopping::fit_starts;
-use crate::multistart::thresholds::{LED_TOLERANCE, MOST_LED_ENDS, STOP_LED};
+use crate::multistart::early_stopping::{STOP_LED, fit_starts};
+use crate::multistart::thresholds::{LED_TOLERANCE, MOST_LED_ENDS};
 use crate::settings::IdentifySettings;
 use crate::task::FitTask;
 use snug_least_squares::{Constraints, SolveError};

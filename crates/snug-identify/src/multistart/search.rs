@@ -2,12 +2,10 @@
 
 use crate::batch::BatchSimulator;
 use crate::multistart::decimated::{DecimatedRecord, Tried, apart, coarse_solver};
-use crate::multistart::early_stopping::fit_starts;
+use crate::multistart::early_stopping::{STOP_FREE, STOP_SMOOTHED, fit_starts};
 use crate::multistart::multiple_shooting::try_multiple_shooting;
 use crate::multistart::smoothing::HALF_WIDTHS;
-use crate::multistart::thresholds::{
-    CLOSE, FAR_OFF, NEAR, SMOOTHED_TOLERANCE, STOP_FREE, STOP_SMOOTHED, SURE,
-};
+use crate::multistart::thresholds::{CLOSE, FAR_OFF, NEAR, SMOOTHED_TOLERANCE, SURE};
 use crate::residual::tightening::TighteningResidual;
 use crate::settings::IdentifySettings;
 use crate::task::FitTask;

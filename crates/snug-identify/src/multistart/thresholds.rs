@@ -1,8 +1,6 @@
 //! Thresholds of the search for the lowest minimum.
 //! Each stands once, with its unit and how it was found: "chosen" is chosen, not measured.
 
-use crate::multistart::early_stopping::EarlyStopping;
-
 /// Share of the way up from an end by which a cost may differ from what the end predicts \[–\], ... Chosen.
 pub(crate) const ALIKE: f64 = 0.1;
 /// ... and share of the cost itself that says nothing \[–\]. Chosen.
@@ -30,22 +28,10 @@ pub(crate) const SAME_MINIMUM: f64 = 1e-3;
 pub(crate) const SMOOTHED_TOLERANCE: f64 = 1e-2;
 /// A fit along the measured motion has gone far enough when this share of the residual could still be removed \[–\]. Chosen.
 pub(crate) const LED_TOLERANCE: f64 = 0.1;
-/// When a start along the measured motion is stopped. Chosen.
-pub(crate) const STOP_LED: EarlyStopping = EarlyStopping {
-    warm_up_steps: 8,
-    cost_ratio_limit: COST_RATIO_LIMIT,
-};
-/// When a start on the decimated record or with the smoothed residual is stopped: the same minimum may be lower by as much with
-/// every sample and without smoothing. Chosen.
-pub(crate) const STOP_SMOOTHED: EarlyStopping = EarlyStopping {
-    warm_up_steps: 12,
-    cost_ratio_limit: COST_RATIO_LIMIT,
-};
-/// When a start with every sample is stopped. Chosen.
-pub(crate) const STOP_FREE: EarlyStopping = EarlyStopping {
-    warm_up_steps: 12,
-    cost_ratio_limit: 1.0,
-};
+/// Steps that every start along the measured motion makes before any is stopped. Chosen.
+pub(crate) const WARM_UP_STEPS_LED: usize = 8;
+/// Steps that every other start makes before any is stopped. Chosen.
+pub(crate) const WARM_UP_STEPS: usize = 12;
 /// Samples to either side over which the residual is averaged on the way to where it is not: less than a millisecond. Chosen.
 pub(crate) const NEAR: usize = 8;
 /// Mean square of a whitened residual beyond which a fit may have ended in the wrong minimum \[–\]. Chosen.

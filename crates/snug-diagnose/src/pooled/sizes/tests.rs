@@ -1,7 +1,7 @@
 //! Errors and intervals of sizes from a few curvatures and pulls, by the textbook.
 
 use super::*;
-use crate::made_up::{close, exact};
+use crate::tests::made_up::{close, exact};
 use snug_model::Effect::{AccelerationBias, Backlash, CubicStiffness};
 
 /// 97.5 % quantiles of Student's t with 3 and 2 degrees of freedom, SciPy 1.17.1.

@@ -2,8 +2,8 @@
 
 use super::*;
 use crate::data::cases::Tally;
-use crate::made_up::{WHOLE, candidate, close, noisy, silent};
 use crate::pooled::fit::fit_effects;
+use crate::tests::made_up::{WHOLE, candidate, close, noisy, silent};
 use snug_identify::{FitTask, IdentifyError};
 use snug_least_squares::SolveError;
 use snug_model::Effect::{CubicStiffness, QuadraticDamping, TorqueOffset};

@@ -2,8 +2,8 @@
 
 use super::*;
 use crate::data::cases::Tally;
-use crate::made_up::{SAMPLES, WHOLE, close, exact, hand, noisy, term};
 use crate::pooled::model::Room;
+use crate::tests::made_up::{SAMPLES, WHOLE, close, exact, hand, noisy, term};
 use snug_least_squares::Profile;
 use snug_model::Effect::{AccelerationBias, Backlash, CubicStiffness, GripSlip, TorqueOffset};
 

@@ -2,8 +2,8 @@
 
 use super::*;
 use crate::data::cases::{Cases, Tally};
-use crate::made_up::{NOISE, SAMPLES, WHOLE, close, custom_force, exact, hand};
 use crate::pooled::fit::fit_effects;
+use crate::tests::made_up::{NOISE, SAMPLES, WHOLE, close, custom_force, exact, hand};
 use snug_campaign::Correction;
 use snug_identify::FitTask;
 use snug_model::Effect::{AccelerationBias, CubicStiffness, TorqueOffset};

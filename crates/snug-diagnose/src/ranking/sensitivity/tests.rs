@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::data::cases::{Cases, Tally};
-use crate::made_up::{RIG, SAMPLES, close, exact, hand};
+use crate::tests::made_up::{RIG, SAMPLES, close, exact, hand};
 use snug_model::Effect::{
     AccelerationBias, Backlash, CoulombFriction, CubicStiffness, GripSlip, SecondMass, TorqueOffset,
 };

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::data::cases::Tally;
-use crate::made_up::{WHOLE, candidate, close, noisy, ranking, silent, term};
+use crate::tests::made_up::{WHOLE, candidate, close, noisy, ranking, silent, term};
 use snug_identify::FitTask;
 use snug_model::Effect::{
     CoulombFriction, CubicStiffness, QuadraticDamping, QuadraticStiffness, TorqueOffset,

@@ -1,7 +1,7 @@
 //! What is supported, promising or alike, of candidates with a few gains each.
 
 use super::*;
-use crate::made_up::{WHOLE, candidate, close, ranking, term};
+use crate::tests::made_up::{WHOLE, candidate, close, ranking, term};
 use snug_model::Effect::{
     Backlash, CubicStiffness, QuadraticDamping, QuadraticStiffness, TorqueDelay,
 };
