@@ -19,4 +19,5 @@ mod practice;
 mod recording;
 mod thesis_preset;
 mod threads;
+mod unknown_rigs;
 mod work;

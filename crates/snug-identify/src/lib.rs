@@ -17,6 +17,7 @@ pub use constraint_kind::{ConstraintKind, convex_set};
 pub use error::IdentifyError;
 pub use identify::{identify, identify_all};
 pub use multistart::smoothing::{HALF_WIDTHS, smooth};
+pub use multistart::spectral_start::{SpectralStart, spectral_start};
 pub use residual::agreement;
 pub use residual::restarts::{Simulation, motions, motions_at, widest_half_width};
 pub use residual::tightening::TighteningResidual;

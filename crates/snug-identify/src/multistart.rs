@@ -8,4 +8,5 @@ pub(crate) mod integral_start;
 pub(crate) mod multiple_shooting;
 pub(crate) mod search;
 pub(crate) mod smoothing;
+pub(crate) mod spectral_start;
 pub(crate) mod thresholds;

@@ -3,7 +3,10 @@
 mod interpolation;
 mod noise;
 mod periodogram;
+mod spectrum;
 
 pub use interpolation::{between_samples, straight_pieces};
 pub use noise::white_noise_level;
 pub use periodogram::Periodogram;
+pub use realfft::num_complex::Complex;
+pub use spectrum::spectrum;

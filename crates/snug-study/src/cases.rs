@@ -116,10 +116,10 @@ impl Part {
 }
 
 /// The same tightenings with a study that differs in its model and in how that is run.
-pub(crate) fn with_settled(
+pub(crate) fn with_settled<'a>(
     study: &Study,
-    cases: Vec<FitTask<'static>>,
-) -> Result<Vec<FitTask<'static>>, StudyError> {
+    cases: Vec<FitTask<'a>>,
+) -> Result<Vec<FitTask<'a>>, StudyError> {
     let simulation = study.identify.simulation;
     (cases.into_iter())
         .map(|case| {

@@ -2,10 +2,14 @@
 //! model runs freely over a long record.
 
 use crate::Study;
+use crate::cases::with_settled;
 use snug_campaign::Quantity;
 use snug_campaign::words::reason::Reason;
-use snug_identify::{FitTask, IdentifySettings, Simulation, identify, motions, widest_half_width};
-use snug_model::Scale;
+use snug_identify::{
+    FitTask, IdentifySettings, Simulation, SpectralStart, identify, motions, spectral_start,
+    widest_half_width,
+};
+use snug_model::{BASE_PARAMETERS, Scale};
 use snug_preprocess::Window;
 
 /// The study with its automatic choices made, and what is to be said about them.
@@ -19,11 +23,19 @@ pub(crate) fn settle(study: &Study, cases: &[FitTask<'_>]) -> Option<Settled> {
     if study.preprocess.window != Window::Whole {
         return None;
     }
-    let sizes = Sizes::of(cases)?;
+    let start = spectral_start(cases);
+    let sizes = Sizes::of(cases, start.as_ref())?;
     let mut settled = Settled {
         study: study.clone(),
         reasons: Vec::new(),
     };
+    if let Some(start) = start.filter(|_| !states_a_start(study)) {
+        for (name, value) in BASE_PARAMETERS.iter().zip(start.values) {
+            let told = settled.study.model.parameters.entry((*name).to_owned());
+            told.or_default().value = Some(value);
+        }
+    }
+    let cases = &with_settled(&settled.study, cases.iter().map(FitTask::lent).collect()).ok()?;
     if study.model.scale == Scale::Automatic {
         settled.study.model.scale = Scale::Rig {
             torque_nm: sizes.torque_nm,
@@ -55,6 +67,12 @@ pub(crate) fn settle(study: &Study, cases: &[FitTask<'_>]) -> Option<Settled> {
     Some(settled)
 }
 
+/// Whether the study says where m, c or k begin.
+fn states_a_start(study: &Study) -> bool {
+    let told = |name: &&str| study.model.parameters.get(*name).and_then(|p| p.value);
+    BASE_PARAMETERS.iter().any(|name| told(name).is_some())
+}
+
 /// `value` as people write it who mean no more than three digits.
 fn three_digits(value: f64) -> f64 {
     format!("{value:.2e}").parse().unwrap_or(value)
@@ -82,10 +100,24 @@ struct Sizes {
 }
 
 impl Sizes {
-    fn of(cases: &[FitTask<'_>]) -> Option<Self> {
-        let motion = |case: &FitTask<'_>| case.tightening.motion.displacement_rad.is_some();
-        if !cases.iter().all(motion) {
-            return None;
+    /// As measured where the angle was, otherwise as the model moves from its `start`: an angle that was integrated drifts.
+    fn of(cases: &[FitTask<'_>], start: Option<&SpectralStart>) -> Option<Self> {
+        let is_measured = |case: &FitTask<'_>| case.quantity() == Quantity::Displacement;
+        if !cases.iter().all(is_measured) {
+            let samples = || {
+                cases
+                    .iter()
+                    .map(|case| case.tightening.torque_nm.len() as f64)
+            };
+            let torques = cases
+                .iter()
+                .map(|case| mean_square(&case.tightening.torque_nm));
+            let squares: f64 = torques.zip(samples()).map(|(square, n)| square * n).sum();
+            return start.map(|start| Self {
+                torque_nm: f64::sqrt(squares / samples().sum::<f64>()),
+                angle_rad: start.angle_rad,
+                time_s: start.time_s,
+            });
         }
         let (mut angle, mut velocity, mut torque, mut count) = (0.0, 0.0, 0.0, 0.0);
         for case in cases {

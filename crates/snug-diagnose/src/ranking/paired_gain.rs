@@ -45,13 +45,14 @@ pub(crate) fn chance(values: &[f64], scale: f64) -> f64 {
     of_plain.min(of_bounded)
 }
 
-/// Σ x over its standard error, and Σ of the bounded x over their length; the second only where Σ x is positive.
+/// Σ x over its standard error, and Σ of the bounded x over their length; the second only where Σ x is positive. Both are 0
+/// where Σ x or its error is beyond all numbers: a model that runs away says nothing.
 fn statistics(values: &[f64], scale: f64) -> (f64, f64) {
     let sum: f64 = values.iter().sum();
-    if sum == 0.0 {
+    let plain = sum / spread_of_sum(values);
+    if sum == 0.0 || plain.is_nan() {
         return (0.0, 0.0);
     }
-    let plain = sum / spread_of_sum(values);
     match sum > 0.0 {
         true => (plain, agreement(values, scale)),
         false => (plain, plain),
@@ -113,6 +114,22 @@ mod tests {
         let mut loud = [1e5; 8];
         loud[0] = 1e9;
         close(chance(&loud, 1.0), 0.002_338_867_490_523_6, 1e-6);
+    }
+
+    #[test]
+    fn what_is_beyond_all_numbers_says_nothing() {
+        for values in [
+            [f64::INFINITY, 1.0],
+            [f64::NAN, 1.0],
+            [1e200, -1e180],
+            [1e308; 2],
+        ] {
+            let (chance, clearness) = (chance(&values, 1.0), clearness(&values, 1.0));
+            assert!(
+                chance >= 0.5 && clearness <= 0.0,
+                "{values:?}: {chance} {clearness}"
+            );
+        }
     }
 
     #[test]

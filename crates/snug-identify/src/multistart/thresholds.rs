@@ -43,3 +43,8 @@ pub(crate) const CLOSE: f64 = 1.1;
 pub(crate) const SURE: f64 = 8.0;
 /// Every this many samples enter the regression: a start need not be better, and the integrals know them all. Chosen.
 pub(crate) const SCORED: usize = 8;
+/// Times that the fit to the spectra is weighted anew: after five hardly anything changes (seen on six rigs).
+pub(crate) const SPECTRAL_ROUNDS: usize = 12;
+/// What the spectra do not show of m, c, k starts at this share of what stands before the output at its mean frequency \[–\].
+/// Chosen.
+pub(crate) const LEAST_SHARE: f64 = 1e-3;

@@ -1,0 +1,68 @@
+//! Rigs of which nobody says where mass, damping and stiffness begin, nor in which unit anything was measured.
+
+use snug_campaign::Diagnosis;
+use snug_study::{RunSettings, Study, Verb, diagnose};
+use std::path::Path;
+use std::sync::atomic::AtomicBool;
+
+/// A study as README teaches it: two channels of a table, one output, nothing else.
+fn study(data: &Path, [input, output]: [&str; 2], signals: &str, hz: f64, fitted: &str) -> Study {
+    let text = format!(
+        r#"(
+            source: (path: {data:?}, format: Csv(
+                channels: [
+                    (column: Name("{input}"), signal: Torque, unit: Volt),
+                    (column: Name("{output}"), {signals}),
+                ],
+                sampling: Rate(hz: {hz}),
+            )),
+            preprocess: (window: Whole, rig: (lever_arm_m: 1.0, known_inertia: Fixed(0.0))),
+            identify: (fitted_output: {fitted}, constraints: [Positive]),
+        )"#
+    );
+    Study::parse(&text, Path::new("rig.ron")).unwrap()
+}
+
+/// The diagnosis, and how well the study's own model fits \[%\].
+fn told(study: &Study, verb: &Verb) -> (Diagnosis, f64) {
+    let out = tempfile::tempdir().unwrap();
+    let quiet = |_: snug_study::ProgressEvent<'_>| ();
+    let never = AtomicBool::new(false);
+    let outcome = diagnose(study, verb, &RunSettings::new(out.path()), &quiet, &never).unwrap();
+    let fit = outcome.result.tightenings[0]
+        .measures
+        .fit_percent_fitted_output;
+    (outcome.result.diagnosis.unwrap(), fit.unwrap())
+}
+
+/// One mode leaves 13 % of the arm's power, as a fit to the spectra with NumPy says: 1 − √0.1316 = 64 % of its size. In which
+/// unit of time does not matter.
+#[test]
+fn a_robot_arm_of_unknown_rate_is_fitted_by_its_resonance() {
+    let Some(data) = snug_tests::data("DaISy") else {
+        return;
+    };
+    let arm = data.join("daisy/robot-arm.csv");
+    let signals = "signal: Acceleration, unit: RadianPerSecondSquared";
+    let fits = [1.0, 500.0, 1e6].map(|hz| {
+        let study = study(&arm, ["u", "y"], signals, hz, "Acceleration");
+        told(&study, &Verb::Compare).1
+    });
+    for fit in fits {
+        assert!((62.0..67.0).contains(&fit), "{fits:?}");
+        assert!((fit - fits[0]).abs() < 0.01, "{fits:?}");
+    }
+}
+
+/// Two tanks are no oscillator: candidates run away, and are not believed.
+#[test]
+fn cascaded_tanks_are_searched_to_the_end() {
+    let Some(data) = snug_tests::data("cascaded tanks") else {
+        return;
+    };
+    let tanks = data.join("cascaded-tanks/dataBenchmark.csv");
+    let signals = "signal: Displacement, unit: Volt";
+    let study = study(&tanks, ["uEst", "yEst"], signals, 0.25, "Displacement");
+    let (diagnosis, _) = told(&study, &Verb::Improve);
+    assert!(!diagnosis.interrupted);
+}
