@@ -35,10 +35,10 @@ enum Kind {
     Single,
     Double,
     Text,
-    /// ROS 1 `time` (unsigned) and `duration`: seconds and nanoseconds.
-    Time {
-        signed: bool,
-    },
+    /// ROS 1: unsigned seconds and nanoseconds.
+    Time,
+    /// ROS 1: signed seconds and nanoseconds.
+    Duration,
     Message(usize),
 }
 
@@ -121,31 +121,24 @@ impl Decoder {
     }
 
     fn read(&self, data: &[u8], budget: &mut Budget, put: &mut dyn FnMut(&str, f64)) -> Decoded {
-        let mut cursor = match self.wire {
-            Wire::Ros1 => Cursor {
-                data,
-                position: 0,
-                aligned: false,
-                big_endian: false,
-                long: false,
-                steps: 0,
-                budget,
-            },
+        let (data, big_endian) = match self.wire {
+            Wire::Ros1 => (data, false),
             Wire::Cdr => {
                 let (header, data) = data.split_first_chunk::<4>().ok_or(MALFORMED)?;
                 if header[0] != 0 || header[1] > 1 {
                     return Err("the CDR encapsulation is not plain CDR; the message was left out");
                 }
-                Cursor {
-                    data,
-                    position: 0,
-                    aligned: true,
-                    big_endian: header[1] == 0,
-                    long: false,
-                    steps: 0,
-                    budget,
-                }
+                (data, header[1] == 0)
             }
+        };
+        let mut cursor = Cursor {
+            data,
+            budget,
+            position: 0,
+            aligned: self.wire == Wire::Cdr,
+            big_endian,
+            long: false,
+            steps: 0,
         };
         self.message(0, &mut cursor, &mut String::new(), put, 0)?;
         if cursor.long {
@@ -231,19 +224,13 @@ impl Decoder {
                 let length = u32::from_ne_bytes(cursor.word()?) as usize;
                 return cursor.skip(length);
             }
-            Kind::Time { signed } => {
-                let (seconds, nanoseconds) = if signed {
-                    (
-                        f64::from(i32::from_ne_bytes(cursor.word()?)),
-                        f64::from(i32::from_ne_bytes(cursor.word()?)),
-                    )
-                } else {
-                    (
-                        f64::from(u32::from_ne_bytes(cursor.word()?)),
-                        f64::from(u32::from_ne_bytes(cursor.word()?)),
-                    )
-                };
-                seconds + nanoseconds * 1e-9
+            Kind::Time => {
+                let seconds = f64::from(u32::from_ne_bytes(cursor.word()?));
+                seconds + f64::from(u32::from_ne_bytes(cursor.word()?)) * 1e-9
+            }
+            Kind::Duration => {
+                let seconds = f64::from(i32::from_ne_bytes(cursor.word()?));
+                seconds + f64::from(i32::from_ne_bytes(cursor.word()?)) * 1e-9
             }
             Kind::Message(message) => {
                 return self.message(message, cursor, path, put, depth + 1);
@@ -331,9 +318,8 @@ fn field(
     let element = element.split("<=").next().unwrap_or_default();
     let kind = match element {
         "bool" => Kind::Flag,
-        "uint8" | "byte" => Kind::U8,
         // ROS 1's deprecated `char` is unsigned, and ROS 2 kept that.
-        "char" => Kind::U8,
+        "uint8" | "byte" | "char" => Kind::U8,
         "int8" => Kind::I8,
         "uint16" => Kind::U16,
         "int16" => Kind::I16,
@@ -344,8 +330,8 @@ fn field(
         "float32" => Kind::Single,
         "float64" => Kind::Double,
         "string" => Kind::Text,
-        "time" if wire == Wire::Ros1 => Kind::Time { signed: false },
-        "duration" if wire == Wire::Ros1 => Kind::Time { signed: true },
+        "time" if wire == Wire::Ros1 => Kind::Time,
+        "duration" if wire == Wire::Ros1 => Kind::Duration,
         other => Kind::Message(resolve(other, package, names)?),
     };
     Some(Some(Field {
