@@ -46,7 +46,7 @@ pub enum RecordError {
         /// Which tightening, as `file #number`.
         tightening: String,
         /// Name of the signal.
-        signal: &'static str,
+        signal: String,
         /// Samples of the torque.
         expected: usize,
         /// Samples of the signal.

@@ -334,20 +334,19 @@ mod tests {
 
     /// Follows `a.b[:]{…}.c` through a message's table.
     fn exists(message: &Message, path: &str) -> bool {
-        let mut kind = Kind::Object(message.fields);
+        let mut kind = Kind::Group(message.fields);
         for part in path.split('.') {
             let name = part.split('[').next().unwrap_or_default();
-            let Kind::Object(fields) = kind else {
+            let Kind::Group(fields) = kind else {
                 return false;
             };
             let Some(field) = fields.iter().find(|field| field.name == name) else {
                 return false;
             };
-            kind = match (field.kind, part.contains("[:]")) {
-                (Kind::List(items), true) => *items,
-                (Kind::List(_), false) | (_, true) => return false,
-                (kind, false) => kind,
-            };
+            if field.listed != part.contains("[:]") {
+                return false;
+            }
+            kind = field.kind;
         }
         true
     }

@@ -4,6 +4,7 @@
 //! numbers that are not finite, which JSON cannot hold) are left out, and lists of mixed kinds become objects.
 
 use serde_json::{Map, Value, json};
+use snug_campaign::words::capitalised;
 use std::collections::BTreeMap;
 
 /// Leaves out nulls and turns mixed or nested lists into objects with the keys `item_0`, `item_1`, …
@@ -122,7 +123,7 @@ impl Shape {
                     .iter()
                     .map(|(name, shape)| {
                         let mut property = shape.schema();
-                        property["title"] = title(name).into();
+                        property["title"] = capitalised(&name.replace('_', " ")).into();
                         property["description"] = name.as_str().into();
                         (name.clone(), property)
                     })
@@ -131,16 +132,6 @@ impl Shape {
             }
         }
     }
-}
-
-/// `rms_displacement_rad` as words: `Rms displacement rad`.
-fn title(name: &str) -> String {
-    let words = name.replace('_', " ");
-    let mut letters = words.chars();
-    letters
-        .next()
-        .map(|first| first.to_uppercase().to_string() + letters.as_str())
-        .unwrap_or_default()
 }
 
 #[cfg(test)]
