@@ -1,5 +1,6 @@
 #![doc = include_str!("../README.md")]
 
+mod curves;
 mod decimation;
 mod effect_words;
 mod figure;

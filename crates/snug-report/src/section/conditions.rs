@@ -221,17 +221,8 @@ fn marks(placed: &[Placed<'_>], (low, high): (f64, f64), unit: &str) -> Vec<Mark
         }
     });
     vec![
-        Mark::Segments {
-            class: "c-quiet",
-            segments: spreads.collect(),
-        },
-        Mark::Segments {
-            class: "thick c-selected",
-            segments: intervals.collect(),
-        },
-        Mark::Dots {
-            class: "c-selected",
-            dots: dots.collect(),
-        },
+        Mark::Segments("c-quiet", spreads.collect()),
+        Mark::Segments("thick c-selected", intervals.collect()),
+        Mark::Dots("c-selected", dots.collect()),
     ]
 }

@@ -106,13 +106,7 @@ fn drawing(row: &Corrected, result: &CampaignResult) -> Markup {
         .flat_map(|(_, correction)| [interval(correction).0, interval(correction).1, 0.0]);
     let (low, high) = linear_range(ends, 0.04);
     let last = result.tightenings.len() as f64 + 1.0;
-    let zero = Mark::Segments {
-        class: "c-zero",
-        segments: vec![Segment {
-            x: (0.0, last),
-            y: (0.0, 0.0),
-        }],
-    };
+    let zero = Mark::rule("c-zero", (0.0, last), (0.0, 0.0));
     let mut marks = vec![zero];
     marks.extend(sizes("c-quiet", &drawn, false, result));
     marks.extend(sizes("c-selected", &drawn, true, result));
@@ -171,13 +165,7 @@ fn sizes(
         ),
     });
     [
-        Mark::Segments {
-            class,
-            segments: segments.collect(),
-        },
-        Mark::Dots {
-            class,
-            dots: dots.collect(),
-        },
+        Mark::Segments(class, segments.collect()),
+        Mark::Dots(class, dots.collect()),
     ]
 }

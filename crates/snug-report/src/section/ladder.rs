@@ -1,7 +1,7 @@
 //! Every model of the ladder with its error in fitted and in held-out data, and the share of tightenings it can use.
 
 use super::DiagnosisSection;
-use crate::figure::{Axis, Bar, Dot, Figure, Mark, Segment, captioned, legend};
+use crate::figure::{Axis, Bar, Dot, Figure, Mark, captioned, legend};
 use crate::number::{percent, plain, significant};
 use maud::{Markup, html};
 use snug_campaign::words::effect_name::{called_in, unit_text};
@@ -143,19 +143,9 @@ fn height(rungs: &[Rung]) -> f64 {
 fn error_figure(rungs: &[Rung], names: &[String]) -> Markup {
     let (low, high) = error_scale(rungs);
     let left = |rung: &Rung| rung.error_over_noise;
-    let floor = Segment {
-        x: (1.0, 1.0),
-        y: (0.5, 0.5 - rungs.len() as f64),
-    };
     let mut marks = vec![
-        Mark::Bars {
-            class: "c-faint",
-            bars: bars(rungs, low, left, "error over noise"),
-        },
-        Mark::Segments {
-            class: "c-floor thick",
-            segments: vec![floor],
-        },
+        Mark::Bars("c-faint", bars(rungs, low, left, "error over noise")),
+        Mark::rule("c-floor thick", (1.0, 1.0), (0.5, 0.5 - rungs.len() as f64)),
     ];
     let mut entries = vec![
         ("c-faint", "all tightenings"),
@@ -165,10 +155,7 @@ fn error_figure(rungs: &[Rung], names: &[String]) -> Markup {
         let dots = view.dots(rungs, names);
         if !dots.is_empty() {
             entries.push((view.class, view.words));
-            marks.push(Mark::Dots {
-                class: view.class,
-                dots,
-            });
+            marks.push(Mark::Dots(view.class, dots));
         }
     }
     let figure = Figure {
@@ -250,10 +237,10 @@ fn rms_figure(rungs: &[Rung], names: &[String], unit: &str) -> Markup {
             5,
         ),
         y: rows(names),
-        marks: vec![Mark::Bars {
-            class: "c-selected",
-            bars: bars(rungs, 0.0, |rung| Some(rung.rms_fitted_output), "residual"),
-        }],
+        marks: vec![Mark::Bars(
+            "c-selected",
+            bars(rungs, 0.0, |rung| Some(rung.rms_fitted_output), "residual"),
+        )],
     };
     captioned("What the model leaves", figure.svg(), None)
 }
@@ -265,15 +252,15 @@ fn selected_figure(rungs: &[Rung], names: &[String]) -> Markup {
         height: height(rungs),
         x: Axis::linear("tightenings selected [%]", 0.0, 100.0, 5),
         y: rows(names),
-        marks: vec![Mark::Bars {
-            class: "c-selected",
-            bars: bars(
+        marks: vec![Mark::Bars(
+            "c-selected",
+            bars(
                 rungs,
                 0.0,
                 |rung| Some(100.0 * rung.selected_fraction),
                 "selected, percent:",
             ),
-        }],
+        )],
     };
     captioned("Usable tightenings", figure.svg(), None)
 }

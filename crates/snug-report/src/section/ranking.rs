@@ -111,16 +111,13 @@ fn figure(ranking: &[&RankedEffect]) -> Markup {
             .map(|(row, candidate)| bar(row, candidate, (low, high)))
             .collect()
     };
-    let bars = LAYERS.map(|(layer, _)| Mark::Bars {
-        class: layer,
-        bars: of_layer(layer),
-    });
-    let whiskers = Mark::Segments {
-        class: "c-whisker",
-        segments: placed()
+    let bars = LAYERS.map(|(layer, _)| Mark::Bars(layer, of_layer(layer)));
+    let whiskers = Mark::Segments(
+        "c-whisker",
+        placed()
             .map(|(row, candidate)| whisker(row, candidate, (low, high)))
             .collect(),
-    };
+    );
     let labels: Vec<(String, bool)> = ranking.iter().map(|one| (label(one), false)).collect();
     let figure = Figure {
         description: "Share of the misfit that each candidate removes in held-out tightenings"

@@ -129,10 +129,7 @@ fn in_rows(aspect: &Aspect, largest: f64, factor: f64, unit: &str) -> Markup {
         marks: marks(
             whiskers.collect(),
             dots.collect(),
-            Segment {
-                x: (1.0, 1.0),
-                y: (0.5, 0.5 - count as f64),
-            },
+            Mark::rule("c-floor", (1.0, 1.0), (0.5, 0.5 - count as f64)),
         ),
     }
     .svg()
@@ -161,10 +158,7 @@ fn along(aspect: &Aspect, largest: f64, factor: f64, unit: &str) -> Markup {
         y: part.error_over_noise,
         title: spoken(&part_name(part, factor, unit), part),
     });
-    let floor = Segment {
-        x: (start, end),
-        y: (1.0, 1.0),
-    };
+    let floor = Mark::rule("c-floor", (start, end), (1.0, 1.0));
     Figure {
         description: format!("Error over noise by {}", aspect.aspect.replace('_', " ")),
         width: 380.0,
@@ -181,20 +175,11 @@ fn along(aspect: &Aspect, largest: f64, factor: f64, unit: &str) -> Markup {
     .svg()
 }
 
-fn marks(whiskers: Vec<Segment>, dots: Vec<Dot>, floor: Segment) -> Vec<Mark> {
+fn marks(whiskers: Vec<Segment>, dots: Vec<Dot>, floor: Mark) -> Vec<Mark> {
     vec![
-        Mark::Segments {
-            class: "c-floor",
-            segments: vec![floor],
-        },
-        Mark::Segments {
-            class: "c-rejected",
-            segments: whiskers,
-        },
-        Mark::Dots {
-            class: "c-rejected",
-            dots,
-        },
+        floor,
+        Mark::Segments("c-rejected", whiskers),
+        Mark::Dots("c-rejected", dots),
     ]
 }
 

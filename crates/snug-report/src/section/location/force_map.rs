@@ -81,7 +81,7 @@ pub fn figure(map: &ForceMap) -> Markup {
         y: Axis::linear("velocity of the grip v [m/s]", bottom, top, 6),
         marks: layers
             .into_iter()
-            .map(|(class, bars)| Mark::Bars { class, bars })
+            .map(|(class, bars)| Mark::Bars(class, bars))
             .collect(),
     };
     captioned(
