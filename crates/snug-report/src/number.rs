@@ -44,6 +44,16 @@ pub fn drawn(value: f64, digits: i32) -> Option<f64> {
     })
 }
 
+/// What a table is sorted by; a missing value has none and stays last.
+pub fn sort_key(value: Option<f64>) -> Option<String> {
+    Some(drawn(value?, 6)?.to_string())
+}
+
+/// A cell of a table that can be sorted.
+pub fn sortable(value: Option<f64>, digits: i32, why: &str) -> Markup {
+    html! { td data-v=[sort_key(value)] { (plain(value, digits, why)) } }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -1,6 +1,6 @@
 //! `tightenings.csv`: one row per tightening, every digit, SI units.
 
-use crate::outcome::status_name;
+use crate::json;
 use snug_campaign::{CampaignResult, Estimate, FitMeasures, SignalUnits, TighteningResult};
 
 /// The first columns, whose names and order other programs rely on.
@@ -23,7 +23,7 @@ const LEADING: [&str; 15] = [
 ];
 
 /// The base model's parameters: their values stand among the leading columns.
-const BASE_PARAMETERS: [&str; 3] = ["mass_kg", "damping_kg_per_s", "stiffness_n_per_m"];
+pub(crate) const BASE_PARAMETERS: [&str; 3] = ["mass_kg", "damping_kg_per_s", "stiffness_n_per_m"];
 
 /// A measure's column and how it is read.
 type Measure = (&'static str, fn(&FitMeasures) -> Option<f64>);
@@ -149,7 +149,7 @@ fn row(
         number(Some(tightening.peak_torque_nm)),
         number(Some(tightening.rig.lever_arm_m)),
         number(Some(tightening.rig.known_inertia_kg_m2)),
-        estimate.map_or_else(String::new, |estimate| status_name(estimate.status).into()),
+        estimate.map_or_else(String::new, |estimate| json::name(estimate.status)),
         estimate.map_or_else(String::new, |estimate| {
             estimate.active_constraints.join(";")
         }),
@@ -160,7 +160,7 @@ fn row(
             .map(|(_, read)| number(read(&tightening.measures))),
     );
     let noise = tightening.noise.as_ref();
-    fields.push(noise.map_or_else(String::new, |noise| word(&noise.source)));
+    fields.push(noise.map_or_else(String::new, |noise| json::name(noise.source)));
     fields.push(number(noise.map(|noise| noise.standard_deviation)));
     for effect in corrections {
         let correction = tightening
@@ -244,13 +244,6 @@ fn text(words: &str) -> String {
     }
 }
 
-fn word(value: &impl serde::Serialize) -> String {
-    match serde_json::to_value(value) {
-        Ok(serde_json::Value::String(text)) => text,
-        _ => String::new(),
-    }
-}
-
 /// Names of all parameters beyond the base model's, in order of first appearance.
 pub(crate) fn effect_parameters(result: &CampaignResult) -> Vec<&str> {
     first_seen(
@@ -274,11 +267,12 @@ fn corrections(result: &CampaignResult) -> Vec<&str> {
     )
 }
 
-fn first_seen<'a>(names: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
+/// Every item once, in order of first appearance.
+pub(crate) fn first_seen<T: PartialEq>(items: impl IntoIterator<Item = T>) -> Vec<T> {
     let mut seen = Vec::new();
-    for name in names {
-        if !seen.contains(&name) {
-            seen.push(name);
+    for item in items {
+        if !seen.contains(&item) {
+            seen.push(item);
         }
     }
     seen

@@ -1,6 +1,6 @@
 //! What the final model gained on one tightening: curves to zoom into, or still ones where no script runs.
 
-use super::DiagnosisSection;
+use super::{Render, Section};
 use crate::curves::{
     self, Curves, DIGITS, STILL_POINTS, Series, Values, embedded, steps, time_unit,
 };
@@ -11,11 +11,11 @@ use serde_json::json;
 use snug_campaign::{CampaignResult, Diagnosis, NORMAL_95, Quantity, Showcase};
 
 /// One tightening with the study's own model and with the final one.
-pub const SECTION: DiagnosisSection = DiagnosisSection {
+pub const SECTION: Section = Section {
     anchor: "before-after",
     short_title: "Before and after",
     title: "Before and after",
-    render,
+    render: Render::Diagnosed(render),
 };
 
 /// Points of a line in the interactive picture.

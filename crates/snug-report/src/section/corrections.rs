@@ -1,6 +1,6 @@
 //! Which sensor errors were taken out, how large they were, and whether chance alone could make them so.
 
-use super::{Section, nothing};
+use super::{Render, Section, headings, nothing};
 use crate::figure::{Axis, Dot, Figure, Mark, Segment, captioned, legend, linear_range};
 use crate::number::{missing, percent, share, significant};
 use crate::quartiles::Quartiles;
@@ -13,7 +13,7 @@ pub const SECTION: Section = Section {
     anchor: "corrections",
     short_title: "Corrections",
     title: "What was corrected before the fit",
-    render,
+    render: Render::Always(render),
 };
 
 /// Beyond this many tightenings a figure shows every n-th.
@@ -39,15 +39,8 @@ fn render(result: &CampaignResult) -> Markup {
         }
         div.scroll { table {
             caption { "Corrections over all tightenings" }
-            thead { tr {
-                th scope="col" { "sensor error" }
-                th scope="col" { "significant in" }
-                th scope="col" { "typical size (median of |size|)" }
-                th scope="col" { "from" }
-                th scope="col" { "to" }
-                th scope="col" { "standard error (median)" }
-                th scope="col" { "unit" }
-            } }
+            (headings(&["sensor error", "significant in", "typical size (median of |size|)", "from", "to",
+                "standard error (median)", "unit"]))
             tbody { @for row in &corrected { (table_row(row)) } }
         } }
         div.figures { @for row in &corrected { (drawing(row, result)) } }

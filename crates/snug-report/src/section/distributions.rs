@@ -1,6 +1,6 @@
 //! Histograms around the bulk of the values; what lies beyond the axis is counted in words and squeezes nothing.
 
-use super::{Section, fitted, nothing};
+use super::{Render, Section, fitted, nothing};
 use crate::figure::{Axis, Bar, Figure, Mark, captioned, legend, round_step};
 use crate::number::significant;
 use crate::quantity;
@@ -15,7 +15,7 @@ pub const SECTION: Section = Section {
     anchor: "distributions",
     short_title: "Distributions",
     title: "Distributions of selected and rejected values",
-    render,
+    render: Render::Always(render),
 };
 
 /// About how many bars a histogram has.

@@ -1,8 +1,8 @@
 //! Findings by kind, the gravest first, so that a frequent remark does not hide a rare loss of data.
 
-use super::{Section, nothing};
+use super::{Render, Section, findings_of, nothing};
+use crate::json;
 use crate::number::missing;
-use crate::outcome::{severity_name, severity_words};
 use maud::{Markup, html};
 use snug_campaign::words::counted;
 use snug_campaign::{CampaignResult, Finding, Severity};
@@ -12,7 +12,7 @@ pub const SECTION: Section = Section {
     anchor: "findings",
     short_title: "Findings",
     title: "Findings about the data",
-    render,
+    render: Render::Always(render),
 };
 
 /// Findings of one kind listed on the page; the file holds all.
@@ -22,22 +22,17 @@ fn render(result: &CampaignResult) -> Markup {
     if result.findings.is_empty() {
         return nothing("Nothing was left out, repaired or remarked on.");
     }
-    let count = |severity| {
-        result
-            .findings
-            .iter()
-            .filter(|finding| finding.severity == severity)
-            .count()
-    };
+    let count = |severity| counted(findings_of(result, severity), "finding");
     html! {
         p {
-            (counted(count(Severity::LeftOut), "finding")) " left data out, " (counted(count(Severity::Repaired), "finding"))
-            " repaired or corrected data, " (counted(count(Severity::Note), "finding")) " worth knowing changed nothing. findings.json lists all."
+            (count(Severity::LeftOut)) " left data out, " (count(Severity::Repaired))
+            " repaired or corrected data, " (count(Severity::Note)) " worth knowing changed nothing. findings.json lists all."
         }
         @for (index, kind) in kinds(result).into_iter().enumerate() {
             details open[index < 3 && kind.findings.len() <= 10] {
                 summary {
-                    span class=(format!("severity {}", severity_name(kind.severity))) { (severity_words(kind.severity)) }
+                    @let severity = json::name(kind.severity);
+                    span class=(format!("severity {severity}")) { (severity.replace('_', " ")) }
                     " " strong { (kind.code.replace('_', " ")) } " – " (counted(kind.findings.len(), "finding"))
                 }
                 (listing(&kind.findings))

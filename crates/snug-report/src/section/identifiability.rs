@@ -1,8 +1,9 @@
 //! Whether data or constraints decided the estimates: how fits ended, interval widths, correlations, noise sources.
 
-use super::{Section, nothing};
+use super::{Render, Section, headings, nothing};
+use crate::json;
 use crate::number::{fixed, missing, percent, share, short, significant};
-use crate::outcome::{STATUSES, status_meaning, status_name};
+use crate::outcome::{STATUSES, status_meaning};
 use crate::quantity;
 use crate::quartiles::Quartiles;
 use maud::{Markup, html};
@@ -14,7 +15,7 @@ pub const SECTION: Section = Section {
     anchor: "identifiability",
     short_title: "Identifiability",
     title: "How sure the estimates are",
-    render,
+    render: Render::Always(render),
 };
 
 fn render(result: &CampaignResult) -> Markup {
@@ -47,7 +48,7 @@ fn statuses(estimates: &[&Estimate]) -> Markup {
         tbody { @for status in STATUSES {
             @let count = estimates.iter().filter(|estimate| estimate.status == status).count();
             @if count > 0 { tr {
-                th scope="row" { (status_name(status).replace('_', " ")) }
+                th scope="row" { (json::name(status).replace('_', " ")) }
                 td { (count) " (" (percent(share(count, estimates.len()).unwrap_or(f64::NAN))) ")" }
                 td.words { (status_meaning(status)) }
             } }
@@ -69,7 +70,7 @@ fn constraints(estimates: &[&Estimate]) -> Markup {
         } @else {
             div.scroll { table {
                 caption { "Constraints that decided instead of the data" }
-                thead { tr { th scope="col" { "active constraint" } th scope="col" { "tightenings" } } }
+                (headings(&["active constraint", "tightenings"]))
                 tbody { @for (name, count) in active { tr {
                     th scope="row" { (name.replace('_', " ")) }
                     td { (count) " (" (percent(share(count, estimates.len()).unwrap_or(f64::NAN))) ")" }
@@ -96,11 +97,7 @@ fn certainty(estimates: &[&Estimate], result: &CampaignResult) -> Markup {
     }
     html! { div.scroll { table {
         caption { "Half the 95 % interval in percent of the value" }
-        thead { tr {
-            @for heading in ["parameter", "tightenings with interval", "median [%]", "middle half [%]", "widest [%]"] {
-                th scope="col" { (heading) }
-            }
-        } }
+        (headings(&["parameter", "tightenings with interval", "median [%]", "middle half [%]", "widest [%]"]))
         tbody { @for (name, values) in &widths {
             @let spread = Quartiles::of(values.iter().copied());
             tr {
@@ -130,9 +127,7 @@ fn correlations(estimates: &[&Estimate], result: &CampaignResult) -> Markup {
     html! { @if !pairs.is_empty() {
         div.scroll { table {
             caption { "The most correlated pair of parameters: near ±1 the data cannot tell the two apart" }
-            thead { tr {
-                @for heading in ["pair", "tightenings", "correlation, median", "from", "to"] { th scope="col" { (heading) } }
-            } }
+            (headings(&["pair", "tightenings", "correlation, median", "from", "to"]))
             tbody { @for ((first, second), values) in &pairs {
                 @let spread = Quartiles::of(values.iter().copied());
                 tr {

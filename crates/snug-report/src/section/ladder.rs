@@ -1,6 +1,6 @@
 //! Every model of the ladder with its error in fitted and in held-out data, and the share of tightenings it can use.
 
-use super::DiagnosisSection;
+use super::{Render, Section};
 use crate::figure::{Axis, Bar, Dot, Figure, Mark, captioned, legend};
 use crate::number::{percent, plain, significant};
 use maud::{Markup, html};
@@ -8,11 +8,11 @@ use snug_campaign::words::effect_name::{called_in, unit_text};
 use snug_campaign::{CampaignResult, Diagnosis, Rung, Verdict};
 
 /// How the error falls, effect by effect.
-pub const SECTION: DiagnosisSection = DiagnosisSection {
+pub const SECTION: Section = Section {
     anchor: "ladder",
     short_title: "Error ladder",
     title: "How the error falls",
-    render,
+    render: Render::Diagnosed(render),
 };
 
 const ROW: f64 = 46.0;

@@ -1,12 +1,14 @@
 //! The page's opening: the outcome in one sentence, key numbers, and a warning where data were left out or changed.
 
-use super::{Section, fitted};
+use super::{Render, Section, findings_of, fitted};
 use crate::number::{fixed, missing, percent, percent_interval, plain, rounded, share, short};
 use crate::quantity::{self, capitalised};
 use crate::quartiles::Quartiles;
 use maud::{Markup, html};
 use snug_campaign::words::counted;
-use snug_campaign::{CampaignResult, Conditions, FitMeasures, QuantitySummary, Severity};
+use snug_campaign::{
+    CampaignResult, ConditionSummary, Conditions, FitMeasures, QuantitySummary, Severity,
+};
 use std::collections::BTreeSet;
 
 /// What was measured, what came out, the key numbers.
@@ -14,7 +16,7 @@ pub const SECTION: Section = Section {
     anchor: "overview",
     short_title: "Overview",
     title: "What was measured and what came out",
-    render,
+    render: Render::Always(render),
 };
 
 fn render(result: &CampaignResult) -> Markup {
@@ -211,11 +213,10 @@ fn key_numbers(result: &CampaignResult) -> Markup {
         spread(result, |measures| measures.error_over_noise),
         2,
     ));
-    let everything = result
-        .conditions
+    for row in everything(result)
         .iter()
-        .find(|summary| summary.factor == "all");
-    for row in everything.iter().flat_map(|summary| &summary.quantities) {
+        .flat_map(|summary| &summary.quantities)
+    {
         cards.push(quantity_card(row, result));
     }
     html! {
@@ -231,13 +232,15 @@ fn key_numbers(result: &CampaignResult) -> Markup {
     }
 }
 
+/// The summary over all tightenings together.
+fn everything(result: &CampaignResult) -> Option<&ConditionSummary> {
+    let mut summaries = result.conditions.iter();
+    summaries.find(|summary| summary.factor == "all")
+}
+
 fn share_card(result: &CampaignResult) -> Card {
     let (selected, all) = (selected_count(result), fitted(result).count());
-    let interval = result
-        .conditions
-        .iter()
-        .find(|summary| summary.factor == "all")
-        .and_then(|summary| summary.selected_share_interval);
+    let interval = everything(result).and_then(|summary| summary.selected_share_interval);
     Card {
         name: "Selected".into(),
         value: plain(
@@ -306,16 +309,8 @@ fn quantity_card(row: &QuantitySummary, result: &CampaignResult) -> Card {
 
 /// What a reader must not miss: data that were left out.
 fn attention(result: &CampaignResult) -> Markup {
-    let left_out = result
-        .findings
-        .iter()
-        .filter(|finding| finding.severity == Severity::LeftOut)
-        .count();
-    let repaired = result
-        .findings
-        .iter()
-        .filter(|finding| finding.severity == Severity::Repaired)
-        .count();
+    let left_out = findings_of(result, Severity::LeftOut);
+    let repaired = findings_of(result, Severity::Repaired);
     html! {
         @if left_out + repaired > 0 {
             p.attention {

@@ -2,7 +2,7 @@
 
 mod assumptions;
 
-use super::{Section, nothing};
+use super::{Render, Section, headings, nothing};
 use crate::number::{fixed, measured, missing, p_value, plain};
 use crate::quantity;
 use maud::{Markup, html};
@@ -13,7 +13,7 @@ pub const SECTION: Section = Section {
     anchor: "p-values",
     short_title: "p-values",
     title: "Do the conditions differ? p-values",
-    render,
+    render: Render::Always(render),
 };
 
 /// Differences below this adjusted p are set off.
@@ -158,11 +158,7 @@ fn effect_size(effect: &EffectSize) -> Markup {
 fn in_full(result: &CampaignResult) -> Markup {
     html! {
         div.scroll { table {
-            thead { tr {
-                @for heading in ["quantity", "factor", "method", "statistic", "degrees of freedom", "p", "adjusted p", "effect size", "note"] {
-                    th scope="col" { (heading) }
-                }
-            } }
+            (headings(&["quantity", "factor", "method", "statistic", "degrees of freedom", "p", "adjusted p", "effect size", "note"]))
             tbody { @for row in &result.tests { (full_row(row, result)) } }
         } }
     }

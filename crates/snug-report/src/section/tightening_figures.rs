@@ -1,6 +1,6 @@
 //! Data for the page's interactive viewer of curves, and a still picture of the first tightening where no script runs.
 
-use super::{Section, nothing};
+use super::{Render, Section, nothing};
 use crate::curves::{Curves, STILL_POINTS, embedded};
 use crate::number::{rounded, short, significant};
 use crate::outcome::outcome_words;
@@ -16,7 +16,7 @@ pub const SECTION: Section = Section {
     anchor: "tightening-figures",
     short_title: "Curve fits",
     title: "Model and measurement, tightening by tightening",
-    render,
+    render: Render::Always(render),
 };
 
 fn render(result: &CampaignResult) -> Markup {

@@ -1,6 +1,6 @@
 //! Shows which tightenings rounding to 5 Nm may have put into the wrong torque group.
 
-use super::{Section, nothing};
+use super::{Render, Section, headings, nothing};
 use crate::figure::{Axis, Bar, Dot, Figure, Mark, captioned, legend, linear_range};
 use crate::number::{short, significant};
 use maud::{Markup, html};
@@ -12,7 +12,7 @@ pub const SECTION: Section = Section {
     anchor: "torque",
     short_title: "Torque",
     title: "Rounded and actual torque",
-    render,
+    render: Render::Always(render),
 };
 
 /// Width of a torque group \[Nm\].
@@ -55,10 +55,7 @@ fn render(result: &CampaignResult) -> Markup {
             details {
                 summary { "The " (counted(borderline.len(), "borderline tightening")) }
                 div.scroll { table {
-                    thead { tr {
-                        th scope="col" { "tightening" } th scope="col" { "peak torque [Nm]" }
-                        th scope="col" { "rounded [Nm]" } th scope="col" { "difference [Nm]" }
-                    } }
+                    (headings(&["tightening", "peak torque [Nm]", "rounded [Nm]", "difference [Nm]"]))
                     tbody { @for tightening in borderline.iter().take(LISTED) { tr {
                         th scope="row" { (tightening.id) }
                         td { (significant(tightening.peak_torque_nm, 4)) }

@@ -2,6 +2,7 @@
 
 use crate::figure::{Axis, Dot, Figure, Mark, Segment, captioned};
 use crate::number::{measured, missing, percent, short, significant};
+use crate::section::headings;
 use maud::{Markup, html};
 use snug_campaign::{Aspect, Share};
 
@@ -186,9 +187,7 @@ fn marks(whiskers: Vec<Segment>, dots: Vec<Dot>, floor: Mark) -> Vec<Mark> {
 fn table(aspects: &[Aspect]) -> Markup {
     html! {
         div.scroll { table {
-            thead { tr {
-                @for heading in ["part", "error over noise [×], 95 % interval", "share of the excess", "samples"] { th scope="col" { (heading) } }
-            } }
+            (headings(&["part", "error over noise [×], 95 % interval", "share of the excess", "samples"]))
             @for aspect in aspects {
                 @let (title, factor, unit) = heading(&aspect.aspect);
                 tbody {
