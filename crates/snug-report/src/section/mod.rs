@@ -23,8 +23,11 @@ mod tightening_table;
 mod torque;
 mod verdict;
 
+use crate::grouping::grouped;
 use maud::{Markup, html};
-use snug_campaign::{CampaignResult, Diagnosis, Rejection, Severity, TighteningResult};
+use snug_campaign::{
+    CampaignResult, ConditionSummary, Diagnosis, Rejection, Severity, TighteningResult,
+};
 
 /// One part of the page.
 pub struct Section {
@@ -87,16 +90,10 @@ const SECTIONS: &[Section] = &[
     glossary::SECTION,
 ];
 
-/// Row index of every factor level: levels of one factor stand together, in the order in which they come.
-fn factors(result: &CampaignResult) -> Vec<(&str, Vec<&snug_campaign::ConditionSummary>)> {
-    let mut factors: Vec<(&str, Vec<_>)> = Vec::new();
-    for summary in &result.conditions {
-        match factors.iter_mut().find(|(name, _)| *name == summary.factor) {
-            Some((_, levels)) => levels.push(summary),
-            None => factors.push((&summary.factor, vec![summary])),
-        }
-    }
-    factors
+/// The levels of every factor, factors and levels in the order in which they come.
+fn factors(result: &CampaignResult) -> Vec<(&str, Vec<&ConditionSummary>)> {
+    let summaries = result.conditions.iter();
+    grouped(summaries.map(|summary| (summary.factor.as_str(), summary)))
 }
 
 /// The tightenings that were fitted or should have been: all but those kept for validation.

@@ -3,6 +3,7 @@
 mod assumptions;
 
 use super::{Render, Section, headings, nothing};
+use crate::grouping::{first_seen, grouped};
 use crate::number::{fixed, measured, missing, p_value, plain};
 use crate::quantity;
 use maud::{Markup, html};
@@ -79,17 +80,9 @@ fn reading(result: &CampaignResult, methods: &[(&str, bool)]) -> String {
 }
 
 fn side_by_side(result: &CampaignResult, methods: &[(&str, bool)]) -> Markup {
-    let mut quantities: Vec<(&str, Vec<&str>)> = Vec::new();
-    for row in &result.tests {
-        match quantities
-            .iter_mut()
-            .find(|(name, _)| *name == row.quantity)
-        {
-            Some((_, factors)) if factors.contains(&row.factor.as_str()) => {}
-            Some((_, factors)) => factors.push(&row.factor),
-            None => quantities.push((&row.quantity, vec![&row.factor])),
-        }
-    }
+    let tests = result.tests.iter();
+    let compared = tests.map(|row| (row.quantity.as_str(), row.factor.as_str()));
+    let quantities = grouped(first_seen(compared));
     let rows = |quantity: &str, factor: &str| -> Vec<&TestRow> {
         result
             .tests

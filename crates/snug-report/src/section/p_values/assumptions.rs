@@ -1,9 +1,9 @@
 //! How what the tests presume stands: one quiet line below every factor, and what it means.
 
 use super::{LEVEL, freedom};
+use crate::grouping::first_seen;
 use crate::number::{fixed, missing, p_value, plain};
 use crate::quantity;
-use crate::tightenings_csv::first_seen;
 use maud::{Markup, html};
 use snug_campaign::{AssumptionCheck, CampaignResult, TestRow};
 use std::collections::BTreeSet;
