@@ -27,6 +27,12 @@ pub fn plain(value: Option<f64>, digits: i32, why: &str) -> Markup {
     }
 }
 
+/// The interval between two ends; `None` unless both are known.
+pub fn between(low: Option<f64>, high: Option<f64>) -> Option<Interval> {
+    let (low, high) = (low?, high?);
+    Some(Interval { low, high })
+}
+
 /// A dash with its reason in the title.
 pub fn missing(why: &str) -> Markup {
     html! { span.missing title=(why) { (DASH) } }

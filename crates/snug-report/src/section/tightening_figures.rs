@@ -2,14 +2,14 @@
 
 use super::{Render, Section, nothing};
 use crate::curves::{Curves, STILL_POINTS, embedded};
-use crate::number::{rounded, short, significant};
+use crate::number::{between, rounded, short, significant};
 use crate::outcome::outcome_words;
 use crate::quantity;
 use crate::signal_unit;
 use crate::traces_json::{Example, Panel, examples, panels, residual_quantity};
 use maud::{Markup, PreEscaped, html};
 use serde_json::{Value, json};
-use snug_campaign::{CampaignResult, FitMeasures, Interval, NORMAL_95, TighteningResult};
+use snug_campaign::{CampaignResult, FitMeasures, NORMAL_95, TighteningResult};
 
 /// Measured and simulated signals of single tightenings.
 pub const SECTION: Section = Section {
@@ -183,15 +183,12 @@ fn derived_facts(tightening: &TighteningResult) -> impl Iterator<Item = [String;
         true => " with the tool",
         false => "",
     };
-    let interval = |low: Option<f64>, high: Option<f64>| {
-        low.zip(high).map(|(low, high)| Interval { low, high })
-    };
     [
         (
             "natural frequency fₙ",
             "",
             measures.natural_frequency_hz,
-            interval(
+            between(
                 measures.natural_frequency_low_hz,
                 measures.natural_frequency_high_hz,
             ),
@@ -201,7 +198,7 @@ fn derived_facts(tightening: &TighteningResult) -> impl Iterator<Item = [String;
             "damped frequency",
             of_what,
             measures.damped_frequency_hz,
-            interval(
+            between(
                 measures.damped_frequency_low_hz,
                 measures.damped_frequency_high_hz,
             ),
@@ -211,7 +208,7 @@ fn derived_facts(tightening: &TighteningResult) -> impl Iterator<Item = [String;
             "damping ratio ζ",
             of_what,
             measures.damping_ratio,
-            interval(measures.damping_ratio_low, measures.damping_ratio_high),
+            between(measures.damping_ratio_low, measures.damping_ratio_high),
             "",
         ),
     ]

@@ -1,13 +1,13 @@
 //! The table to look single tightenings up in; the page's script sorts and filters it by its `data-` attributes.
 
 use super::{Render, Section, nothing};
-use crate::number::{measured, missing, short, sort_key, sortable};
+use crate::number::{between, measured, missing, short, sort_key, sortable};
 use crate::outcome::outcome_words;
 use crate::quantity;
 use crate::tightenings_csv::{BASE_PARAMETERS, effect_parameters};
 use crate::traces_json::examples;
 use maud::{Markup, html};
-use snug_campaign::{CampaignResult, Interval, TighteningResult};
+use snug_campaign::{CampaignResult, TighteningResult};
 use std::collections::HashMap;
 
 /// Every tightening with its estimate, to sort and filter.
@@ -70,6 +70,11 @@ fn row(
     let conditions = &tightening.conditions;
     let measures = &tightening.measures;
     let selected = tightening.selection.selected();
+    let frequency = measures.natural_frequency_hz;
+    let ends = between(
+        measures.natural_frequency_low_hz,
+        measures.natural_frequency_high_hz,
+    );
     html! { tr data-selected=(if selected { "yes" } else { "no" }) {
         th scope="row" {
             @match drawn {
@@ -86,9 +91,7 @@ fn row(
             td data-v=[sort_key(Some(tightening.target_torque_nm))] { (setting(Some(tightening.target_torque_nm))) }
         }
         @for name in parameters { (parameter(tightening, name)) }
-        td data-v=[sort_key(measures.natural_frequency_hz)] {
-            (measured(measures.natural_frequency_hz, natural_frequency_interval(tightening), "needs a positive mass and stiffness"))
-        }
+        td data-v=[sort_key(frequency)] { (measured(frequency, ends, "needs a positive mass and stiffness")) }
         (sortable(measures.fit_percent, 4, "no simulation to compare with"))
         (sortable(measures.error_over_noise, 4, "no noise floor or no fit"))
     } }
@@ -108,14 +111,6 @@ fn parameter(tightening: &TighteningResult, name: &str) -> Markup {
             @else if parameter.interval.is_none() { " " span.interval { "no interval" } }
         }
     }
-}
-
-fn natural_frequency_interval(tightening: &TighteningResult) -> Option<Interval> {
-    let measures = &tightening.measures;
-    Some(Interval {
-        low: measures.natural_frequency_low_hz?,
-        high: measures.natural_frequency_high_hz?,
-    })
 }
 
 fn setting(value: Option<f64>) -> Markup {
