@@ -1,7 +1,7 @@
 //! `/estimate`: what was identified on one tightening, at the time its samples begin.
 
 use crate::schema::{Field, Message, count, flag, group, list, number, pure_number, text};
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 use snug_campaign::{ParameterEstimate, TighteningResult};
 
 const PARAMETER: &[Field] = &[
@@ -132,32 +132,23 @@ pub(crate) fn message(
     running_number: u64,
     result: &TighteningResult,
 ) -> Result<Value, serde_json::Error> {
-    let mut message = match &result.estimate {
-        Some(estimate) => match serde_json::to_value(estimate)? {
-            Value::Object(fields) => fields,
-            _ => unreachable!("a struct with named fields is an object"),
-        },
-        None => Map::new(),
-    };
+    let mut message = json!({});
     if let Some(estimate) = &result.estimate {
-        let parameters = estimate.parameters.iter().map(parameter).collect();
-        message.insert("parameters".into(), Value::Array(parameters));
+        message = serde_json::to_value(estimate)?;
+        message["parameters"] = estimate.parameters.iter().map(parameter).collect();
         if let Some((first, second, correlation)) = &estimate.identifiability.strongest_correlation
         {
             message["identifiability"]["strongest_correlation"] =
                 json!({"first": first, "second": second, "correlation": correlation});
         }
     }
-    message.insert("tightening".into(), running_number.into());
-    message.insert("file".into(), result.id.file.as_str().into());
-    message.insert("number".into(), result.id.number.into());
-    message.insert("selected".into(), result.selection.selected().into());
-    message.insert(
-        "rejections".into(),
-        serde_json::to_value(&result.selection.rejections)?,
-    );
-    message.insert("measures".into(), serde_json::to_value(&result.measures)?);
-    Ok(Value::Object(message))
+    message["tightening"] = running_number.into();
+    message["file"] = result.id.file.as_str().into();
+    message["number"] = result.id.number.into();
+    message["selected"] = result.selection.selected().into();
+    message["rejections"] = serde_json::to_value(&result.selection.rejections)?;
+    message["measures"] = serde_json::to_value(&result.measures)?;
+    Ok(message)
 }
 
 /// The interval's ends stand beside the value, so that a table shows them as columns.

@@ -6,6 +6,7 @@
 use serde_json::{Map, Value, json};
 use snug_campaign::words::capitalised;
 use std::collections::BTreeMap;
+use std::mem::discriminant;
 
 /// Leaves out nulls and turns mixed or nested lists into objects with the keys `item_0`, `item_1`, …
 pub(crate) fn tidy(value: Value) -> Value {
@@ -21,7 +22,7 @@ pub(crate) fn tidy(value: Value) -> Value {
             let items: Vec<Value> = items.into_iter().map(tidy).collect();
             let uniform = items
                 .windows(2)
-                .all(|pair| kind_name(&pair[0]) == kind_name(&pair[1]));
+                .all(|pair| discriminant(&pair[0]) == discriminant(&pair[1]));
             if uniform && !items.iter().any(|item| item.is_array() || item.is_null()) {
                 return Value::Array(items);
             }
@@ -36,17 +37,6 @@ pub(crate) fn tidy(value: Value) -> Value {
             )
         }
         value => value,
-    }
-}
-
-fn kind_name(value: &Value) -> &'static str {
-    match value {
-        Value::Null => "null",
-        Value::Bool(_) => "boolean",
-        Value::Number(_) => "number",
-        Value::String(_) => "string",
-        Value::Array(_) => "array",
-        Value::Object(_) => "object",
     }
 }
 
