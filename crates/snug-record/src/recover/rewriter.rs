@@ -107,19 +107,16 @@ impl<'a> Repeated<'a> {
         let mut repeated = Self::default();
         let mut summary = index::summary(file).unwrap_or_default();
         while let Some((opcode, body)) = framed(&mut summary) {
-            match opcode {
-                op::SCHEMA => {
-                    if let Ok(schema) = Schema::read(body) {
-                        repeated.schemas.insert(schema.id, body);
-                    }
-                }
-                op::CHANNEL => {
-                    if let Ok(channel) = Channel::read(body) {
-                        let declared = (channel.schema_id, body);
-                        repeated.channels.insert(channel.id, declared);
-                    }
-                }
-                _ => {}
+            if opcode == op::SCHEMA
+                && let Ok(schema) = Schema::read(body)
+            {
+                repeated.schemas.insert(schema.id, body);
+            }
+            if opcode == op::CHANNEL
+                && let Ok(channel) = Channel::read(body)
+            {
+                let declared = (channel.schema_id, body);
+                repeated.channels.insert(channel.id, declared);
             }
         }
         repeated
