@@ -136,8 +136,8 @@ fn rows(names: &[String]) -> Axis {
     Axis::rows(&rows)
 }
 
-fn height(rungs: &[Rung]) -> f64 {
-    62.0 + ROW * rungs.len().max(2) as f64
+fn height(names: &[String]) -> f64 {
+    62.0 + ROW * names.len().max(2) as f64
 }
 
 fn error_figure(rungs: &[Rung], names: &[String]) -> Markup {
@@ -161,7 +161,7 @@ fn error_figure(rungs: &[Rung], names: &[String]) -> Markup {
     let figure = Figure {
         description: "Error over noise of each model of the ladder".into(),
         width: 520.0,
-        height: height(rungs),
+        height: height(names),
         x: Axis::logarithmic("error over noise [× noise]", low, high),
         y: rows(names),
         marks,
@@ -226,43 +226,37 @@ fn rms_figure(rungs: &[Rung], names: &[String], unit: &str) -> Markup {
         .map(|rung| rung.rms_fitted_output)
         .filter(|rms| rms.is_finite())
         .fold(0.0, f64::max);
-    let figure = Figure {
-        description: "Residual of each model of the ladder".into(),
-        width: 520.0,
-        height: height(rungs),
-        x: Axis::linear(
-            format!("root mean square of the residual [{unit}]"),
-            0.0,
-            1.06 * largest,
-            5,
-        ),
-        y: rows(names),
-        marks: vec![Mark::Bars(
-            "c-selected",
-            bars(rungs, 0.0, |rung| Some(rung.rms_fitted_output), "residual"),
-        )],
-    };
-    captioned("What the model leaves", figure.svg(), None)
+    let axis = format!("root mean square of the residual [{unit}]");
+    bar_figure(
+        "What the model leaves",
+        "Residual of each model of the ladder",
+        Axis::linear(axis, 0.0, 1.06 * largest, 5),
+        names,
+        bars(rungs, 0.0, |rung| Some(rung.rms_fitted_output), "residual"),
+    )
 }
 
 fn selected_figure(rungs: &[Rung], names: &[String]) -> Markup {
+    let selected = |rung: &Rung| Some(100.0 * rung.selected_fraction);
+    bar_figure(
+        "Usable tightenings",
+        "Share of tightenings selected with each model of the ladder",
+        Axis::linear("tightenings selected [%]", 0.0, 100.0, 5),
+        names,
+        bars(rungs, 0.0, selected, "selected, percent:"),
+    )
+}
+
+fn bar_figure(heading: &str, shows: &str, x: Axis, names: &[String], bars: Vec<Bar>) -> Markup {
     let figure = Figure {
-        description: "Share of tightenings selected with each model of the ladder".into(),
+        description: shows.into(),
         width: 520.0,
-        height: height(rungs),
-        x: Axis::linear("tightenings selected [%]", 0.0, 100.0, 5),
+        height: height(names),
+        x,
         y: rows(names),
-        marks: vec![Mark::Bars(
-            "c-selected",
-            bars(
-                rungs,
-                0.0,
-                |rung| Some(100.0 * rung.selected_fraction),
-                "selected, percent:",
-            ),
-        )],
+        marks: vec![Mark::Bars("c-selected", bars)],
     };
-    captioned("Usable tightenings", figure.svg(), None)
+    captioned(heading, figure.svg(), None)
 }
 
 fn table(rungs: &[Rung], names: &[String], unit: &str) -> Markup {

@@ -8,6 +8,7 @@ use maud::{Markup, html};
 use snug_campaign::words::counted;
 use snug_campaign::{
     CampaignResult, ConditionSummary, Conditions, FitMeasures, QuantitySummary, Severity,
+    TighteningResult,
 };
 use std::collections::BTreeSet;
 
@@ -53,7 +54,7 @@ fn outcome(result: &CampaignResult) -> String {
 }
 
 fn usable(result: &CampaignResult, all: usize) -> String {
-    let selected = selected_count(result);
+    let selected = selected(result).count();
     let share = percent(share(selected, all).unwrap_or(f64::NAN));
     let model = model_words(result);
     if selected == 0 {
@@ -169,23 +170,14 @@ fn numbers(values: impl Iterator<Item = f64>) -> Vec<String> {
     values.into_iter().map(short).collect()
 }
 
-fn selected_count(result: &CampaignResult) -> usize {
-    result
-        .tightenings
-        .iter()
-        .filter(|tightening| tightening.selection.selected())
-        .count()
+fn selected(result: &CampaignResult) -> impl Iterator<Item = &TighteningResult> {
+    let tightenings = result.tightenings.iter();
+    tightenings.filter(|tightening| tightening.selection.selected())
 }
 
 /// Median and quartiles of a measure over the selected tightenings.
 fn spread(result: &CampaignResult, read: fn(&FitMeasures) -> Option<f64>) -> Option<Quartiles> {
-    Quartiles::of(
-        result
-            .tightenings
-            .iter()
-            .filter(|tightening| tightening.selection.selected())
-            .filter_map(|tightening| read(&tightening.measures)),
-    )
+    Quartiles::of(selected(result).filter_map(|tightening| read(&tightening.measures)))
 }
 
 fn error_over_noise(result: &CampaignResult) -> Option<f64> {
@@ -239,7 +231,7 @@ fn everything(result: &CampaignResult) -> Option<&ConditionSummary> {
 }
 
 fn share_card(result: &CampaignResult) -> Card {
-    let (selected, all) = (selected_count(result), fitted(result).count());
+    let (selected, all) = (selected(result).count(), fitted(result).count());
     let interval = everything(result).and_then(|summary| summary.selected_share_interval);
     Card {
         name: "Selected".into(),
