@@ -60,13 +60,13 @@ pub type Values = Vec<Option<f64>>;
 pub struct Curves {
     /// What the picture shows, for readers who cannot see it.
     pub description: String,
-    /// Times since the window's start.
+    /// Times since the window's start, in the unit that `time_unit` names.
     pub times: Vec<f64>,
     /// Unit of the times.
     pub time_unit: &'static str,
     /// Values of every series; `None` for a signal that the tightening lacks.
     pub values: Vec<Option<Values>>,
-    /// Half the height of the band of the noise behind a residual, where it is known.
+    /// Half the height of the band of the noise behind a residual, in the signal's unit; `None` where it is not known.
     pub noise: Option<f64>,
     /// Text of the band under the pointer; none when empty.
     pub noise_title: String,
