@@ -35,7 +35,7 @@ pub(crate) struct Field {
 }
 
 impl Field {
-    pub(crate) const fn new(name: &'static str, kind: Kind, about: &'static str) -> Self {
+    const fn new(name: &'static str, kind: Kind, about: &'static str) -> Self {
         Self {
             name,
             kind,

@@ -108,6 +108,7 @@ impl<'a> Columns<'a> {
         };
         let motion = |group: &str, motion: &'a Motion| {
             let columns = Quantity::ALL.map(|quantity| motion.get(quantity));
+            // Motions are called the same in every group; this one has nothing else.
             for (field, column) in RESIDUAL.iter().zip(columns) {
                 check(&format!("{group}.{}", field.name), column)?;
             }

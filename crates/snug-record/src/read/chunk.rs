@@ -113,7 +113,7 @@ impl<'a> Chunk<'a> {
 /// The content of a long chunk, of which only a part is in memory.
 pub(super) struct Pieces<'a> {
     unpacker: Unpacker<'a>,
-    buffer: Vec<u8>,
+    pub(super) buffer: Vec<u8>,
     start: usize,
     /// Bytes that are still to come, by the chunk's header.
     left: u64,
@@ -121,10 +121,16 @@ pub(super) struct Pieces<'a> {
 }
 
 impl<'a> Pieces<'a> {
-    pub(super) fn new(chunk: &Chunk<'a>, limits: &Limits) -> Result<Self, Fault> {
+    /// Unpacks into the memory of `buffer`.
+    pub(super) fn new(
+        chunk: &Chunk<'a>,
+        limits: &Limits,
+        mut buffer: Vec<u8>,
+    ) -> Result<Self, Fault> {
+        buffer.clear();
         Ok(Self {
             unpacker: chunk.unpacker(limits)?,
-            buffer: Vec::new(),
+            buffer,
             start: 0,
             left: chunk.unpacked_bytes,
             ended: Ok(()),

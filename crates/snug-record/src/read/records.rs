@@ -77,6 +77,7 @@ pub(crate) fn walk(
     let mut walk = Walk {
         limits,
         unpacked: Budget::new(limits.unpacked_bytes),
+        buffer: Vec::new(),
         each,
     };
     let mut whole_bytes = mcap::MAGIC.len();
@@ -87,6 +88,8 @@ pub(crate) fn walk(
 struct Walk<'e, E> {
     limits: Limits,
     unpacked: Budget,
+    /// Content of one compressed chunk; its memory is kept for the next.
+    buffer: Vec<u8>,
     each: &'e mut E,
 }
 
@@ -148,20 +151,22 @@ impl<E: FnMut(Found<'_>) -> Result<(), Stop>> Walk<'_, E> {
             return self.long_chunk(chunk);
         }
         let wanted = usize::try_from(chunk.unpacked_bytes).map_err(|_| Stop::TooLarge)?;
-        let mut pieces = Pieces::new(chunk, &self.limits)?;
+        let mut pieces = Pieces::new(chunk, &self.limits, std::mem::take(&mut self.buffer))?;
         pieces.more(wanted, &mut self.unpacked)?;
         chunk.ended(&pieces)?;
         if chunk.whole {
             chunk.check(crc32fast::hash(pieces.content()))?;
         }
-        self.records(pieces.content(), chunk)
+        let given = self.records(pieces.content(), chunk);
+        self.buffer = pieces.buffer;
+        given
     }
 
     /// Unpacks a chunk twice in pieces: once for its checksum, once for its records.
     fn long_chunk(&mut self, chunk: &Chunk<'_>) -> Result<(), Stop> {
         if chunk.whole {
             let mut checksum = crc32fast::Hasher::new();
-            let mut pieces = Pieces::new(chunk, &self.limits)?;
+            let mut pieces = Pieces::new(chunk, &self.limits, Vec::new())?;
             while pieces.more(PIECE_BYTES, &mut self.unpacked)? {
                 checksum.update(pieces.content());
                 pieces.skip(pieces.content().len());
@@ -171,7 +176,7 @@ impl<E: FnMut(Found<'_>) -> Result<(), Stop>> Walk<'_, E> {
             chunk.check(checksum.finalize())?;
         }
         let longest = usize::try_from(self.limits.chunk_bytes).unwrap_or(usize::MAX);
-        let mut pieces = Pieces::new(chunk, &self.limits)?;
+        let mut pieces = Pieces::new(chunk, &self.limits, Vec::new())?;
         loop {
             if !pieces.more(FRAME_BYTES, &mut self.unpacked)? {
                 return chunk.rest(pieces.content());
