@@ -1,6 +1,6 @@
 //! `/verdict`, `/ladder` and `/ranking`: what is missing in the model, and how the error fell.
 
-use crate::schema::{Field, Kind, Message, field};
+use crate::schema::{Field, Message, count, flag, group, list, number, pure_number, text};
 use serde::Serialize;
 use snug_campaign::words::remark::Remark;
 use snug_campaign::{Diagnosis, DiagnosisSummary, Misfit};
@@ -41,116 +41,55 @@ pub(crate) const LADDER: Message = Message {
     name: "snug.Rung",
     about: "One model of the error ladder and what it leaves",
     fields: &[
-        field(
-            "place",
-            Kind::Count,
-            "",
-            "Place on the ladder, the study's own model 1",
-        ),
-        field(
-            "effects",
-            Kind::List(&Kind::Text),
-            "",
-            "Effects in the model",
-        ),
-        field(
+        count("place", "Place on the ladder, the study's own model 1"),
+        list(text("effects", "Effects in the model")),
+        pure_number(
             "error_over_noise",
-            Kind::Double,
-            "",
             "Error over noise; 1 = nothing but noise",
         ),
-        field(
+        pure_number(
             "heldout_error_over_noise",
-            Kind::Double,
-            "",
             "Error over noise, tightenings held out",
         ),
-        field(
+        pure_number(
             "heldout_target_error_over_noise",
-            Kind::Double,
-            "",
             "Error over noise, target torques held out",
         ),
-        field(
+        pure_number(
             "heldout_participant_error_over_noise",
-            Kind::Double,
-            "",
             "Error over noise, participants held out",
         ),
-        field(
+        number(
             "rms_fitted_output",
-            Kind::Double,
             "the fitted output's",
             "Root mean square residual of the fitted output",
         ),
-        field(
+        number(
             "rms_displacement_rad",
-            Kind::Double,
             "rad",
             "Root mean square residual of the displacement",
         ),
-        field(
-            "fit_percent_median",
-            Kind::Double,
-            "%",
-            "Median fit of the displacement",
-        ),
-        field(
-            "selected_fraction",
-            Kind::Double,
-            "",
-            "Share of tightenings selected",
-        ),
+        number("fit_percent_median", "%", "Median fit of the displacement"),
+        pure_number("selected_fraction", "Share of tightenings selected"),
     ],
 };
 
 const PARAMETER: &[Field] = &[
-    field("name", Kind::Text, "", "Name with unit suffix"),
-    field("meaning", Kind::Text, "", "What it is, in a few words"),
-    field("unit", Kind::Text, "", "Unit"),
-    field("value", Kind::Double, "the parameter's", "Estimate"),
-    field(
-        "low",
-        Kind::Double,
-        "the parameter's",
-        "Lower end of the 95 % interval",
-    ),
-    field(
-        "high",
-        Kind::Double,
-        "the parameter's",
-        "Upper end of the 95 % interval",
-    ),
-    field(
-        "standard_error",
-        Kind::Double,
-        "the parameter's",
-        "Standard error",
-    ),
-    field(
-        "per_tightening",
-        Kind::Flag,
-        "",
-        "Every tightening has its own",
-    ),
-    field(
+    text("name", "Name with unit suffix"),
+    text("meaning", "What it is, in a few words"),
+    text("unit", "Unit"),
+    number("value", "the parameter's", "Estimate"),
+    number("low", "the parameter's", "Lower end of the 95 % interval"),
+    number("high", "the parameter's", "Upper end of the 95 % interval"),
+    number("standard_error", "the parameter's", "Standard error"),
+    flag("per_tightening", "Every tightening has its own"),
+    number(
         "spread",
-        Kind::Double,
         "the parameter's",
         "Standard deviation between tightenings",
     ),
-    field(
-        "minimum",
-        Kind::Double,
-        "the parameter's",
-        "Smallest plausible value",
-    ),
-    field(
-        "maximum",
-        Kind::Double,
-        "the parameter's",
-        "Largest plausible value",
-    ),
+    number("minimum", "the parameter's", "Smallest plausible value"),
+    number("maximum", "the parameter's", "Largest plausible value"),
 ];
 
 /// The table of `/ranking`.
@@ -158,71 +97,30 @@ pub(crate) const RANKING: Message = Message {
     name: "snug.RankedEffect",
     about: "One candidate for what the model lacks",
     fields: &[
-        field("place", Kind::Count, "", "Place in the ranking, the best 1"),
-        field("effect", Kind::Text, "", "Effect"),
-        field("kind", Kind::Text, "", "Kind of the effect"),
-        field("unlisted", Kind::Flag, "", "In no catalogue"),
-        field(
-            "expression",
-            Kind::Text,
-            "",
-            "Expression of a term that is in no catalogue",
-        ),
-        field(
-            "parameters",
-            Kind::List(&Kind::Object(PARAMETER)),
-            "",
-            "Its size",
-        ),
-        field("score", Kind::Double, "", "Score before any refit"),
-        field(
+        count("place", "Place in the ranking, the best 1"),
+        text("effect", "Effect"),
+        text("kind", "Kind of the effect"),
+        flag("unlisted", "In no catalogue"),
+        text("expression", "Expression of a term that is in no catalogue"),
+        list(group("parameters", PARAMETER, "Its size")),
+        pure_number("score", "Score before any refit"),
+        pure_number(
             "p_family",
-            Kind::Double,
-            "",
             "How often chance alone does as well, over all candidates",
         ),
-        field(
+        pure_number(
             "heldout_gain",
-            Kind::Double,
-            "",
             "Share of the misfit removed in held-out tightenings",
         ),
-        field(
-            "heldout_gain_error",
-            Kind::Double,
-            "",
-            "Standard error of that share",
-        ),
-        field(
-            "error_over_noise",
-            Kind::Double,
-            "",
-            "Error over noise with it",
-        ),
-        field(
-            "behind_first",
-            Kind::Double,
-            "",
-            "Standard deviations behind the first",
-        ),
-        field("supported", Kind::Flag, "", "The data support it"),
-        field(
-            "twins",
-            Kind::List(&Kind::Text),
-            "",
-            "Effects that these data cannot tell from it",
-        ),
-        field(
-            "plausible",
-            Kind::Flag,
-            "",
-            "Its size is physically plausible",
-        ),
-        field(
+        pure_number("heldout_gain_error", "Standard error of that share"),
+        pure_number("error_over_noise", "Error over noise with it"),
+        pure_number("behind_first", "Standard deviations behind the first"),
+        flag("supported", "The data support it"),
+        list(text("twins", "Effects that these data cannot tell from it")),
+        flag("plausible", "Its size is physically plausible"),
+        list(text(
             "explanation",
-            Kind::List(&Kind::Text),
-            "",
             "What it is, how it shows, what to check",
-        ),
+        )),
     ],
 };

@@ -1,11 +1,10 @@
 //! Why a recording could not be written or read.
 
-use std::error::Error as _;
+use std::error::Error;
 use std::path::PathBuf;
-use thiserror::Error;
 
 /// Why a recording could not be written or read.
-#[derive(Debug, Error)]
+#[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum RecordError {
     /// A file of that name is there already; nothing is ever replaced.
@@ -46,7 +45,7 @@ pub enum RecordError {
         /// Which tightening, as `file #number`.
         tightening: String,
         /// Name of the signal.
-        signal: &'static str,
+        signal: String,
         /// Samples of the torque.
         expected: usize,
         /// Samples of the signal.
@@ -75,13 +74,7 @@ pub enum RecordError {
 /// The error of the operating system at the bottom, which says what a person can mend; the layers above it only say that
 /// something failed.
 fn cause(error: &mcap::McapError) -> String {
-    let mut cause = error.to_string();
-    let mut next = error.source();
-    while let Some(error) = next {
-        if error.is::<std::io::Error>() {
-            cause = error.to_string();
-        }
-        next = error.source();
-    }
-    cause
+    let chain = std::iter::successors(Some(error as &dyn Error), |error| (*error).source());
+    let last = chain.filter(|error| error.is::<std::io::Error>()).last();
+    last.map_or_else(|| error.to_string(), ToString::to_string)
 }

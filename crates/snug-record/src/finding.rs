@@ -1,6 +1,6 @@
 //! `/finding` with every field, and `/log` for the viewers' log panel.
 
-use crate::schema::{Field, Kind, Message, field};
+use crate::schema::{Field, Message, count, group, text};
 use serde_json::{Value, json};
 use snug_campaign::{Finding, Severity};
 
@@ -9,23 +9,18 @@ pub(crate) const FINDING: Message = Message {
     name: "snug.Finding",
     about: "What was left out, repaired or is worth knowing",
     fields: &[
-        field("severity", Kind::Text, "", "note, repaired or left_out"),
-        field("code", Kind::Text, "", "Kind of the finding"),
-        field("file", Kind::Text, "", "Measurement file"),
-        field("tightening", Kind::Count, "", "Number within the file"),
-        field("channel", Kind::Text, "", "Channel as the file names it"),
-        field(
-            "message",
-            Kind::Text,
-            "",
-            "What was found, allowed and done",
-        ),
+        text("severity", "note, repaired or left_out"),
+        text("code", "Kind of the finding"),
+        text("file", "Measurement file"),
+        count("tightening", "Number within the file"),
+        text("channel", "Channel as the file names it"),
+        text("message", "What was found, allowed and done"),
     ],
 };
 
 const TIMESTAMP: &[Field] = &[
-    field("sec", Kind::Count, "s", "Whole seconds"),
-    field("nsec", Kind::Count, "ns", "Nanoseconds within the second"),
+    count("sec", "Whole seconds").in_unit("s"),
+    count("nsec", "Nanoseconds within the second").in_unit("ns"),
 ];
 
 /// The table of `/log`: a well-known schema, which log panels look for by its name.
@@ -33,32 +28,12 @@ pub(crate) const LOG: Message = Message {
     name: "foxglove.Log",
     about: "A finding as a log line",
     fields: &[
-        field(
-            "timestamp",
-            Kind::Object(TIMESTAMP),
-            "",
-            "Time on the recording's axis",
-        ),
-        field(
-            "level",
-            Kind::Count,
-            "",
-            "2 information, 3 warning, 4 error",
-        ),
-        field(
-            "message",
-            Kind::Text,
-            "",
-            "What was found, allowed and done",
-        ),
-        field("name", Kind::Text, "", "Kind of the finding"),
-        field("file", Kind::Text, "", "Measurement file"),
-        field(
-            "line",
-            Kind::Count,
-            "",
-            "Number of the tightening within the file",
-        ),
+        group("timestamp", TIMESTAMP, "Time on the recording's axis"),
+        count("level", "2 information, 3 warning, 4 error"),
+        text("message", "What was found, allowed and done"),
+        text("name", "Kind of the finding"),
+        text("file", "Measurement file"),
+        count("line", "Number of the tightening within the file"),
     ],
 };
 

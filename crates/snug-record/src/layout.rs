@@ -15,23 +15,20 @@ const GREY: &str = "#7f7f7f";
 /// - *Campaign*: tests, conditions, findings.
 /// - *Missing effect*: the verdict, the error ladder, the candidates (empty when nobody asked for a diagnosis).
 pub fn layout(parameters: &[&str]) -> String {
+    let tabs = [
+        ("Tightening", tightening_tab()),
+        ("Parameters", parameters_tab(parameters)),
+        ("Campaign", campaign_tab()),
+        ("Missing effect", diagnosis_tab()),
+    ];
     let mut panels = Map::new();
-    let tightening = tightening_tab(&mut panels);
-    let parameters = parameters_tab(&mut panels, parameters);
-    let campaign = campaign_tab(&mut panels);
-    let diagnosis = diagnosis_tab(&mut panels);
-    panels.insert(
-        "Tab!snug".into(),
-        json!({
-            "activeTabIdx": 0,
-            "tabs": [
-                {"title": "Tightening", "layout": tightening},
-                {"title": "Parameters", "layout": parameters},
-                {"title": "Campaign", "layout": campaign},
-                {"title": "Missing effect", "layout": diagnosis},
-            ],
-        }),
-    );
+    let mut placed = Vec::new();
+    for (title, tab) in tabs {
+        panels.extend(tab.panels);
+        placed.push(json!({"title": title, "layout": tab.layout}));
+    }
+    let tab = json!({"activeTabIdx": 0, "tabs": placed});
+    panels.insert("Tab!snug".into(), tab);
     let layout = json!({
         "configById": panels,
         "globalVariables": {},
@@ -42,21 +39,26 @@ pub fn layout(parameters: &[&str]) -> String {
     format!("{layout:#}")
 }
 
-fn tightening_tab(panels: &mut Map<String, Value>) -> Value {
-    let left = motion_plots(panels);
-    let right = difference_plots(panels);
+/// A part of a tab: how its panels stand, by their ids, and the settings of each.
+struct Part {
+    layout: Value,
+    panels: Map<String, Value>,
+}
+
+fn tightening_tab() -> Part {
+    let parameters = format!("{}.parameters[:]", topic::ESTIMATE);
     let tables = [
-        table(
-            panels,
-            "parameters",
-            "Parameters",
-            &format!("{}.parameters[:]", topic::ESTIMATE),
-        ),
-        raw(panels, "estimate", "Estimate", topic::ESTIMATE),
-        raw(panels, "window", "Tightening", topic::WINDOW),
+        table("parameters", "Parameters", &parameters),
+        raw("estimate", "Estimate", topic::ESTIMATE),
+        raw("window", "Tightening", topic::WINDOW),
     ];
-    let plots = split("row", column(&left), column(&right), 50.0);
-    split("row", plots, column(&tables), 70.0)
+    let plots = split(
+        "row",
+        column(motion_plots()),
+        column(difference_plots()),
+        50.0,
+    );
+    split("row", plots, column(tables), 70.0)
 }
 
 /// A line over the samples of a tightening.
@@ -65,34 +67,26 @@ fn signal(path: &str, label: &str, color: &str) -> Value {
 }
 
 /// Torque, displacement and acceleration, measured against simulated.
-fn motion_plots(panels: &mut Map<String, Value>) -> [Value; 3] {
+fn motion_plots() -> [Part; 3] {
     let motion = |quantity: &str| {
         vec![
             signal(&format!("measured.{quantity}"), "measured", BLUE),
             signal(&format!("simulated.{quantity}"), "simulated", RED),
         ]
     };
+    let torque = vec![signal("measured.torque_nm", "torque", BLUE)];
     let mut displacement = motion("displacement_rad");
     displacement.push(signal("simulated.euler_displacement_rad", "Euler", GREY));
+    let acceleration = motion("acceleration_rad_per_s2");
     [
-        plot(
-            panels,
-            "torque",
-            "Torque [N m]",
-            vec![signal("measured.torque_nm", "torque", BLUE)],
-        ),
-        plot(panels, "displacement", "Displacement [rad]", displacement),
-        plot(
-            panels,
-            "acceleration",
-            "Acceleration [rad/s²]",
-            motion("acceleration_rad_per_s2"),
-        ),
+        plot("torque", "Torque [N m]", torque),
+        plot("displacement", "Displacement [rad]", displacement),
+        plot("acceleration", "Acceleration [rad/s²]", acceleration),
     ]
 }
 
 /// Residuals and forces.
-fn difference_plots(panels: &mut Map<String, Value>) -> [Value; 3] {
+fn difference_plots() -> [Part; 3] {
     let residual = |quantity: &str| {
         let path = format!("residual.{quantity}");
         vec![signal(&path, "measured − simulated", RED)]
@@ -105,122 +99,88 @@ fn difference_plots(panels: &mut Map<String, Value>) -> [Value; 3] {
     ];
     [
         plot(
-            panels,
             "residual",
             "Residual of the acceleration [rad/s²]",
             residual("acceleration_rad_per_s2"),
         ),
         plot(
-            panels,
             "residual_displacement",
             "Residual of the displacement [rad]",
             residual("displacement_rad"),
         ),
-        plot(panels, "forces", "Force between tool and hand [N]", forces),
+        plot("forces", "Force between tool and hand [N]", forces),
     ]
 }
 
-fn parameters_tab(panels: &mut Map<String, Value>, parameters: &[&str]) -> Value {
-    let mut plots: Vec<Value> = parameters
-        .iter()
-        .map(|name| {
-            let path = |end: &str| {
-                format!(
-                    "{}.parameters[:]{{name==\"{name}\"}}.{end}",
-                    topic::ESTIMATE
-                )
-            };
-            let paths = vec![
-                series(&path("value"), name, BLUE, false),
-                series(&path("low"), "low", GREY, false),
-                series(&path("high"), "high", GREY, false),
-            ];
-            plot(panels, &format!("parameter_{name}"), name, paths)
-        })
-        .collect();
-    let measure = |name: &str| {
-        let value = format!("{}.measures.{name}", topic::ESTIMATE);
-        vec![series(&value, name, BLUE, false)]
+fn parameters_tab(parameters: &[&str]) -> Part {
+    let parameter = |name: &&str| {
+        let line = |end: &str, label: &str, color: &str| {
+            let path = format!(
+                "{}.parameters[:]{{name==\"{name}\"}}.{end}",
+                topic::ESTIMATE
+            );
+            series(&path, label, color, false)
+        };
+        let lines = vec![
+            line("value", name, BLUE),
+            line("low", "low", GREY),
+            line("high", "high", GREY),
+        ];
+        plot(&format!("parameter_{name}"), name, lines)
     };
-    plots.push(plot(
-        panels,
-        "error_over_noise",
-        "Error over noise",
-        measure("error_over_noise"),
-    ));
-    plots.push(plot(
-        panels,
-        "fit_percent",
-        "Fit [%]",
-        measure("fit_percent"),
-    ));
-    column(&plots)
+    let measure = |name: &str, title: &str| {
+        let path = format!("{}.measures.{name}", topic::ESTIMATE);
+        plot(name, title, vec![series(&path, name, BLUE, false)])
+    };
+    let mut plots: Vec<Part> = parameters.iter().map(parameter).collect();
+    plots.push(measure("error_over_noise", "Error over noise"));
+    plots.push(measure("fit_percent", "Fit [%]"));
+    column(plots)
 }
 
-fn campaign_tab(panels: &mut Map<String, Value>) -> Value {
+fn campaign_tab() -> Part {
+    let rows = |topic: &str| format!("{topic}.rows[:]");
     let tables = [
-        table(
-            panels,
-            "tests",
-            "Tests",
-            &format!("{}.rows[:]", topic::TESTS),
-        ),
-        table(
-            panels,
-            "conditions",
-            "Conditions",
-            &format!("{}.rows[:]", topic::CONDITIONS),
-        ),
+        table("tests", "Tests", &rows(topic::TESTS)),
+        table("conditions", "Conditions", &rows(topic::CONDITIONS)),
     ];
+    let settings = json!({"searchTerms": [], "minLogLevel": 1, "topicToRender": topic::LOG});
     // The log panel's type keeps its historical name.
-    let log = panel(
-        panels,
-        "RosOut",
-        "findings",
-        "Findings",
-        json!({"searchTerms": [], "minLogLevel": 1, "topicToRender": topic::LOG}),
-    );
-    split("row", column(&tables), log, 60.0)
+    let log = panel("RosOut", "findings", "Findings", settings);
+    split("row", column(tables), log, 60.0)
 }
 
-fn diagnosis_tab(panels: &mut Map<String, Value>) -> Value {
+fn diagnosis_tab() -> Part {
     let rung = |name: &str, label: &str, color: &str| {
         series(&format!("{}.{name}", topic::LADDER), label, color, true)
     };
-    let gain = series(
-        &format!("{}.heldout_gain", topic::RANKING),
-        "misfit removed, held out",
-        BLUE,
-        false,
-    );
+    let errors = vec![
+        rung("error_over_noise", "all tightenings", BLUE),
+        rung("heldout_error_over_noise", "held out", RED),
+    ];
+    let gain = format!("{}.heldout_gain", topic::RANKING);
     let plots = [
         plot(
-            panels,
             "ladder",
             "Error over noise, model by model (1 = nothing but noise)",
-            vec![
-                rung("error_over_noise", "all tightenings", BLUE),
-                rung("heldout_error_over_noise", "held out", RED),
-            ],
+            errors,
         ),
         plot(
-            panels,
             "selected",
             "Share of tightenings selected, model by model",
             vec![rung("selected_fraction", "selected", GREEN)],
         ),
         plot(
-            panels,
             "ranking",
             "Share of the misfit that each candidate removes",
-            vec![gain],
+            vec![series(&gain, "misfit removed, held out", BLUE, false)],
         ),
     ];
     let messages = [
-        raw(panels, "verdict", "Verdict", topic::VERDICT),
-        raw(panels, "candidate", "Candidate", topic::RANKING),
+        raw("verdict", "Verdict", topic::VERDICT),
+        raw("candidate", "Candidate", topic::RANKING),
     ];
-    split("row", column(&plots), column(&messages), 55.0)
+    split("row", column(plots), column(messages), 55.0)
 }
 
 fn series(value: &str, label: &str, color: &str, line: bool) -> Value {
@@ -235,8 +195,8 @@ fn series(value: &str, label: &str, color: &str, line: bool) -> Value {
     })
 }
 
-fn plot(panels: &mut Map<String, Value>, id: &str, title: &str, paths: Vec<Value>) -> Value {
-    let config = json!({
+fn plot(id: &str, title: &str, paths: Vec<Value>) -> Part {
+    let settings = json!({
         "paths": paths,
         "showXAxisLabels": true,
         "showYAxisLabels": true,
@@ -247,58 +207,55 @@ fn plot(panels: &mut Map<String, Value>, id: &str, title: &str, paths: Vec<Value
         "xAxisVal": "timestamp",
         "sidebarDimension": 240,
     });
-    panel(panels, "Plot", id, title, config)
+    panel("Plot", id, title, settings)
 }
 
-fn table(panels: &mut Map<String, Value>, id: &str, title: &str, path: &str) -> Value {
-    panel(panels, "Table", id, title, json!({"topicPath": path}))
+fn table(id: &str, title: &str, path: &str) -> Part {
+    panel("Table", id, title, json!({"topicPath": path}))
 }
 
-fn raw(panels: &mut Map<String, Value>, id: &str, title: &str, path: &str) -> Value {
-    let config = json!({
+fn raw(id: &str, title: &str, path: &str) -> Part {
+    let settings = json!({
         "topicPath": path,
         "diffEnabled": false,
         "diffMethod": "custom",
         "diffTopicPath": "",
         "showFullMessageForDiff": false,
     });
-    panel(panels, "RawMessages", id, title, config)
+    panel("RawMessages", id, title, settings)
 }
 
-/// Keeps the panel's settings and gives its id, which is what a layout's leaves are.
-fn panel(
-    panels: &mut Map<String, Value>,
-    kind: &str,
-    id: &str,
-    title: &str,
-    mut config: Value,
-) -> Value {
+fn panel(kind: &str, id: &str, title: &str, mut settings: Value) -> Part {
     let id = format!("{kind}!{id}");
-    config["foxglovePanelTitle"] = title.into();
-    config["lichtblickPanelTitle"] = title.into();
-    panels.insert(id.clone(), config);
-    id.into()
-}
-
-/// Panels of equal height below each other.
-fn column(panels: &[Value]) -> Value {
-    match panels {
-        [] => Value::Null,
-        [panel] => panel.clone(),
-        [first, rest @ ..] => {
-            let share = 100.0 / panels.len() as f64;
-            split("column", first.clone(), column(rest), share)
-        }
+    settings["foxglovePanelTitle"] = title.into();
+    settings["lichtblickPanelTitle"] = title.into();
+    Part {
+        layout: id.as_str().into(),
+        panels: Map::from_iter([(id, settings)]),
     }
 }
 
-fn split(direction: &str, first: Value, second: Value, percent: f64) -> Value {
-    json!({
+/// Parts of equal height below each other.
+fn column(parts: impl IntoIterator<Item = Part>) -> Part {
+    let mut parts: Vec<Part> = parts.into_iter().collect();
+    let mut column = parts.pop().expect("a column has at least one part");
+    let mut count = 1.0;
+    while let Some(above) = parts.pop() {
+        count += 1.0;
+        column = split("column", above, column, 100.0 / count);
+    }
+    column
+}
+
+fn split(direction: &str, first: Part, second: Part, percent: f64) -> Part {
+    let layout = json!({
         "direction": direction,
-        "first": first,
-        "second": second,
+        "first": first.layout,
+        "second": second.layout,
         "splitPercentage": percent,
-    })
+    });
+    let panels = first.panels.into_iter().chain(second.panels).collect();
+    Part { layout, panels }
 }
 
 #[cfg(test)]
@@ -334,20 +291,19 @@ mod tests {
 
     /// Follows `a.b[:]{…}.c` through a message's table.
     fn exists(message: &Message, path: &str) -> bool {
-        let mut kind = Kind::Object(message.fields);
+        let mut kind = Kind::Group(message.fields);
         for part in path.split('.') {
             let name = part.split('[').next().unwrap_or_default();
-            let Kind::Object(fields) = kind else {
+            let Kind::Group(fields) = kind else {
                 return false;
             };
             let Some(field) = fields.iter().find(|field| field.name == name) else {
                 return false;
             };
-            kind = match (field.kind, part.contains("[:]")) {
-                (Kind::List(items), true) => *items,
-                (Kind::List(_), false) | (_, true) => return false,
-                (kind, false) => kind,
-            };
+            if field.listed != part.contains("[:]") {
+                return false;
+            }
+            kind = field.kind;
         }
         true
     }

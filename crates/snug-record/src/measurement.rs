@@ -1,8 +1,9 @@
 //! `/measurement/file` and `/measurement/samples`: whole measurement files, so that a recording can be evaluated anew
 //! with its quiet parts and without the original files.
 
-use crate::schema::{Field, Kind, Message, field};
-use crate::window::{CONDITIONS, TIME_BASE};
+use crate::schema::{Field, Message, count, flag, group, list, number, text};
+use crate::signals::MeasuredSample;
+use crate::window::{CONDITIONS, TIME_BASE, Window};
 use crate::wire::{Fields, doubles, put_bytes, put_doubles, put_unsigned};
 use serde::{Deserialize, Serialize};
 use snug_campaign::{Conditions, Motion, Quantity, Recording, Segment, TimeBase};
@@ -26,15 +27,14 @@ pub(crate) struct FileHeader {
 }
 
 const SEGMENT: &[Field] = &[
-    field("number", Kind::Count, "", "Number within the file"),
-    field("start", Kind::Count, "", "First sample"),
-    field("end", Kind::Count, "", "One past the last sample"),
-    field(
+    count("number", "Number within the file"),
+    count("start", "First sample"),
+    count("end", "One past the last sample"),
+    list(number(
         "event_times_s",
-        Kind::List(&Kind::Double),
         "s",
         "The events' own clock: start, torque, stop",
-    ),
+    )),
 ];
 
 /// The table of `/measurement/file`.
@@ -42,30 +42,18 @@ pub(crate) const FILE: Message = Message {
     name: "snug.MeasurementFile",
     about: "A measurement file; its samples follow on /measurement/samples",
     fields: &[
-        field("file", Kind::Text, "", "File name"),
-        field("label", Kind::Text, "", "What the file calls itself"),
-        field("conditions", Kind::Object(CONDITIONS), "", "Conditions"),
-        field("time_base", Kind::Object(TIME_BASE), "", "Sampling grid"),
-        field("samples", Kind::Count, "", "Samples of every channel"),
-        field(
-            "channels",
-            Kind::List(&Kind::Text),
-            "",
-            "Channels that are there",
-        ),
-        field(
+        text("file", "File name"),
+        text("label", "What the file calls itself"),
+        group("conditions", CONDITIONS, "Conditions"),
+        group("time_base", TIME_BASE, "Sampling grid"),
+        count("samples", "Samples of every channel"),
+        list(text("channels", "Channels that are there")),
+        flag(
             "has_force_channel",
-            Kind::Flag,
-            "",
             "A grip-force channel stands in the file",
         ),
-        field("grip_force_channel", Kind::Text, "", "Its name in the file"),
-        field(
-            "segments",
-            Kind::List(&Kind::Object(SEGMENT)),
-            "",
-            "The tightenings' places",
-        ),
+        text("grip_force_channel", "Its name in the file"),
+        list(group("segments", SEGMENT, "The tightenings' places")),
     ],
 };
 
@@ -74,48 +62,22 @@ pub(crate) const SAMPLES: Message = Message {
     name: "snug.MeasurementSamples",
     about: "A block of samples of a measurement file, as it was measured",
     fields: &[
-        field("file", Kind::Text, "", "File name"),
-        field(
-            "first_sample",
-            Kind::Count,
-            "",
-            "Place of the first sample in the file",
-        ),
-        field(
-            "torque_nm",
-            Kind::List(&Kind::Double),
-            "N m",
-            "Torque on the joint T",
-        ),
-        field(
-            "displacement_rad",
-            Kind::List(&Kind::Double),
-            "rad",
-            "Angle",
-        ),
-        field(
-            "velocity_rad_per_s",
-            Kind::List(&Kind::Double),
-            "rad/s",
-            "Angular velocity",
-        ),
-        field(
+        text("file", "File name"),
+        count("first_sample", "Place of the first sample in the file"),
+        list(number("torque_nm", "N m", "Torque on the joint T")),
+        list(number("displacement_rad", "rad", "Angle")),
+        list(number("velocity_rad_per_s", "rad/s", "Angular velocity")),
+        list(number(
             "acceleration_rad_per_s2",
-            Kind::List(&Kind::Double),
             "rad/s^2",
             "Angular acceleration",
-        ),
-        field(
-            "grip_force_n",
-            Kind::List(&Kind::Double),
-            "N",
-            "Grip force F_op_J",
-        ),
+        )),
+        list(number("grip_force_n", "N", "Grip force F_op_J")),
     ],
 };
 
 /// Names of the channels, in the order of their field numbers from 3.
-const CHANNELS: [&str; 5] = [
+pub(crate) const CHANNELS: [&str; 5] = [
     "torque_nm",
     "displacement_rad",
     "velocity_rad_per_s",
@@ -123,45 +85,59 @@ const CHANNELS: [&str; 5] = [
     "grip_force_n",
 ];
 
-fn channels(recording: &Recording) -> [Option<&[f64]>; 5] {
-    let motion = &recording.motion;
+/// The samples of [`CHANNELS`]; `None` for a channel that is not there.
+pub(crate) type Channels<'a> = [Option<&'a [f64]>; 5];
+
+/// The channels of a file or of a tightening.
+pub(crate) fn channels<'a>(
+    torque_nm: &'a [f64],
+    motion: &'a Motion,
+    grip_force_n: Option<&'a [f64]>,
+) -> Channels<'a> {
+    let [displacement, velocity, acceleration] = Quantity::ALL.map(|quantity| motion.get(quantity));
     [
-        Some(&recording.torque_nm),
-        motion.get(Quantity::Displacement),
-        motion.get(Quantity::Velocity),
-        motion.get(Quantity::Acceleration),
-        recording.grip_force_n.as_deref(),
+        Some(torque_nm),
+        displacement,
+        velocity,
+        acceleration,
+        grip_force_n,
     ]
 }
 
+/// Names of the channels that are there.
+pub(crate) fn names(there: [bool; 5]) -> Vec<String> {
+    let named = CHANNELS.iter().zip(there).filter(|(_, there)| *there);
+    named.map(|(name, _)| (*name).to_owned()).collect()
+}
+
+fn of_file(recording: &Recording) -> Channels<'_> {
+    let grip_force_n = recording.grip_force_n.as_deref();
+    channels(&recording.torque_nm, &recording.motion, grip_force_n)
+}
+
 pub(crate) fn header(recording: &Recording) -> FileHeader {
-    let channels = channels(recording);
+    let channels = of_file(recording);
     FileHeader {
         file: recording.file.clone(),
         label: recording.label.clone(),
         conditions: recording.conditions.clone(),
         time_base: recording.time_base,
         samples: longest(&channels),
-        channels: CHANNELS
-            .iter()
-            .zip(channels)
-            .filter(|(_, samples)| samples.is_some())
-            .map(|(name, _)| (*name).to_owned())
-            .collect(),
+        channels: names(channels.map(|samples| samples.is_some())),
         has_force_channel: recording.has_force_channel,
         grip_force_channel: recording.grip_force_channel.clone(),
         segments: recording.segments.clone(),
     }
 }
 
-fn longest(channels: &[Option<&[f64]>; 5]) -> usize {
+fn longest(channels: &Channels<'_>) -> usize {
     let lengths = channels.iter().flatten().map(|samples| samples.len());
     lengths.max().unwrap_or(0)
 }
 
 /// The sample messages of a file, one after another. Channels may differ in length.
 pub(crate) fn blocks(recording: &Recording) -> impl Iterator<Item = Vec<u8>> + '_ {
-    let channels = channels(recording);
+    let channels = of_file(recording);
     (0..longest(&channels))
         .step_by(BLOCK_SAMPLES)
         .map(move |first| {
@@ -228,6 +204,23 @@ impl Assembly {
             }
         }
         Some(())
+    }
+
+    /// Adds a window's samples as a segment of their own.
+    pub(crate) fn add_window(&mut self, window: &Window, samples: &[MeasuredSample]) {
+        let start = self.channels[0].as_ref().map_or(0, Vec::len);
+        for (index, channel) in self.channels.iter_mut().enumerate() {
+            if let Some(channel) = channel {
+                channel.extend(samples.iter().map(|sample| sample.channels[index]));
+            }
+        }
+        self.header.segments.push(Segment {
+            number: window.number,
+            start,
+            // Beyond the samples when the recording ends within this window.
+            end: start.saturating_add(window.stored_samples()),
+            event_times_s: None,
+        });
     }
 
     /// The recording, and whether all its samples are there.

@@ -3,16 +3,16 @@
 use crate::schema::Message;
 use crate::shape::{Shape, tidy};
 use crate::signals::{self, Columns};
-use crate::until_failure::UntilFailure;
+use crate::until_failure::{self, LastingWriter, UntilFailure};
 use crate::{Compression, RecordError, RecordSettings, Window, topic};
 use crate::{diagnosis, estimate, finding, measurement, statistics, window};
+use mcap::Attachment;
 use mcap::records::{MessageHeader, Metadata};
 use mcap::write::NoSeek;
-use mcap::{Attachment, WriteOptions, Writer};
 use serde::Serialize;
 use serde_json::Value;
 use snug_campaign::{
-    ConditionSummary, Diagnosis, Finding, Quantity, Recording, TestRow, TighteningResult, Traces,
+    ConditionSummary, Diagnosis, Finding, Recording, TestRow, TighteningResult, Traces,
 };
 use std::borrow::Cow;
 use std::collections::{BTreeMap, HashMap};
@@ -30,7 +30,7 @@ const PLACE_NS: u64 = 100_000_000;
 /// Memory stays below a few chunks however long the recording gets. Every call that adds a tightening, a measurement file
 /// or the study ends with a flush, so that a run killed later leaves it readable. The same calls give the same bytes.
 pub struct Recorder<W: Write> {
-    writer: Writer<NoSeek<UntilFailure<W>>>,
+    writer: LastingWriter<W>,
     settings: RecordSettings,
     channels: HashMap<String, OpenChannel>,
     /// Where the next message stands on the time axis.
@@ -78,15 +78,8 @@ impl<W: Write> Recorder<W> {
             Compression::Lz4 => Some(mcap::Compression::Lz4),
             Compression::Off => None,
         };
-        let writer = WriteOptions::new()
+        let writer = until_failure::options(u64::from(settings.chunk_bytes))
             .compression(compression)
-            // No worker threads: the chunks are small, and the bytes must not depend on the machine.
-            .compression_level(1)
-            .compression_threads(0)
-            .chunk_size(Some(u64::from(settings.chunk_bytes)))
-            // A chunk is put together in memory and written whole, so that a killed run leaves no half-open chunk
-            // without a length.
-            .disable_seeking(true)
             .library(concat!("snug-record ", env!("CARGO_PKG_VERSION")))
             .create(NoSeek::new(UntilFailure::new(writer)))?;
         Ok(Self {
@@ -295,11 +288,8 @@ impl<W: Write> Recorder<W> {
     ///
     /// # Errors
     /// [`RecordError::Write`].
-    pub fn finish(mut self) -> Result<W, RecordError> {
-        self.writer.finish()?;
-        let mut inner = self.writer.into_inner().into_inner().into_inner();
-        inner.flush().map_err(mcap::McapError::from)?;
-        Ok(inner)
+    pub fn finish(self) -> Result<W, RecordError> {
+        until_failure::finish(self.writer)
     }
 
     /// One JSON message of a fixed schema.
@@ -385,23 +375,8 @@ fn window(
     tightening: u64,
     stored_every: usize,
 ) -> Window {
-    let measured = &traces.measured;
-    let channels = [
-        ("torque_nm", true),
-        (
-            "displacement_rad",
-            measured.get(Quantity::Displacement).is_some(),
-        ),
-        (
-            "velocity_rad_per_s",
-            measured.get(Quantity::Velocity).is_some(),
-        ),
-        (
-            "acceleration_rad_per_s2",
-            measured.get(Quantity::Acceleration).is_some(),
-        ),
-        ("grip_force_n", traces.grip_force_n.is_some()),
-    ];
+    let grip_force_n = traces.grip_force_n.as_deref();
+    let channels = measurement::channels(&traces.torque_nm, &traces.measured, grip_force_n);
     Window {
         tightening,
         file: result.id.file.clone(),
@@ -414,11 +389,7 @@ fn window(
         samples: traces.torque_nm.len(),
         stored_every,
         onset,
-        channels: channels
-            .into_iter()
-            .filter(|(_, there)| *there)
-            .map(|(name, _)| name.to_owned())
-            .collect(),
+        channels: measurement::names(channels.map(|samples| samples.is_some())),
         noise: result.noise.clone(),
         corrections: result.corrections.clone(),
     }

@@ -60,16 +60,10 @@ pub fn recover_within<W: Write>(
         failed: None,
     };
     let walked = walk(bytes, limits, &mut |found| rescue.found(found));
-    let Rescue {
-        mut rewriter,
-        contents,
-        index,
-        mut recovery,
-        failed,
-    } = rescue;
-    if let Some(error) = failed {
+    if let Some(error) = rescue.failed {
         return Err(error);
     }
+    let mut recovery = rescue.recovery;
     let ended = walked.end.is_ok();
     let magic_bytes = if ended && bytes[walked.whole_bytes..].starts_with(mcap::MAGIC) {
         mcap::MAGIC.len()
@@ -77,7 +71,7 @@ pub fn recover_within<W: Write>(
         0
     };
     recovery.dropped_bytes = (bytes.len() - walked.whole_bytes - magic_bytes) as u64;
-    recovery.data_complete = index.data_end;
+    recovery.data_complete = rescue.index.data_end;
     recovery.completeness = match recovery.left_out.first() {
         Some(first) => Completeness::Damaged {
             messages: recovery.messages,
@@ -86,12 +80,12 @@ pub fn recover_within<W: Write>(
         None => completeness(bytes, walked.end, recovery.messages),
     };
     recovery.was_complete =
-        recovery.completeness == Completeness::Complete && index.is_right(bytes, &recovery);
-    contents.tell(&mut recovery);
+        recovery.completeness == Completeness::Complete && rescue.index.is_right(bytes, &recovery);
+    rescue.contents.tell(&mut recovery);
     if !recovery.was_complete {
-        rewriter.note(&recovery)?;
+        rescue.rewriter.note(&recovery)?;
     }
-    rewriter.finish()?;
+    rescue.rewriter.finish()?;
     Ok(recovery)
 }
 

@@ -2,6 +2,7 @@
 
 use crate::wire::{put_bytes, put_unsigned};
 use serde_json::{Map, Value, json};
+use snug_campaign::words::capitalised;
 
 /// What a field holds.
 #[derive(Debug, Clone, Copy)]
@@ -17,34 +18,83 @@ pub(crate) enum Kind {
     /// Text.
     Text,
     /// Named fields.
-    Object(&'static [Field]),
-    /// Any number of the same.
-    List(&'static Kind),
+    Group(&'static [Field]),
 }
 
 /// One field of a message.
-#[derive(Debug)]
+#[derive(Debug, Clone, Copy)]
 pub(crate) struct Field {
     pub(crate) name: &'static str,
     pub(crate) kind: Kind,
+    /// Any number of them.
+    pub(crate) listed: bool,
     /// Unit as people write it; empty for pure numbers and text.
     pub(crate) unit: &'static str,
     /// What it is, in a few words.
     pub(crate) about: &'static str,
 }
 
-pub(crate) const fn field(
+impl Field {
+    const fn new(name: &'static str, kind: Kind, about: &'static str) -> Self {
+        Self {
+            name,
+            kind,
+            listed: false,
+            unit: "",
+            about,
+        }
+    }
+
+    pub(crate) const fn in_unit(self, unit: &'static str) -> Self {
+        Self { unit, ..self }
+    }
+}
+
+/// A list of what the field holds.
+pub(crate) const fn list(field: Field) -> Field {
+    Field {
+        listed: true,
+        ..field
+    }
+}
+
+/// A 64-bit number in its unit.
+pub(crate) const fn number(name: &'static str, unit: &'static str, about: &'static str) -> Field {
+    Field::new(name, Kind::Double, about).in_unit(unit)
+}
+
+/// A 64-bit number without a unit.
+pub(crate) const fn pure_number(name: &'static str, about: &'static str) -> Field {
+    Field::new(name, Kind::Double, about)
+}
+
+/// A 32-bit number in its unit.
+pub(crate) const fn single(name: &'static str, unit: &'static str, about: &'static str) -> Field {
+    Field::new(name, Kind::Single, about).in_unit(unit)
+}
+
+/// A whole number from 0.
+pub(crate) const fn count(name: &'static str, about: &'static str) -> Field {
+    Field::new(name, Kind::Count, about)
+}
+
+/// True or false.
+pub(crate) const fn flag(name: &'static str, about: &'static str) -> Field {
+    Field::new(name, Kind::Flag, about)
+}
+
+/// Text.
+pub(crate) const fn text(name: &'static str, about: &'static str) -> Field {
+    Field::new(name, Kind::Text, about)
+}
+
+/// Named fields.
+pub(crate) const fn group(
     name: &'static str,
-    kind: Kind,
-    unit: &'static str,
+    fields: &'static [Field],
     about: &'static str,
 ) -> Field {
-    Field {
-        name,
-        kind,
-        unit,
-        about,
-    }
+    Field::new(name, Kind::Group(fields), about)
 }
 
 /// One message type.
@@ -88,7 +138,7 @@ fn object(fields: &[Field]) -> Map<String, Value> {
     let properties: Map<String, Value> = fields
         .iter()
         .map(|field| {
-            let mut property = value(field.kind);
+            let mut property = value(field);
             property.insert("title".into(), field.about.into());
             let description = if field.unit.is_empty() {
                 field.about.to_owned()
@@ -108,20 +158,21 @@ fn object(fields: &[Field]) -> Map<String, Value> {
 
 /// The type keywords. Viewers want exactly one type per property, so what may be missing is left out of the message
 /// instead of being null.
-fn value(kind: Kind) -> Map<String, Value> {
+fn value(field: &Field) -> Map<String, Value> {
     let plain = |name: &str| Map::from_iter([("type".to_owned(), json!(name))]);
-    match kind {
+    let one = match field.kind {
         Kind::Double | Kind::Single => plain("number"),
         Kind::Count => plain("integer"),
         Kind::Flag => plain("boolean"),
         Kind::Text => plain("string"),
-        Kind::Object(fields) => object(fields),
-        Kind::List(items) => {
-            let mut list = plain("array");
-            list.insert("items".into(), Value::Object(value(*items)));
-            list
-        }
+        Kind::Group(fields) => object(fields),
+    };
+    if !field.listed {
+        return one;
     }
+    let mut list = plain("array");
+    list.insert("items".into(), Value::Object(one));
+    list
 }
 
 /// A `DescriptorProto`; groups become nested types named after their field.
@@ -131,25 +182,21 @@ fn descriptor(name: &str, fields: &[Field], scope: &str) -> Vec<u8> {
     let mut message = Vec::new();
     put_bytes(&mut message, 1, name.as_bytes());
     for (number, field) in (1..).zip(fields) {
-        let (label, kind) = match field.kind {
-            Kind::List(items) => (REPEATED, *items),
-            kind => (OPTIONAL, kind),
-        };
+        let label = if field.listed { REPEATED } else { OPTIONAL };
         let mut bytes = Vec::new();
         put_bytes(&mut bytes, 1, field.name.as_bytes());
         put_unsigned(&mut bytes, 3, number);
         put_unsigned(&mut bytes, 4, label);
-        let (type_number, nested) = match kind {
-            Kind::Double => (1, None),
-            Kind::Single => (2, None),
-            Kind::Count => (4, None),
-            Kind::Flag => (8, None),
-            Kind::Text => (9, None),
-            Kind::Object(inner) => (11, Some(inner)),
-            Kind::List(_) => unreachable!("no message has a list of lists"),
+        let type_number = match field.kind {
+            Kind::Double => 1,
+            Kind::Single => 2,
+            Kind::Count => 4,
+            Kind::Flag => 8,
+            Kind::Text => 9,
+            Kind::Group(_) => 11,
         };
         put_unsigned(&mut bytes, 5, type_number);
-        if let Some(inner) = nested {
+        if let Kind::Group(inner) = field.kind {
             let type_name = capitalised(field.name);
             let full = format!("{scope}.{type_name}");
             put_bytes(&mut bytes, 6, full.as_bytes());
@@ -158,12 +205,4 @@ fn descriptor(name: &str, fields: &[Field], scope: &str) -> Vec<u8> {
         put_bytes(&mut message, 2, &bytes);
     }
     message
-}
-
-fn capitalised(name: &str) -> String {
-    let mut letters = name.chars();
-    letters
-        .next()
-        .map(|first| first.to_ascii_uppercase().to_string() + letters.as_str())
-        .unwrap_or_default()
 }

@@ -101,18 +101,12 @@ impl RecordSettings {
     /// n, when every n-th sample of a tightening of `length` samples is written after `written` in all.
     pub(crate) fn stride(&self, length: usize, written: u64) -> usize {
         match self.samples {
-            Samples::All => 1,
             Samples::Every(stride) => stride as usize,
             Samples::Bounded {
                 complete_samples,
                 then_at_most,
-            } => {
-                if written < complete_samples {
-                    1
-                } else {
-                    length.div_ceil(then_at_most as usize).max(1)
-                }
-            }
+            } if written >= complete_samples => length.div_ceil(then_at_most as usize).max(1),
+            Samples::All | Samples::Bounded { .. } => 1,
         }
     }
 }

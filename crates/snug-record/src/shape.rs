@@ -4,7 +4,9 @@
 //! numbers that are not finite, which JSON cannot hold) are left out, and lists of mixed kinds become objects.
 
 use serde_json::{Map, Value, json};
+use snug_campaign::words::capitalised;
 use std::collections::BTreeMap;
+use std::mem::discriminant;
 
 /// Leaves out nulls and turns mixed or nested lists into objects with the keys `item_0`, `item_1`, …
 pub(crate) fn tidy(value: Value) -> Value {
@@ -20,7 +22,7 @@ pub(crate) fn tidy(value: Value) -> Value {
             let items: Vec<Value> = items.into_iter().map(tidy).collect();
             let uniform = items
                 .windows(2)
-                .all(|pair| kind_name(&pair[0]) == kind_name(&pair[1]));
+                .all(|pair| discriminant(&pair[0]) == discriminant(&pair[1]));
             if uniform && !items.iter().any(|item| item.is_array() || item.is_null()) {
                 return Value::Array(items);
             }
@@ -35,17 +37,6 @@ pub(crate) fn tidy(value: Value) -> Value {
             )
         }
         value => value,
-    }
-}
-
-fn kind_name(value: &Value) -> &'static str {
-    match value {
-        Value::Null => "null",
-        Value::Bool(_) => "boolean",
-        Value::Number(_) => "number",
-        Value::String(_) => "string",
-        Value::Array(_) => "array",
-        Value::Object(_) => "object",
     }
 }
 
@@ -122,7 +113,7 @@ impl Shape {
                     .iter()
                     .map(|(name, shape)| {
                         let mut property = shape.schema();
-                        property["title"] = title(name).into();
+                        property["title"] = capitalised(&name.replace('_', " ")).into();
                         property["description"] = name.as_str().into();
                         (name.clone(), property)
                     })
@@ -131,16 +122,6 @@ impl Shape {
             }
         }
     }
-}
-
-/// `rms_displacement_rad` as words: `Rms displacement rad`.
-fn title(name: &str) -> String {
-    let words = name.replace('_', " ");
-    let mut letters = words.chars();
-    letters
-        .next()
-        .map(|first| first.to_uppercase().to_string() + letters.as_str())
-        .unwrap_or_default()
 }
 
 #[cfg(test)]

@@ -4,105 +4,55 @@
 //! 6·10⁻⁸), which halves the file. A channel that a tightening does not have is NaN, which plots leave empty.
 
 use crate::RecordError;
-use crate::schema::{Field, Kind, Message, field};
+use crate::schema::{Field, Message, count, group, number, single};
 use crate::wire::{Fields, put_bytes, put_double, put_single, put_unsigned};
 use snug_campaign::{Motion, Quantity, Traces};
 
 const MEASURED: &[Field] = &[
-    field("torque_nm", Kind::Double, "N m", "Torque on the joint T"),
-    field(
-        "displacement_rad",
-        Kind::Double,
-        "rad",
-        "Measured angle of the tool",
-    ),
-    field(
-        "velocity_rad_per_s",
-        Kind::Double,
-        "rad/s",
-        "Measured angular velocity",
-    ),
-    field(
+    number("torque_nm", "N m", "Torque on the joint T"),
+    number("displacement_rad", "rad", "Measured angle of the tool"),
+    number("velocity_rad_per_s", "rad/s", "Measured angular velocity"),
+    number(
         "acceleration_rad_per_s2",
-        Kind::Double,
         "rad/s^2",
         "Measured angular acceleration",
     ),
 ];
 
 const SIMULATED: &[Field] = &[
-    field(
-        "displacement_rad",
-        Kind::Single,
-        "rad",
-        "Simulated angle of the tool",
-    ),
-    field(
-        "velocity_rad_per_s",
-        Kind::Single,
-        "rad/s",
-        "Simulated angular velocity",
-    ),
-    field(
+    single("displacement_rad", "rad", "Simulated angle of the tool"),
+    single("velocity_rad_per_s", "rad/s", "Simulated angular velocity"),
+    single(
         "acceleration_rad_per_s2",
-        Kind::Single,
         "rad/s^2",
         "Simulated angular acceleration",
     ),
-    field(
+    single(
         "euler_displacement_rad",
-        Kind::Single,
         "rad",
         "Angle simulated by the explicit Euler method",
     ),
 ];
 
 const RESIDUAL: &[Field] = &[
-    field(
-        "displacement_rad",
-        Kind::Single,
-        "rad",
-        "Measured minus simulated angle",
-    ),
-    field(
+    single("displacement_rad", "rad", "Measured minus simulated angle"),
+    single(
         "velocity_rad_per_s",
-        Kind::Single,
         "rad/s",
         "Measured minus simulated angular velocity",
     ),
-    field(
+    single(
         "acceleration_rad_per_s2",
-        Kind::Single,
         "rad/s^2",
         "Measured minus simulated angular acceleration",
     ),
 ];
 
 const FORCES: &[Field] = &[
-    field(
-        "force_f1_n",
-        Kind::Single,
-        "N",
-        "F1: spring and damper, simulated motion",
-    ),
-    field(
-        "force_f2_n",
-        Kind::Single,
-        "N",
-        "F2: torque and measured acceleration",
-    ),
-    field(
-        "force_f3_n",
-        Kind::Single,
-        "N",
-        "F3: torque and simulated acceleration",
-    ),
-    field(
-        "grip_force_n",
-        Kind::Double,
-        "N",
-        "F_op_J: measured grip force",
-    ),
+    single("force_f1_n", "N", "F1: spring and damper, simulated motion"),
+    single("force_f2_n", "N", "F2: torque and measured acceleration"),
+    single("force_f3_n", "N", "F3: torque and simulated acceleration"),
+    number("grip_force_n", "N", "F_op_J: measured grip force"),
 ];
 
 /// The message's table.
@@ -110,51 +60,22 @@ pub(crate) const SIGNALS: Message = Message {
     name: "snug.Signals",
     about: "One sample of one tightening",
     fields: &[
-        field(
+        count(
             "tightening",
-            Kind::Count,
-            "",
             "Running number of the tightening, as in /tightening/window",
         ),
-        field(
-            "time_s",
-            Kind::Double,
-            "s",
-            "Time since the segment's start",
-        ),
-        field(
+        number("time_s", "s", "Time since the segment's start"),
+        number(
             "time_since_onset_s",
-            Kind::Double,
             "s",
             "Time since the pulse began, or since the window's start",
         ),
-        field("measured", Kind::Object(MEASURED), "", "Measured signals"),
-        field(
-            "simulated",
-            Kind::Object(SIMULATED),
-            "",
-            "Simulated signals",
-        ),
-        field(
-            "residual",
-            Kind::Object(RESIDUAL),
-            "",
-            "Measured minus simulated",
-        ),
-        field(
-            "forces",
-            Kind::Object(FORCES),
-            "",
-            "Force between tool and hand",
-        ),
+        group("measured", MEASURED, "Measured signals"),
+        group("simulated", SIMULATED, "Simulated signals"),
+        group("residual", RESIDUAL, "Measured minus simulated"),
+        group("forces", FORCES, "Force between tool and hand"),
     ],
 };
-
-const QUANTITIES: [Quantity; 3] = [
-    Quantity::Displacement,
-    Quantity::Velocity,
-    Quantity::Acceleration,
-];
 
 /// The columns of one tightening, in the table's order.
 pub(crate) struct Columns<'a> {
@@ -176,43 +97,31 @@ impl<'a> Columns<'a> {
         traces: &'a Traces,
     ) -> Result<Self, RecordError> {
         let expected = traces.torque_nm.len();
-        let check = |signal, samples: Option<&'a [f64]>| match samples {
+        let check = |signal: &str, samples: Option<&'a [f64]>| match samples {
             Some(samples) if samples.len() != expected => Err(RecordError::UnequalLengths {
                 tightening: tightening.to_string(),
-                signal,
+                signal: signal.to_owned(),
                 expected,
                 found: samples.len(),
             }),
             samples => Ok(samples),
         };
-        let motion = |names: [&'static str; 3], motion: &'a Motion| {
-            let mut columns = [None; 3];
-            for ((column, name), quantity) in columns.iter_mut().zip(names).zip(QUANTITIES) {
-                *column = check(name, motion.get(quantity))?;
+        let motion = |group: &str, motion: &'a Motion| {
+            let columns = Quantity::ALL.map(|quantity| motion.get(quantity));
+            // Motions are called the same in every group; this one has nothing else.
+            for (field, column) in RESIDUAL.iter().zip(columns) {
+                check(&format!("{group}.{}", field.name), column)?;
             }
             Ok::<_, RecordError>(columns)
         };
-        let optional =
-            |signal, samples: &'a [f64]| check(signal, (!samples.is_empty()).then_some(samples));
+        let optional = |signal: &str, samples: &'a [f64]| {
+            check(signal, (!samples.is_empty()).then_some(samples))
+        };
         Ok(Self {
             running_number,
             torque_nm: &traces.torque_nm,
-            measured: motion(
-                [
-                    "measured.displacement_rad",
-                    "measured.velocity_rad_per_s",
-                    "measured.acceleration_rad_per_s2",
-                ],
-                &traces.measured,
-            )?,
-            simulated: motion(
-                [
-                    "simulated.displacement_rad",
-                    "simulated.velocity_rad_per_s",
-                    "simulated.acceleration_rad_per_s2",
-                ],
-                &traces.simulated,
-            )?,
+            measured: motion("measured", &traces.measured)?,
+            simulated: motion("simulated", &traces.simulated)?,
             euler_displacement_rad: optional(
                 "euler_displacement_rad",
                 &traces.euler_displacement_rad,
@@ -270,43 +179,36 @@ impl<'a> Columns<'a> {
 /// What was measured at one sample.
 pub(crate) struct MeasuredSample {
     pub(crate) tightening: u64,
-    pub(crate) torque_nm: f64,
-    /// Displacement, velocity, acceleration.
-    pub(crate) motion: [f64; 3],
-    pub(crate) grip_force_n: f64,
+    /// In the order of [`crate::measurement::CHANNELS`].
+    pub(crate) channels: [f64; 5],
 }
 
 /// Reads the measured part of a message; `None` when it is not one of [`SIGNALS`].
 pub(crate) fn decode(message: &[u8]) -> Option<MeasuredSample> {
-    let mut sample = MeasuredSample {
-        tightening: 0,
-        torque_nm: f64::NAN,
-        motion: [f64::NAN; 3],
-        grip_force_n: f64::NAN,
-    };
+    let mut tightening = 0;
+    let mut channels = [f64::NAN; 5];
     for field in Fields::of(message) {
         match field? {
-            (1, value) => sample.tightening = value.varint()?,
+            (1, value) => tightening = value.varint()?,
             (4, group) => {
                 for field in Fields::of(group.bytes()?) {
-                    match field? {
-                        (1, value) => sample.torque_nm = value.double()?,
-                        (number @ 2..=4, value) => {
-                            sample.motion[number as usize - 2] = value.double()?;
-                        }
-                        _ => {}
+                    if let (number @ 1..=4, value) = field? {
+                        channels[number as usize - 1] = value.double()?;
                     }
                 }
             }
             (7, group) => {
                 for field in Fields::of(group.bytes()?) {
                     if let (4, value) = field? {
-                        sample.grip_force_n = value.double()?;
+                        channels[4] = value.double()?;
                     }
                 }
             }
             _ => {}
         }
     }
-    Some(sample)
+    Some(MeasuredSample {
+        tightening,
+        channels,
+    })
 }

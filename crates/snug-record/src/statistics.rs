@@ -1,154 +1,93 @@
 //! `/statistics/conditions` and `/statistics/tests`: one message each, with one row per condition or test.
 
-use crate::schema::{Field, Kind, Message, field};
+use crate::schema::{Field, Message, count, flag, group, list, number, pure_number, text};
 
 const INTERVAL: &[Field] = &[
-    field("low", Kind::Double, "the quantity's", "Lower end"),
-    field("high", Kind::Double, "the quantity's", "Upper end"),
+    number("low", "the quantity's", "Lower end"),
+    number("high", "the quantity's", "Upper end"),
 ];
 
 const MOMENTS: &[Field] = &[
-    field("count", Kind::Count, "", "Number of values"),
-    field("mean", Kind::Double, "the quantity's", "Mean"),
-    field(
-        "standard_deviation",
-        Kind::Double,
-        "the quantity's",
-        "Standard deviation",
-    ),
-    field(
-        "mean_interval",
-        Kind::Object(INTERVAL),
-        "the quantity's",
-        "95 % interval of the mean",
-    ),
-    field("median", Kind::Double, "the quantity's", "Median"),
+    count("count", "Number of values"),
+    number("mean", "the quantity's", "Mean"),
+    number("standard_deviation", "the quantity's", "Standard deviation"),
+    group("mean_interval", INTERVAL, "95 % interval of the mean").in_unit("the quantity's"),
+    number("median", "the quantity's", "Median"),
 ];
 
 const QUANTITY: &[Field] = &[
-    field("quantity", Kind::Text, "", "Name with unit suffix"),
-    field(
-        "selected",
-        Kind::Object(MOMENTS),
-        "",
-        "Over the selected tightenings",
-    ),
-    field(
-        "rejected",
-        Kind::Object(MOMENTS),
-        "",
-        "Over the rejected tightenings",
-    ),
+    text("quantity", "Name with unit suffix"),
+    group("selected", MOMENTS, "Over the selected tightenings"),
+    group("rejected", MOMENTS, "Over the rejected tightenings"),
 ];
 
 const CONDITION: &[Field] = &[
-    field("factor", Kind::Text, "", "Factor"),
-    field("level", Kind::Text, "", "Level of the factor"),
-    field("tightenings", Kind::Count, "", "Tightenings"),
-    field("selected", Kind::Count, "", "Of them selected"),
-    field(
+    text("factor", "Factor"),
+    text("level", "Level of the factor"),
+    count("tightenings", "Tightenings"),
+    count("selected", "Of them selected"),
+    group(
         "selected_share_interval",
-        Kind::Object(INTERVAL),
-        "",
+        INTERVAL,
         "95 % interval of the selected share",
     ),
-    field(
-        "quantities",
-        Kind::List(&Kind::Object(QUANTITY)),
-        "",
-        "Means and spreads",
-    ),
+    list(group("quantities", QUANTITY, "Means and spreads")),
 ];
 
 /// The table of `/statistics/conditions`.
 pub(crate) const CONDITIONS: Message = Message {
     name: "snug.ConditionSummaries",
     about: "Means and spreads per condition",
-    fields: &[field(
-        "rows",
-        Kind::List(&Kind::Object(CONDITION)),
-        "",
-        "One row per condition",
-    )],
+    fields: &[list(group("rows", CONDITION, "One row per condition"))],
 };
 
 const EFFECT_SIZE: &[Field] = &[
-    field("name", Kind::Text, "", "Measure of the effect size"),
-    field("value", Kind::Double, "", "Effect size"),
-    field("interval", Kind::Object(INTERVAL), "", "95 % interval"),
+    text("name", "Measure of the effect size"),
+    pure_number("value", "Effect size"),
+    group("interval", INTERVAL, "95 % interval"),
 ];
 
 const ASSUMPTION: &[Field] = &[
-    field("assumption", Kind::Text, "", "What the test presumes"),
-    field("method", Kind::Text, "", "How it is checked"),
-    field("statistic_name", Kind::Text, "", "Name of the statistic"),
-    field("statistic", Kind::Double, "", "Value of the statistic"),
-    field(
-        "degrees_of_freedom",
-        Kind::List(&Kind::Double),
-        "",
-        "Degrees of freedom",
-    ),
-    field("p", Kind::Double, "", "p value, not adjusted"),
-    field("values", Kind::Count, "", "Values looked at"),
-    field("groups", Kind::Count, "", "Groups they are in"),
-    field(
+    text("assumption", "What the test presumes"),
+    text("method", "How it is checked"),
+    text("statistic_name", "Name of the statistic"),
+    pure_number("statistic", "Value of the statistic"),
+    list(pure_number("degrees_of_freedom", "Degrees of freedom")),
+    pure_number("p", "p value, not adjusted"),
+    count("values", "Values looked at"),
+    count("groups", "Groups they are in"),
+    count(
         "tied",
-        Kind::Count,
-        "",
         "Values whose distance from their group's mean another shares",
     ),
-    field("note", Kind::Text, "", "Why the check could not be made"),
+    text("note", "Why the check could not be made"),
 ];
 
 const TEST: &[Field] = &[
-    field("quantity", Kind::Text, "", "Name with unit suffix"),
-    field("factor", Kind::Text, "", "Factor tested"),
-    field("method", Kind::Text, "", "Method"),
-    field(
+    text("quantity", "Name with unit suffix"),
+    text("factor", "Factor tested"),
+    text("method", "Method"),
+    flag(
         "respects_participants",
-        Kind::Flag,
-        "",
         "Respects that tightenings of one participant depend on each other",
     ),
-    field("statistic_name", Kind::Text, "", "Name of the statistic"),
-    field("statistic", Kind::Double, "", "Value of the statistic"),
-    field(
-        "degrees_of_freedom",
-        Kind::List(&Kind::Double),
-        "",
-        "Degrees of freedom",
-    ),
-    field("p", Kind::Double, "", "p value"),
-    field(
-        "p_adjusted",
-        Kind::Double,
-        "",
-        "p value adjusted for the number of tests",
-    ),
-    field(
-        "effect_size",
-        Kind::Object(EFFECT_SIZE),
-        "",
-        "Size of the difference",
-    ),
-    field("note", Kind::Text, "", "What limits the test"),
-    field(
+    text("statistic_name", "Name of the statistic"),
+    pure_number("statistic", "Value of the statistic"),
+    list(pure_number("degrees_of_freedom", "Degrees of freedom")),
+    pure_number("p", "p value"),
+    pure_number("p_adjusted", "p value adjusted for the number of tests"),
+    group("effect_size", EFFECT_SIZE, "Size of the difference"),
+    text("note", "What limits the test"),
+    list(group(
         "assumptions",
-        Kind::List(&Kind::Object(ASSUMPTION)),
-        "",
+        ASSUMPTION,
         "How what the test presumes stands",
-    ),
+    )),
 ];
 
 /// The table of `/statistics/tests`.
 pub(crate) const TESTS: Message = Message {
     name: "snug.Tests",
     about: "Tests per quantity and factor",
-    fields: &[field(
-        "rows",
-        Kind::List(&Kind::Object(TEST)),
-        "",
-        "One row per test",
-    )],
+    fields: &[list(group("rows", TEST, "One row per test"))],
 };

@@ -1,6 +1,34 @@
-//! A writer that takes nothing more once a call has failed.
+//! A writer that takes nothing more once a call has failed, and how MCAP is written through it.
 
+use crate::RecordError;
+use mcap::write::NoSeek;
+use mcap::{McapError, WriteOptions, Writer};
 use std::io::{Error, ErrorKind, Result, Write};
+
+/// An MCAP writer whose file stays readable up to its last flush.
+pub(crate) type LastingWriter<W> = Writer<NoSeek<UntilFailure<W>>>;
+
+/// How chunks are written.
+pub(crate) fn options(chunk_bytes: u64) -> WriteOptions {
+    WriteOptions::new()
+        // No worker threads: the chunks are small, and the bytes must not depend on the machine.
+        .compression_level(1)
+        .compression_threads(0)
+        .chunk_size(Some(chunk_bytes))
+        // A chunk is put together in memory and written whole, so that a killed run leaves no half-open chunk
+        // without a length.
+        .disable_seeking(true)
+}
+
+/// Ends the file with its index and gives the inner writer back.
+pub(crate) fn finish<W: Write>(
+    mut writer: LastingWriter<W>,
+) -> std::result::Result<W, RecordError> {
+    writer.finish()?;
+    let mut inner = writer.into_inner().into_inner().into_inner();
+    inner.flush().map_err(McapError::from)?;
+    Ok(inner)
+}
 
 /// Passes everything on until the first failure, and gives that failure again ever after.
 ///

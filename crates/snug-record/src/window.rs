@@ -1,6 +1,6 @@
 //! `/tightening/window`: what a tightening's samples alone do not say, so that it can be evaluated anew.
 
-use crate::schema::{Field, Kind, Message, field};
+use crate::schema::{Field, Message, count, flag, group, list, number, pure_number, text};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Deserializer, Serialize};
 use snug_campaign::{Conditions, Correction, NoiseFloor, Rig, TimeBase};
@@ -71,81 +71,50 @@ impl Window {
 }
 
 pub(crate) const CONDITIONS: &[Field] = &[
-    field("participant", Kind::Text, "", "Who held the tool"),
-    field("strategy", Kind::Text, "", "Tightening strategy"),
-    field("joint", Kind::Text, "", "Joint stiffness"),
-    field(
-        "pace_per_min",
-        Kind::Double,
-        "1/min",
-        "Tightenings per minute",
-    ),
+    text("participant", "Who held the tool"),
+    text("strategy", "Tightening strategy"),
+    text("joint", "Joint stiffness"),
+    number("pace_per_min", "1/min", "Tightenings per minute"),
 ];
 
 const RIG: &[Field] = &[
-    field("lever_arm_m", Kind::Double, "m", "Joint axis to grip l"),
-    field(
+    number("lever_arm_m", "m", "Joint axis to grip l"),
+    number(
         "known_inertia_kg_m2",
-        Kind::Double,
         "kg m^2",
         "Known inertia about the joint I_n",
     ),
 ];
 
 pub(crate) const TIME_BASE: &[Field] = &[
-    field("start_s", Kind::Double, "s", "Time of sample 0"),
-    field("interval_s", Kind::Double, "s", "Time between samples"),
+    number("start_s", "s", "Time of sample 0"),
+    number("interval_s", "s", "Time between samples"),
 ];
 
 const NOISE: &[Field] = &[
-    field("source", Kind::Text, "", "Where the noise was measured"),
-    field("quantity", Kind::Text, "", "Quantity it is the noise of"),
-    field(
-        "standard_deviation",
-        Kind::Double,
-        "the quantity's",
-        "Standard deviation",
-    ),
-    field(
+    text("source", "Where the noise was measured"),
+    text("quantity", "Quantity it is the noise of"),
+    number("standard_deviation", "the quantity's", "Standard deviation"),
+    list(pure_number(
         "autoregression",
-        Kind::List(&Kind::Double),
-        "",
         "Coefficients a_1 to a_p of the noise process",
-    ),
-    field(
+    )),
+    number(
         "innovation_sd",
-        Kind::Double,
         "the quantity's",
         "Standard deviation of the white innovations",
     ),
-    field("samples", Kind::Count, "", "Samples it was estimated from"),
+    count("samples", "Samples it was estimated from"),
 ];
 
 const CORRECTION: &[Field] = &[
-    field("effect", Kind::Text, "", "Effect of the catalogue"),
-    field(
-        "value",
-        Kind::Double,
-        "see unit",
-        "Size that was subtracted",
-    ),
-    field(
-        "standard_error",
-        Kind::Double,
-        "see unit",
-        "Its standard error",
-    ),
-    field("unit", Kind::Text, "", "Unit of the size"),
-    field(
-        "significant",
-        Kind::Flag,
-        "",
-        "Differs from zero beyond chance",
-    ),
-    field(
+    text("effect", "Effect of the catalogue"),
+    number("value", "see unit", "Size that was subtracted"),
+    number("standard_error", "see unit", "Its standard error"),
+    text("unit", "Unit of the size"),
+    flag("significant", "Differs from zero beyond chance"),
+    text(
         "constant_of",
-        Kind::Text,
-        "",
         "Measured quantity of which it is a constant error",
     ),
 ];
@@ -155,54 +124,23 @@ pub(crate) const WINDOW: Message = Message {
     name: "snug.Window",
     about: "Where the samples of a tightening come from",
     fields: &[
-        field(
-            "tightening",
-            Kind::Count,
-            "",
-            "Running number within the recording",
-        ),
-        field("file", Kind::Text, "", "Measurement file"),
-        field("number", Kind::Count, "", "Number within the file"),
-        field("conditions", Kind::Object(CONDITIONS), "", "Conditions"),
-        field("rig", Kind::Object(RIG), "", "Known constants of the rig"),
-        field("peak_torque_nm", Kind::Double, "N m", "Largest torque"),
-        field(
-            "target_torque_nm",
-            Kind::Double,
-            "N m",
-            "Largest torque rounded to 5 N m",
-        ),
-        field(
+        count("tightening", "Running number within the recording"),
+        text("file", "Measurement file"),
+        count("number", "Number within the file"),
+        group("conditions", CONDITIONS, "Conditions"),
+        group("rig", RIG, "Known constants of the rig"),
+        number("peak_torque_nm", "N m", "Largest torque"),
+        number("target_torque_nm", "N m", "Largest torque rounded to 5 N m"),
+        group(
             "time_base",
-            Kind::Object(TIME_BASE),
-            "",
+            TIME_BASE,
             "Sampling grid in the segment's time",
         ),
-        field("samples", Kind::Count, "", "Samples of the window"),
-        field(
-            "stored_every",
-            Kind::Count,
-            "",
-            "Every how many-th sample was written",
-        ),
-        field("onset", Kind::Count, "", "Sample at which the pulse begins"),
-        field(
-            "channels",
-            Kind::List(&Kind::Text),
-            "",
-            "Measured channels that are there",
-        ),
-        field(
-            "noise",
-            Kind::Object(NOISE),
-            "",
-            "Noise of the fitted output",
-        ),
-        field(
-            "corrections",
-            Kind::List(&Kind::Object(CORRECTION)),
-            "",
-            "Sensor errors taken out",
-        ),
+        count("samples", "Samples of the window"),
+        count("stored_every", "Every how many-th sample was written"),
+        count("onset", "Sample at which the pulse begins"),
+        list(text("channels", "Measured channels that are there")),
+        group("noise", NOISE, "Noise of the fitted output"),
+        list(group("corrections", CORRECTION, "Sensor errors taken out")),
     ],
 };

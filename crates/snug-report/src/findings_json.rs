@@ -1,8 +1,8 @@
 //! `findings.json`: what was left out, repaired or is worth knowing.
 
-use crate::outcome::severity_name;
+use crate::json;
 use serde::Serialize;
-use snug_campaign::{CampaignResult, Finding};
+use snug_campaign::{CampaignResult, Finding, Severity};
 use std::collections::BTreeMap;
 
 #[derive(Serialize)]
@@ -14,20 +14,22 @@ struct Findings<'a> {
 
 #[derive(Serialize)]
 struct Counts<'a> {
-    by_severity: BTreeMap<&'static str, usize>,
+    by_severity: BTreeMap<String, usize>,
     by_code: BTreeMap<&'a str, usize>,
 }
 
 /// Every finding in campaign order, with counts by severity and by code. `format` is 1.
 pub fn findings_json(result: &CampaignResult) -> String {
     let mut counts = Counts {
-        by_severity: BTreeMap::from([("note", 0), ("repaired", 0), ("left_out", 0)]),
+        by_severity: [Severity::Note, Severity::Repaired, Severity::LeftOut]
+            .map(|severity| (json::name(severity), 0))
+            .into(),
         by_code: BTreeMap::new(),
     };
     for finding in &result.findings {
         *counts
             .by_severity
-            .entry(severity_name(finding.severity))
+            .entry(json::name(finding.severity))
             .or_default() += 1;
         *counts.by_code.entry(&finding.code).or_default() += 1;
     }
@@ -36,8 +38,5 @@ pub fn findings_json(result: &CampaignResult) -> String {
         counts,
         findings: &result.findings,
     };
-    let mut text =
-        serde_json::to_string_pretty(&findings).expect("plain structs with text keys serialise");
-    text.push('\n');
-    text
+    json::text(&findings)
 }

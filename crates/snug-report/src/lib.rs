@@ -1,9 +1,12 @@
 #![doc = include_str!("../README.md")]
 
+mod curves;
 mod decimation;
 mod effect_words;
 mod figure;
 mod findings_json;
+mod grouping;
+mod json;
 mod number;
 mod outcome;
 mod page;

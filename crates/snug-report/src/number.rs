@@ -27,6 +27,12 @@ pub fn plain(value: Option<f64>, digits: i32, why: &str) -> Markup {
     }
 }
 
+/// The interval between two ends; `None` unless both are known.
+pub fn between(low: Option<f64>, high: Option<f64>) -> Option<Interval> {
+    let (low, high) = (low?, high?);
+    Some(Interval { low, high })
+}
+
 /// A dash with its reason in the title.
 pub fn missing(why: &str) -> Markup {
     html! { span.missing title=(why) { (DASH) } }
@@ -42,6 +48,16 @@ pub fn drawn(value: f64, digits: i32) -> Option<f64> {
             .parse()
             .expect("a printed float parses")
     })
+}
+
+/// What a table is sorted by; a missing value has none and stays last.
+pub fn sort_key(value: Option<f64>) -> Option<String> {
+    Some(drawn(value?, 6)?.to_string())
+}
+
+/// A cell of a table that can be sorted.
+pub fn sortable(value: Option<f64>, digits: i32, why: &str) -> Markup {
+    html! { td data-v=[sort_key(value)] { (plain(value, digits, why)) } }
 }
 
 #[cfg(test)]

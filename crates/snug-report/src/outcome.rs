@@ -1,6 +1,6 @@
 //! Why tightenings were rejected and how identifications ended, in words.
 
-use snug_campaign::{FitStatus, Rejection, Severity};
+use snug_campaign::{FitStatus, Rejection};
 
 /// Every reason, in the order in which tables list them.
 pub const REJECTIONS: [Rejection; 9] = [
@@ -73,18 +73,6 @@ pub const STATUSES: [FitStatus; 6] = [
     FitStatus::Failed,
 ];
 
-/// Stable snake-case name of a status, as in files.
-pub fn status_name(status: FitStatus) -> &'static str {
-    match status {
-        FitStatus::Converged => "converged",
-        FitStatus::ConvergedAtConstraint => "converged_at_constraint",
-        FitStatus::IterationLimit => "iteration_limit",
-        FitStatus::Stalled => "stalled",
-        FitStatus::NotIdentifiable => "not_identifiable",
-        FitStatus::Failed => "failed",
-    }
-}
-
 /// What a status means, in one sentence.
 pub fn status_meaning(status: FitStatus) -> &'static str {
     match status {
@@ -98,23 +86,5 @@ pub fn status_meaning(status: FitStatus) -> &'static str {
         }
         FitStatus::NotIdentifiable => "The data do not determine all free parameters.",
         FitStatus::Failed => "The residual could not be evaluated at the start.",
-    }
-}
-
-/// A severity in words.
-pub fn severity_words(severity: Severity) -> &'static str {
-    match severity {
-        Severity::Note => "note",
-        Severity::Repaired => "repaired",
-        Severity::LeftOut => "left out",
-    }
-}
-
-/// Stable snake-case name of a severity, as in files.
-pub fn severity_name(severity: Severity) -> &'static str {
-    match severity {
-        Severity::Note => "note",
-        Severity::Repaired => "repaired",
-        Severity::LeftOut => "left_out",
     }
 }

@@ -1,6 +1,6 @@
 //! `report.html`: the page around the sections.
 
-use crate::section::{Rendered, rendered};
+use crate::section::{Section, rendered};
 use maud::{DOCTYPE, Markup, PreEscaped, html as markup};
 use snug_campaign::CampaignResult;
 
@@ -43,10 +43,10 @@ pub fn html(result: &CampaignResult) -> String {
                         p.kind { "Snug report" }
                         h1 { (result.title) }
                     }
-                    @for section in &sections {
+                    @for (section, content) in &sections {
                         section id=(section.anchor) aria-labelledby=(format!("{}-title", section.anchor)) {
                             h2 id=(format!("{}-title", section.anchor)) { (section.title) }
-                            (section.content)
+                            (content)
                         }
                     }
                 }
@@ -57,10 +57,10 @@ pub fn html(result: &CampaignResult) -> String {
     page.into_string()
 }
 
-fn contents(sections: &[Rendered]) -> Markup {
+fn contents(sections: &[(&Section, Markup)]) -> Markup {
     markup! {
         nav.contents aria-label="Sections" {
-            ol { @for section in sections { li { a href=(format!("#{}", section.anchor)) { (section.short_title) } } } }
+            ol { @for (section, _) in sections { li { a href=(format!("#{}", section.anchor)) { (section.short_title) } } } }
         }
     }
 }

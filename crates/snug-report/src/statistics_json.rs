@@ -1,5 +1,6 @@
 //! `statistics.json`: both presets, means and spreads per condition, and tests.
 
+use crate::json;
 use crate::number::share;
 use crate::quantity;
 use serde::Serialize;
@@ -74,10 +75,7 @@ pub fn statistics_json(result: &CampaignResult) -> String {
             .collect(),
         tests: &result.tests,
     };
-    let mut text =
-        serde_json::to_string_pretty(&statistics).expect("plain structs with text keys serialise");
-    text.push('\n');
-    text
+    json::text(&statistics)
 }
 
 fn preset(summary: &PresetSummary) -> Preset<'_> {

@@ -1,70 +1,17 @@
 //! `tightenings.csv`: one row per tightening, every digit, SI units.
 
-use crate::outcome::status_name;
-use snug_campaign::{CampaignResult, Estimate, FitMeasures, SignalUnits, TighteningResult};
-
-/// The first columns, whose names and order other programs rely on.
-const LEADING: [&str; 15] = [
-    "file",
-    "tightening",
-    "participant",
-    "strategy",
-    "joint",
-    "pace_per_min",
-    "target_torque_nm",
-    "mass_kg",
-    "damping_kg_per_s",
-    "stiffness_n_per_m",
-    "natural_frequency_hz",
-    "fit_percent",
-    "selected",
-    "rejection",
-    "error_over_noise",
-];
+use crate::grouping::first_seen;
+use crate::json;
+use snug_campaign::{CampaignResult, Conditions, Estimate, FitMeasures, TighteningResult};
 
 /// The base model's parameters: their values stand among the leading columns.
-const BASE_PARAMETERS: [&str; 3] = ["mass_kg", "damping_kg_per_s", "stiffness_n_per_m"];
+pub(crate) const BASE_PARAMETERS: [&str; 3] = ["mass_kg", "damping_kg_per_s", "stiffness_n_per_m"];
 
-/// A measure's column and how it is read.
-type Measure = (&'static str, fn(&FitMeasures) -> Option<f64>);
-
-/// Measures that follow the parameters.
-const MEASURES: [Measure; 16] = [
-    ("natural_frequency_hz_low", |measures| {
-        measures.natural_frequency_low_hz
-    }),
-    ("natural_frequency_hz_high", |measures| {
-        measures.natural_frequency_high_hz
-    }),
-    ("fit_percent_fitted_output", |measures| {
-        measures.fit_percent_fitted_output
-    }),
-    ("rms_displacement_rad", |measures| {
-        measures.rms_displacement_rad
-    }),
-    ("euler_accuracy_percent", |measures| {
-        measures.euler_accuracy_percent
-    }),
-    ("damped_frequency_hz", |measures| {
-        measures.damped_frequency_hz
-    }),
-    ("damped_frequency_hz_low", |measures| {
-        measures.damped_frequency_low_hz
-    }),
-    ("damped_frequency_hz_high", |measures| {
-        measures.damped_frequency_high_hz
-    }),
-    ("damping_ratio", |measures| measures.damping_ratio),
-    ("damping_ratio_low", |measures| measures.damping_ratio_low),
-    ("damping_ratio_high", |measures| measures.damping_ratio_high),
-    ("thesis_damping_ratio", |measures| {
-        measures.thesis_damping_ratio
-    }),
-    ("peak_force_f1_n", |measures| measures.peak_force_f1_n),
-    ("peak_force_f2_n", |measures| measures.peak_force_f2_n),
-    ("peak_force_f3_n", |measures| measures.peak_force_f3_n),
-    ("peak_grip_force_n", |measures| measures.peak_grip_force_n),
-];
+/// A column: its name and what stands in it for a tightening.
+struct Column<'a> {
+    name: String,
+    field: Box<dyn Fn(&TighteningResult) -> String + 'a>,
+}
 
 /// One row per tightening in campaign order.
 ///
@@ -74,155 +21,179 @@ const MEASURES: [Measure; 16] = [
 /// Reasons of rejection are joined by `;`. Names from the measurements that begin with `=`, `+`, `-`, `@` or a control
 /// character have an apostrophe in front, so that a spreadsheet shows them and calculates nothing.
 pub fn tightenings_csv(result: &CampaignResult) -> String {
-    let effect_parameters = effect_parameters(result);
-    let corrections = corrections(result);
+    let columns = columns(result);
     let mut writer = csv::WriterBuilder::new()
         .terminator(csv::Terminator::Any(b'\n'))
         .from_writer(Vec::new());
     writer
-        .write_record(header(&effect_parameters, &corrections))
+        .write_record(columns.iter().map(|column| &column.name))
         .expect("writing to memory does not fail");
     for tightening in &result.tightenings {
         writer
-            .write_record(row(
-                tightening,
-                &result.units,
-                &effect_parameters,
-                &corrections,
-            ))
+            .write_record(columns.iter().map(|column| (column.field)(tightening)))
             .expect("every row has the header's length");
     }
     let bytes = writer.into_inner().expect("flushing memory does not fail");
     String::from_utf8(bytes).expect("all fields are text")
 }
 
-fn header(effect_parameters: &[&str], corrections: &[&str]) -> Vec<String> {
-    let mut columns: Vec<String> = LEADING.iter().map(|name| (*name).into()).collect();
+fn columns(result: &CampaignResult) -> Vec<Column<'_>> {
+    let mut columns = leading(result);
     for name in BASE_PARAMETERS {
-        columns.extend([format!("{name}_low"), format!("{name}_high")]);
+        columns.extend(interval(name));
     }
-    for name in effect_parameters {
-        columns.extend([
-            (*name).into(),
-            format!("{name}_low"),
-            format!("{name}_high"),
-        ]);
+    for name in effect_parameters(result) {
+        columns.push(value(name));
+        columns.extend(interval(name));
     }
-    columns.extend(
-        [
-            "peak_torque_nm",
-            "lever_arm_m",
-            "known_inertia_kg_m2",
-            "status",
-            "active_constraints",
-        ]
-        .map(String::from),
-    );
-    columns.extend(MEASURES.iter().map(|(name, _)| (*name).into()));
-    columns.extend(["noise_source", "noise_standard_deviation"].map(String::from));
-    for effect in corrections {
-        columns.extend([
-            format!("corrected_{effect}"),
-            format!("corrected_{effect}_standard_error"),
-            format!("corrected_{effect}_significant"),
-        ]);
+    columns.extend([
+        size("peak_torque_nm", |one| Some(one.peak_torque_nm)),
+        size("lever_arm_m", |one| Some(one.rig.lever_arm_m)),
+        size("known_inertia_kg_m2", |one| {
+            Some(one.rig.known_inertia_kg_m2)
+        }),
+        estimated("status", |estimate| json::name(estimate.status)),
+        estimated("active_constraints", |estimate| {
+            estimate.active_constraints.join(";")
+        }),
+    ]);
+    columns.extend(measures());
+    columns.push(column("noise_source", |one| {
+        let noise = one.noise.as_ref();
+        noise.map_or_else(String::new, |noise| json::name(noise.source))
+    }));
+    columns.push(size("noise_standard_deviation", |one| {
+        Some(one.noise.as_ref()?.standard_deviation)
+    }));
+    for effect in corrections(result) {
+        columns.extend(correction(effect));
     }
     columns
 }
 
-fn row(
-    tightening: &TighteningResult,
-    units: &SignalUnits,
-    effect_parameters: &[&str],
-    corrections: &[&str],
-) -> Vec<String> {
-    let estimate = tightening.estimate.as_ref();
-    let mut fields = leading_fields(tightening, units);
-    for name in BASE_PARAMETERS {
-        fields.extend(interval_fields(estimate, name));
-    }
-    for name in effect_parameters {
-        fields.push(number(estimate.and_then(|estimate| estimate.value(name))));
-        fields.extend(interval_fields(estimate, name));
-    }
-    fields.extend([
-        number(Some(tightening.peak_torque_nm)),
-        number(Some(tightening.rig.lever_arm_m)),
-        number(Some(tightening.rig.known_inertia_kg_m2)),
-        estimate.map_or_else(String::new, |estimate| status_name(estimate.status).into()),
-        estimate.map_or_else(String::new, |estimate| {
-            estimate.active_constraints.join(";")
-        }),
-    ]);
-    fields.extend(
-        MEASURES
-            .iter()
-            .map(|(_, read)| number(read(&tightening.measures))),
-    );
-    let noise = tightening.noise.as_ref();
-    fields.push(noise.map_or_else(String::new, |noise| word(&noise.source)));
-    fields.push(number(noise.map(|noise| noise.standard_deviation)));
-    for effect in corrections {
-        let correction = tightening
-            .corrections
-            .iter()
-            .find(|correction| correction.effect == *effect);
-        fields.extend([
-            number(correction.map(|correction| correction.value)),
-            number(correction.map(|correction| correction.standard_error)),
-            correction.map_or_else(String::new, |correction| correction.significant.to_string()),
-        ]);
-    }
-    fields
-}
-
-fn leading_fields(tightening: &TighteningResult, units: &SignalUnits) -> Vec<String> {
-    let conditions = &tightening.conditions;
-    let measures = &tightening.measures;
-    let value = |name| {
-        number(
-            tightening
-                .estimate
-                .as_ref()
-                .and_then(|estimate| estimate.value(name)),
-        )
-    };
-    let reasons: Vec<&str> = tightening
-        .selection
-        .rejections
-        .iter()
-        .map(|rejection| rejection.name())
-        .collect();
+/// The first columns, whose names and order other programs rely on.
+fn leading(result: &CampaignResult) -> Vec<Column<'_>> {
+    let torque = result.units.input_is_torque();
     vec![
-        text(&tightening.id.file),
-        tightening.id.number.to_string(),
-        text(conditions.participant.as_deref().unwrap_or_default()),
-        text(conditions.strategy.as_deref().unwrap_or_default()),
-        text(conditions.joint.as_deref().unwrap_or_default()),
-        number(conditions.pace_per_min),
-        number(
-            units
-                .input_is_torque()
-                .then_some(tightening.target_torque_nm),
-        ),
+        column("file", |one| text(&one.id.file)),
+        column("tightening", |one| one.id.number.to_string()),
+        condition("participant", |conditions| &conditions.participant),
+        condition("strategy", |conditions| &conditions.strategy),
+        condition("joint", |conditions| &conditions.joint),
+        size("pace_per_min", |one| one.conditions.pace_per_min),
+        size("target_torque_nm", move |one| {
+            torque.then_some(one.target_torque_nm)
+        }),
         value("mass_kg"),
         value("damping_kg_per_s"),
         value("stiffness_n_per_m"),
-        number(measures.natural_frequency_hz),
-        number(measures.fit_percent),
-        tightening.selection.selected().to_string(),
-        reasons.join(";"),
-        number(measures.error_over_noise),
+        measure("natural_frequency_hz", |fit| fit.natural_frequency_hz),
+        measure("fit_percent", |fit| fit.fit_percent),
+        column("selected", |one| one.selection.selected().to_string()),
+        column("rejection", |one| {
+            let reasons = one.selection.rejections.iter();
+            reasons
+                .map(|reason| reason.name())
+                .collect::<Vec<_>>()
+                .join(";")
+        }),
+        measure("error_over_noise", |fit| fit.error_over_noise),
     ]
 }
 
-fn interval_fields(estimate: Option<&Estimate>, name: &str) -> [String; 2] {
-    let interval = estimate
-        .and_then(|estimate| estimate.parameter(name))
-        .and_then(|parameter| parameter.interval);
+/// Measures that follow the parameters.
+fn measures<'a>() -> [Column<'a>; 16] {
     [
-        number(interval.map(|interval| interval.low)),
-        number(interval.map(|interval| interval.high)),
+        measure("natural_frequency_hz_low", |fit| {
+            fit.natural_frequency_low_hz
+        }),
+        measure("natural_frequency_hz_high", |fit| {
+            fit.natural_frequency_high_hz
+        }),
+        measure("fit_percent_fitted_output", |fit| {
+            fit.fit_percent_fitted_output
+        }),
+        measure("rms_displacement_rad", |fit| fit.rms_displacement_rad),
+        measure("euler_accuracy_percent", |fit| fit.euler_accuracy_percent),
+        measure("damped_frequency_hz", |fit| fit.damped_frequency_hz),
+        measure("damped_frequency_hz_low", |fit| fit.damped_frequency_low_hz),
+        measure("damped_frequency_hz_high", |fit| {
+            fit.damped_frequency_high_hz
+        }),
+        measure("damping_ratio", |fit| fit.damping_ratio),
+        measure("damping_ratio_low", |fit| fit.damping_ratio_low),
+        measure("damping_ratio_high", |fit| fit.damping_ratio_high),
+        measure("thesis_damping_ratio", |fit| fit.thesis_damping_ratio),
+        measure("peak_force_f1_n", |fit| fit.peak_force_f1_n),
+        measure("peak_force_f2_n", |fit| fit.peak_force_f2_n),
+        measure("peak_force_f3_n", |fit| fit.peak_force_f3_n),
+        measure("peak_grip_force_n", |fit| fit.peak_grip_force_n),
+    ]
+}
+
+fn column<'a>(
+    name: impl Into<String>,
+    field: impl Fn(&TighteningResult) -> String + 'a,
+) -> Column<'a> {
+    Column {
+        name: name.into(),
+        field: Box::new(field),
+    }
+}
+
+fn size<'a>(
+    name: impl Into<String>,
+    read: impl Fn(&TighteningResult) -> Option<f64> + 'a,
+) -> Column<'a> {
+    column(name, move |one| number(read(one)))
+}
+
+fn measure<'a>(name: &str, read: fn(&FitMeasures) -> Option<f64>) -> Column<'a> {
+    size(name, move |one| read(&one.measures))
+}
+
+fn condition<'a>(name: &str, read: fn(&Conditions) -> &Option<String>) -> Column<'a> {
+    column(name, move |one| {
+        text(read(&one.conditions).as_deref().unwrap_or_default())
+    })
+}
+
+fn estimated<'a>(name: &str, read: fn(&Estimate) -> String) -> Column<'a> {
+    column(name, move |one| {
+        one.estimate.as_ref().map_or_else(String::new, read)
+    })
+}
+
+/// A parameter's value.
+fn value(name: &str) -> Column<'_> {
+    size(name, move |one| one.estimate.as_ref()?.value(name))
+}
+
+/// Both ends of a parameter's interval.
+fn interval(name: &str) -> [Column<'_>; 2] {
+    let of = move |one: &TighteningResult| one.estimate.as_ref()?.parameter(name)?.interval;
+    [
+        size(format!("{name}_low"), move |one| Some(of(one)?.low)),
+        size(format!("{name}_high"), move |one| Some(of(one)?.high)),
+    ]
+}
+
+/// Size, standard error and significance of what was corrected.
+fn correction(effect: &str) -> [Column<'_>; 3] {
+    let of = move |one: &TighteningResult| {
+        let mut corrections = one.corrections.iter();
+        corrections.find(|one| one.effect == effect).cloned()
+    };
+    [
+        size(format!("corrected_{effect}"), move |one| {
+            Some(of(one)?.value)
+        }),
+        size(format!("corrected_{effect}_standard_error"), move |one| {
+            Some(of(one)?.standard_error)
+        }),
+        column(format!("corrected_{effect}_significant"), move |one| {
+            of(one).map_or_else(String::new, |correction| correction.significant.to_string())
+        }),
     ]
 }
 
@@ -241,13 +212,6 @@ fn text(words: &str) -> String {
     match words.starts_with(['=', '+', '-', '@', '\t', '\r']) {
         true => format!("'{words}"),
         false => words.to_owned(),
-    }
-}
-
-fn word(value: &impl serde::Serialize) -> String {
-    match serde_json::to_value(value) {
-        Ok(serde_json::Value::String(text)) => text,
-        _ => String::new(),
     }
 }
 
@@ -272,14 +236,4 @@ fn corrections(result: &CampaignResult) -> Vec<&str> {
             .flat_map(|tightening| &tightening.corrections)
             .map(|correction| correction.effect.as_str()),
     )
-}
-
-fn first_seen<'a>(names: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
-    let mut seen = Vec::new();
-    for name in names {
-        if !seen.contains(&name) {
-            seen.push(name);
-        }
-    }
-    seen
 }

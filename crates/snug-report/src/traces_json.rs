@@ -1,5 +1,6 @@
 //! The signals of the example tightenings, as the page's script and still pictures draw them.
 
+use crate::curves::{self, DIGITS, Series, Values, steps, time_unit};
 use crate::decimation;
 use crate::number::drawn;
 use crate::signal_unit::motion_axis;
@@ -9,49 +10,30 @@ use snug_campaign::{CampaignResult, Quantity, SignalUnits, Traces};
 /// Points over all examples together: keeps the page small, and a lone example fine enough to zoom into.
 const POINTS_IN_ALL: usize = 24_000;
 const POINTS_PER_EXAMPLE: std::ops::RangeInclusive<usize> = 240..=4000;
-/// Digits that drawing and reading off need.
-const DIGITS: i32 = 6;
+/// A panel whose curves are signals of the examples.
+pub type Panel = curves::Panel<Source>;
 
-/// A signal of a panel; `minus` names the signal taken away from it.
-pub struct Series {
-    /// Short name of the samples.
-    pub key: &'static str,
-    /// Short name of the samples taken away, for residuals.
-    pub minus: Option<&'static str>,
-    /// Name in the legend.
-    pub label: &'static str,
-    /// Colour.
-    pub class: &'static str,
+/// Short names of a signal's samples and, for residuals, of those taken away.
+pub struct Source {
+    key: &'static str,
+    minus: Option<&'static str>,
 }
 
-/// One panel: signals of one unit over time.
-pub struct Panel {
-    /// Heading.
-    pub title: &'static str,
-    /// Vertical axis: quantity and unit.
-    pub axis: String,
-    /// Signals from back to front.
-    pub series: Vec<Series>,
-    /// Whether it shows a residual, with the band of the noise behind it.
-    pub residual: bool,
-}
-
-fn series(key: &'static str, label: &'static str, class: &'static str) -> Series {
+fn series(key: &'static str, label: &'static str, class: &'static str) -> Series<Source> {
     Series {
-        key,
-        minus: None,
         label,
         class,
+        source: Source { key, minus: None },
     }
 }
 
-fn residual(measured: &'static str, simulated: &'static str) -> Vec<Series> {
-    vec![Series {
-        key: measured,
-        minus: Some(simulated),
-        label: "measured − simulated",
-        class: "c-residual",
-    }]
+fn panel(title: &str, axis: String, series: Vec<Series<Source>>) -> Panel {
+    Panel {
+        title: title.into(),
+        axis,
+        series,
+        residual: false,
+    }
 }
 
 /// The panels, in reading order, that at least one example has signals for.
@@ -70,9 +52,8 @@ pub fn panels(result: &CampaignResult) -> Vec<Panel> {
             .any(|(_, traces)| samples(traces, key).is_some())
     };
     for panel in &mut panels {
-        panel
-            .series
-            .retain(|series| there(series.key) && series.minus.is_none_or(there));
+        let there = |source: &Source| there(source.key) && source.minus.is_none_or(there);
+        panel.series.retain(|series| there(&series.source));
     }
     panels.retain(|panel| !panel.series.is_empty());
     panels
@@ -80,25 +61,23 @@ pub fn panels(result: &CampaignResult) -> Vec<Panel> {
 
 fn motion_panels(units: &SignalUnits) -> Vec<Panel> {
     vec![
-        Panel {
-            title: "Curve fit: displacement",
-            axis: motion_axis(units, Quantity::Displacement),
-            series: vec![
+        panel(
+            "Curve fit: displacement",
+            motion_axis(units, Quantity::Displacement),
+            vec![
                 series("xm", "measured", "c-measured broad"),
                 series("xs", "simulated", "c-simulated"),
                 series("xe", "Euler method", "c-euler"),
             ],
-            residual: false,
-        },
-        Panel {
-            title: "Acceleration",
-            axis: motion_axis(units, Quantity::Acceleration),
-            series: vec![
+        ),
+        panel(
+            "Acceleration",
+            motion_axis(units, Quantity::Acceleration),
+            vec![
                 series("am", "measured", "c-measured"),
                 series("as", "simulated", "c-simulated"),
             ],
-            residual: false,
-        },
+        ),
     ]
 }
 
@@ -108,26 +87,27 @@ fn residual_panel(quantity: Quantity, units: &SignalUnits) -> Panel {
         Quantity::Velocity => ("vm", "vs"),
         Quantity::Acceleration => ("am", "as"),
     };
+    let mut residual = series(measured, "measured − simulated", "c-residual");
+    residual.source.minus = Some(simulated);
     Panel {
-        title: "Residual of the fitted output",
+        title: "Residual of the fitted output".into(),
         axis: format!("residual: {}", motion_axis(units, quantity)),
-        series: residual(measured, simulated),
+        series: vec![residual],
         residual: true,
     }
 }
 
 fn force_panel() -> Panel {
-    Panel {
-        title: "Force between tool and hand",
-        axis: "force [N]".into(),
-        series: vec![
+    panel(
+        "Force between tool and hand",
+        "force [N]".into(),
+        vec![
             series("f2", "F2 from measured α", "c-f2"),
             series("fo", "F_op_J measured", "c-measured"),
             series("f3", "F3 from simulated α", "c-f3"),
             series("f1", "F1 spring and damper", "c-f1"),
         ],
-        residual: false,
-    }
+    )
 }
 
 fn input_panel(units: &SignalUnits) -> Panel {
@@ -136,12 +116,7 @@ fn input_panel(units: &SignalUnits) -> Panel {
     } else {
         ("Input", format!("input [{}]", units.input))
     };
-    Panel {
-        title,
-        axis,
-        series: vec![series("tq", "measured", "c-measured")],
-        residual: false,
-    }
+    panel(title, axis, vec![series("tq", "measured", "c-measured")])
 }
 
 /// The fitted quantity where the examples hold it measured and simulated, else the first that they do hold.
@@ -235,11 +210,7 @@ impl<'a> Example<'a> {
     /// Unit of the time axis and how many of it one second has: milliseconds up to two seconds.
     pub fn time_unit(&self) -> (&'static str, f64) {
         let last = self.kept.last().copied().unwrap_or(0);
-        if last as f64 * self.traces.time_base.interval_s <= 2.0 {
-            ("ms", 1000.0)
-        } else {
-            ("s", 1.0)
-        }
+        time_unit(last as f64 * self.traces.time_base.interval_s)
     }
 
     /// Time of the window's first sample in the segment \[s\].
@@ -253,14 +224,20 @@ impl<'a> Example<'a> {
         self.kept.iter().map(move |index| *index as f64 * step)
     }
 
-    /// A series' values at those times, `None` where not finite; nothing at all when the example lacks the signal.
-    pub fn values(&self, series: &Series) -> Option<Vec<Option<f64>>> {
-        let first = samples(self.traces, series.key)?;
-        let second = match series.minus {
+    /// The values of every series of a panel at those times.
+    pub fn signals(&self, panel: &Panel) -> Vec<Option<Values>> {
+        let of = |series: &Series<Source>| self.values(&series.source);
+        panel.series.iter().map(of).collect()
+    }
+
+    /// A signal's values at those times; `None` when the example lacks it.
+    fn values(&self, source: &Source) -> Option<Values> {
+        let first = samples(self.traces, source.key)?;
+        let second = match source.minus {
             Some(key) => Some(samples(self.traces, key)?),
             None => None,
         };
-        let motion = matches!(series.key.as_bytes().first(), Some(b'x' | b'v' | b'a'));
+        let motion = matches!(source.key.as_bytes().first(), Some(b'x' | b'v' | b'a'));
         let scale = if motion { self.output_per_rad } else { 1.0 };
         let value = |index: usize| {
             let first = *first.get(index)?;
@@ -274,46 +251,13 @@ impl<'a> Example<'a> {
 
     /// What the script needs: steps between kept samples, and the samples of every series.
     pub fn json(&self, panels: &[Panel]) -> Value {
-        let mut previous = 0;
-        let steps: Vec<usize> = self
-            .kept
-            .iter()
-            .map(|index| index - std::mem::replace(&mut previous, *index))
-            .collect();
         let (unit, per_second) = self.time_unit();
-        let signals: Vec<Value> = panels
-            .iter()
-            .map(|panel| {
-                panel
-                    .series
-                    .iter()
-                    .map(|series| json!(self.values(series)))
-                    .collect()
-            })
-            .collect();
+        let signals: Vec<_> = panels.iter().map(|panel| self.signals(panel)).collect();
         json!({
             "step": self.traces.time_base.interval_s * per_second,
             "unit": unit,
-            "steps": steps,
+            "steps": steps(&self.kept),
             "signals": signals,
         })
-    }
-}
-
-/// JSON that can stand inside a `script` element whatever its text says.
-pub fn embedded(value: &Value) -> String {
-    value.to_string().replace('<', "\\u003c")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn embedded_text_cannot_end_the_script() {
-        let text = embedded(&json!({ "name": "</script><!--<script>" }));
-        assert!(!text.contains('<'));
-        let back: Value = serde_json::from_str(&text).expect("still JSON");
-        assert_eq!(back["name"], "</script><!--<script>");
     }
 }

@@ -1,5 +1,6 @@
 //! `verdict.json`: what is missing in the model, how large it is, how sure that is, and how the error fell.
 
+use crate::json;
 use serde::Serialize;
 use snug_campaign::{Comparison, Diagnosis, DiagnosisSummary, Location, RankedEffect, Rung};
 
@@ -29,8 +30,5 @@ pub fn verdict_json(diagnosis: &Diagnosis) -> String {
         location: &diagnosis.location,
         final_location: diagnosis.final_location.as_ref(),
     };
-    let mut text =
-        serde_json::to_string_pretty(&file).expect("plain structs with text keys serialise");
-    text.push('\n');
-    text
+    json::text(&file)
 }

@@ -86,9 +86,10 @@ impl<'a> Chunk<'a> {
     }
 
     /// Whether unpacking ended as it should; of a torn chunk its beginning is enough.
-    pub(super) fn ended(&self, found: u64, ended: Result<(), Unpacking>) -> Result<(), Stop> {
-        match ended {
-            Err(Unpacking::Fault(fault)) => Err(fault.into()),
+    pub(super) fn ended(&self, pieces: &Pieces<'_>) -> Result<(), Stop> {
+        let found = self.unpacked_bytes - pieces.left;
+        match &pieces.ended {
+            Err(Unpacking::Fault(fault)) => Err(fault.clone().into()),
             Err(Unpacking::TooLarge) => Err(Stop::TooLarge),
             _ if self.whole && found < self.unpacked_bytes => Err(Fault::UnpackedLength {
                 expected: self.unpacked_bytes,
@@ -112,18 +113,24 @@ impl<'a> Chunk<'a> {
 /// The content of a long chunk, of which only a part is in memory.
 pub(super) struct Pieces<'a> {
     unpacker: Unpacker<'a>,
-    buffer: Vec<u8>,
+    pub(super) buffer: Vec<u8>,
     start: usize,
     /// Bytes that are still to come, by the chunk's header.
-    pub(super) left: u64,
-    pub(super) ended: Result<(), Unpacking>,
+    left: u64,
+    ended: Result<(), Unpacking>,
 }
 
 impl<'a> Pieces<'a> {
-    pub(super) fn new(chunk: &Chunk<'a>, limits: &Limits) -> Result<Self, Fault> {
+    /// Unpacks into the memory of `buffer`.
+    pub(super) fn new(
+        chunk: &Chunk<'a>,
+        limits: &Limits,
+        mut buffer: Vec<u8>,
+    ) -> Result<Self, Fault> {
+        buffer.clear();
         Ok(Self {
             unpacker: chunk.unpacker(limits)?,
-            buffer: Vec::new(),
+            buffer,
             start: 0,
             left: chunk.unpacked_bytes,
             ended: Ok(()),

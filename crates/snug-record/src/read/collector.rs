@@ -163,20 +163,16 @@ impl Collector {
         let decoder = self.decoder(channel, budget)?;
         let text = channel.topic.len() + channel.message_encoding.len();
         budget.spend((4 * text + channel.schema.name.len() + ENTRY_BYTES) as u64)?;
-        let topic = match self.topic_of.get(&channel.topic) {
-            Some(&topic) => topic,
-            None => {
-                self.topics.push(Topic {
-                    name: channel.topic.clone(),
-                    encoding: channel.message_encoding.clone(),
-                    schema: channel.schema.name.clone(),
-                    fields: BTreeMap::new(),
-                });
-                let topic = self.topics.len() - 1;
-                self.topic_of.insert(channel.topic.clone(), topic);
-                topic
-            }
-        };
+        let known = self.topic_of.entry(channel.topic.clone());
+        let topic = *known.or_insert_with(|| {
+            self.topics.push(Topic {
+                name: channel.topic.clone(),
+                encoding: channel.message_encoding.clone(),
+                schema: channel.schema.name.clone(),
+                fields: BTreeMap::new(),
+            });
+            self.topics.len() - 1
+        });
         let source = Source {
             topic,
             message_encoding: channel.message_encoding.clone(),

@@ -2,6 +2,7 @@
 
 use super::fault::Fault;
 use crate::wire::{take, take_fixed16, take_fixed32, take_fixed64, take_framed};
+use std::collections::BTreeMap;
 
 /// A name and the bytes that describe the messages of a channel.
 pub(crate) struct Schema<'a> {
@@ -67,9 +68,15 @@ impl<'a> Entries<'a> {
         Some(Self(entries))
     }
 
-    pub(crate) fn iter(self) -> impl Iterator<Item = (&'a str, &'a str)> {
+    fn iter(self) -> impl Iterator<Item = (&'a str, &'a str)> {
         let mut rest = self.0;
         std::iter::from_fn(move || Some((take_text(&mut rest)?, take_text(&mut rest)?)))
+    }
+
+    pub(crate) fn to_map(self) -> BTreeMap<String, String> {
+        self.iter()
+            .map(|(name, text)| (name.to_owned(), text.to_owned()))
+            .collect()
     }
 
     /// The last entry of that name.

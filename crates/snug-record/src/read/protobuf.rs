@@ -261,7 +261,10 @@ fn each_number(kind: Kind, value: Value<'_>, put: &mut impl FnMut(f64)) -> Decod
         (Kind::Single, Value::Fixed32(bits)) => f64::from(f32::from_bits(bits)),
         (Kind::Fixed32, Value::Fixed32(bits)) => f64::from(bits),
         (Kind::SignedFixed32, Value::Fixed32(bits)) => f64::from(bits as i32),
-        (_, Value::Varint(bits)) => from_varint(kind, bits).ok_or(MALFORMED)?,
+        (Kind::Signed, Value::Varint(bits)) => bits as i64 as f64,
+        (Kind::Unsigned, Value::Varint(bits)) => bits as f64,
+        (Kind::ZigZag, Value::Varint(bits)) => ((bits >> 1) as i64 ^ -((bits & 1) as i64)) as f64,
+        (Kind::Flag, Value::Varint(bits)) => f64::from(u8::from(bits != 0)),
         (_, Value::Bytes(mut packed)) => {
             while !packed.is_empty() {
                 let value = match kind {
@@ -281,16 +284,6 @@ fn each_number(kind: Kind, value: Value<'_>, put: &mut impl FnMut(f64)) -> Decod
     };
     put(number);
     Ok(())
-}
-
-fn from_varint(kind: Kind, bits: u64) -> Option<f64> {
-    match kind {
-        Kind::Signed => Some(bits as i64 as f64),
-        Kind::Unsigned => Some(bits as f64),
-        Kind::ZigZag => Some(((bits >> 1) as i64 ^ -((bits & 1) as i64)) as f64),
-        Kind::Flag => Some(f64::from(u8::from(bits != 0))),
-        _ => None,
-    }
 }
 
 /// Collects the message types of one `FileDescriptorProto`.

@@ -3,11 +3,11 @@
 use super::DEFAULT_LIMIT_BYTES;
 use super::budget::{Budget, Exhausted};
 use super::stream::{Completeness, Item, scan};
-use crate::measurement::Assembly;
+use crate::measurement::{self, Assembly, CHANNELS, FileHeader};
 use crate::signals::{self, MeasuredSample};
 use crate::topic::{self, Measured};
 use crate::{RecordError, Window};
-use snug_campaign::{Motion, Quantity, Recording, Segment, TimeBase};
+use snug_campaign::{Recording, TimeBase};
 use std::collections::{HashMap, HashSet};
 use std::ops::ControlFlow;
 
@@ -185,14 +185,23 @@ impl Reader {
             .iter()
             .map(|file| file.recording.file.clone())
             .collect();
+        let mut joined = Vec::new();
         let mut places = HashMap::new();
         let mut windows = Vec::with_capacity(self.windows.len());
         for (window, samples) in self.windows {
             if !whole.contains(&window.file) {
-                append(&mut files, &mut places, &window, &samples);
+                append(&mut joined, &mut places, &window, &samples);
             }
             windows.push(window);
         }
+        files.extend(
+            joined
+                .into_iter()
+                .map(|(assembly, stored_every)| RecordedFile {
+                    recording: assembly.finish().0,
+                    extent: Extent::Windows { stored_every },
+                }),
+        );
         RecordedCampaign {
             files,
             windows,
@@ -209,97 +218,50 @@ struct Kin {
     file: String,
     conditions: String,
     interval_bits: u64,
-    channels: [bool; 4],
+    channels: [bool; 5],
 }
 
-/// Puts a window behind the windows of the same file with the same conditions, interval and channels.
+/// Puts a window behind the windows of the same file with the same conditions, interval and channels; `joined` are the
+/// recordings of windows with the largest stride of each.
 fn append(
-    files: &mut Vec<RecordedFile>,
+    joined: &mut Vec<(Assembly, usize)>,
     places: &mut HashMap<Kin, usize>,
     window: &Window,
     samples: &[MeasuredSample],
 ) {
-    let base = TimeBase {
+    let time_base = TimeBase {
         start_s: 0.0,
         ..window.stored_time_base()
     };
-    let has = |name: &str| window.channels.iter().any(|channel| channel == name);
+    let mut there = CHANNELS.map(|name| window.channels.iter().any(|channel| channel == name));
+    // Every sample has a torque, whatever the window says.
+    there[0] = true;
     let kin = Kin {
         file: window.file.clone(),
         conditions: format!("{:?}", window.conditions),
-        interval_bits: base.interval_s.to_bits(),
-        channels: [
-            has("displacement_rad"),
-            has("velocity_rad_per_s"),
-            has("acceleration_rad_per_s2"),
-            has("grip_force_n"),
-        ],
+        interval_bits: time_base.interval_s.to_bits(),
+        channels: there,
     };
     let place = *places.entry(kin).or_insert_with(|| {
-        files.push(empty(window, base, has));
-        files.len() - 1
+        joined.push((Assembly::new(header(window, time_base, there)), 1));
+        joined.len() - 1
     });
-    let file = &mut files[place];
-    let Extent::Windows { stored_every } = &mut file.extent else {
-        return;
-    };
+    let (assembly, stored_every) = &mut joined[place];
     *stored_every = window.stored_every.max(*stored_every);
-    let recording = &mut file.recording;
-    let start = recording.torque_nm.len();
-    recording
-        .torque_nm
-        .extend(samples.iter().map(|sample| sample.torque_nm));
-    let motion = &mut recording.motion;
-    let columns = [
-        &mut motion.displacement_rad,
-        &mut motion.velocity_rad_per_s,
-        &mut motion.acceleration_rad_per_s2,
-    ];
-    for (index, column) in columns.into_iter().enumerate() {
-        if let Some(column) = column {
-            column.extend(samples.iter().map(|sample| sample.motion[index]));
-        }
-    }
-    if let Some(column) = &mut recording.grip_force_n {
-        column.extend(samples.iter().map(|sample| sample.grip_force_n));
-    }
-    recording.segments.push(Segment {
-        number: window.number,
-        start,
-        // Beyond the samples when the recording ends within this window.
-        end: start.saturating_add(window.stored_samples()),
-        event_times_s: None,
-    });
+    assembly.add_window(window, samples);
 }
 
-fn empty(window: &Window, time_base: TimeBase, has: impl Fn(&str) -> bool) -> RecordedFile {
-    let mut motion = Motion::default();
-    for (quantity, name) in [
-        (Quantity::Displacement, "displacement_rad"),
-        (Quantity::Velocity, "velocity_rad_per_s"),
-        (Quantity::Acceleration, "acceleration_rad_per_s2"),
-    ] {
-        if has(name) {
-            motion.set(quantity, Vec::new());
-        }
-    }
-    let stem = window
-        .file
-        .rsplit_once('.')
-        .map_or(window.file.as_str(), |(stem, _)| stem);
-    RecordedFile {
-        recording: Recording {
-            file: window.file.clone(),
-            label: stem.to_owned(),
-            conditions: window.conditions.clone(),
-            time_base,
-            torque_nm: Vec::new(),
-            motion,
-            grip_force_n: has("grip_force_n").then(Vec::new),
-            has_force_channel: has("grip_force_n"),
-            grip_force_channel: None,
-            segments: Vec::new(),
-        },
-        extent: Extent::Windows { stored_every: 1 },
+fn header(window: &Window, time_base: TimeBase, there: [bool; 5]) -> FileHeader {
+    let stem = window.file.rsplit_once('.').map(|(stem, _)| stem);
+    FileHeader {
+        file: window.file.clone(),
+        label: stem.unwrap_or(&window.file).to_owned(),
+        conditions: window.conditions.clone(),
+        time_base,
+        samples: 0,
+        channels: measurement::names(there),
+        has_force_channel: there[4],
+        grip_force_channel: None,
+        segments: Vec::new(),
     }
 }

@@ -88,7 +88,7 @@ pub(crate) fn walk(
 struct Walk<'e, E> {
     limits: Limits,
     unpacked: Budget,
-    /// Content of one compressed chunk; kept for the next.
+    /// Content of one compressed chunk; its memory is kept for the next.
     buffer: Vec<u8>,
     each: &'e mut E,
 }
@@ -150,58 +150,33 @@ impl<E: FnMut(Found<'_>) -> Result<(), Stop>> Walk<'_, E> {
         if chunk.unpacked_bytes > self.limits.chunk_bytes {
             return self.long_chunk(chunk);
         }
-        let mut buffer = std::mem::take(&mut self.buffer);
-        let given = self.short_chunk(chunk, &mut buffer);
-        self.buffer = buffer;
-        given
-    }
-
-    /// Unpacks a chunk at once, checks it and gives its records.
-    fn short_chunk(&mut self, chunk: &Chunk<'_>, buffer: &mut Vec<u8>) -> Result<(), Stop> {
-        let mut unpacker = chunk.unpacker(&self.limits)?;
         let wanted = usize::try_from(chunk.unpacked_bytes).map_err(|_| Stop::TooLarge)?;
-        let mut filled = 0;
-        let mut ended = Ok(());
-        while filled < wanted {
-            if filled == buffer.len() {
-                let length = (2 * filled).max(PIECE_BYTES);
-                buffer.resize(length, 0);
-            }
-            let end = buffer.len().min(wanted);
-            match unpacker.read(&mut buffer[filled..end]) {
-                Ok(0) => break,
-                Ok(length) => {
-                    self.unpacked.spend(length as u64)?;
-                    filled += length;
-                }
-                Err(error) => {
-                    ended = Err(error);
-                    break;
-                }
-            }
-        }
-        chunk.ended(filled as u64, ended)?;
+        let mut pieces = Pieces::new(chunk, &self.limits, std::mem::take(&mut self.buffer))?;
+        pieces.more(wanted, &mut self.unpacked)?;
+        chunk.ended(&pieces)?;
         if chunk.whole {
-            chunk.check(crc32fast::hash(&buffer[..filled]))?;
+            chunk.check(crc32fast::hash(pieces.content()))?;
         }
-        self.records(&buffer[..filled], chunk)
+        let given = self.records(pieces.content(), chunk);
+        self.buffer = pieces.buffer;
+        given
     }
 
     /// Unpacks a chunk twice in pieces: once for its checksum, once for its records.
     fn long_chunk(&mut self, chunk: &Chunk<'_>) -> Result<(), Stop> {
         if chunk.whole {
             let mut checksum = crc32fast::Hasher::new();
-            let mut pieces = Pieces::new(chunk, &self.limits)?;
+            let mut pieces = Pieces::new(chunk, &self.limits, Vec::new())?;
             while pieces.more(PIECE_BYTES, &mut self.unpacked)? {
                 checksum.update(pieces.content());
                 pieces.skip(pieces.content().len());
             }
             checksum.update(pieces.content());
-            chunk.ended(chunk.unpacked_bytes - pieces.left, pieces.ended)?;
+            chunk.ended(&pieces)?;
             chunk.check(checksum.finalize())?;
         }
         let longest = usize::try_from(self.limits.chunk_bytes).unwrap_or(usize::MAX);
-        let mut pieces = Pieces::new(chunk, &self.limits)?;
+        let mut pieces = Pieces::new(chunk, &self.limits, Vec::new())?;
         loop {
             if !pieces.more(FRAME_BYTES, &mut self.unpacked)? {
                 return chunk.rest(pieces.content());

@@ -21,24 +21,13 @@ pub(super) enum Wire {
     Ros1,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// Takes one number off the message.
+type Read = fn(&mut Cursor<'_, '_>) -> Result<f64, &'static str>;
+
+#[derive(Debug, Clone, Copy)]
 enum Kind {
-    Flag,
-    U8,
-    I8,
-    U16,
-    I16,
-    U32,
-    I32,
-    U64,
-    I64,
-    Single,
-    Double,
+    Number(Read),
     Text,
-    /// ROS 1 `time` (unsigned) and `duration`: seconds and nanoseconds.
-    Time {
-        signed: bool,
-    },
     Message(usize),
 }
 
@@ -121,31 +110,24 @@ impl Decoder {
     }
 
     fn read(&self, data: &[u8], budget: &mut Budget, put: &mut dyn FnMut(&str, f64)) -> Decoded {
-        let mut cursor = match self.wire {
-            Wire::Ros1 => Cursor {
-                data,
-                position: 0,
-                aligned: false,
-                big_endian: false,
-                long: false,
-                steps: 0,
-                budget,
-            },
+        let (data, big_endian) = match self.wire {
+            Wire::Ros1 => (data, false),
             Wire::Cdr => {
                 let (header, data) = data.split_first_chunk::<4>().ok_or(MALFORMED)?;
                 if header[0] != 0 || header[1] > 1 {
                     return Err("the CDR encapsulation is not plain CDR; the message was left out");
                 }
-                Cursor {
-                    data,
-                    position: 0,
-                    aligned: true,
-                    big_endian: header[1] == 0,
-                    long: false,
-                    steps: 0,
-                    budget,
-                }
+                (data, header[1] == 0)
             }
+        };
+        let mut cursor = Cursor {
+            data,
+            budget,
+            position: 0,
+            aligned: self.wire == Wire::Cdr,
+            big_endian,
+            long: false,
+            steps: 0,
         };
         self.message(0, &mut cursor, &mut String::new(), put, 0)?;
         if cursor.long {
@@ -192,7 +174,7 @@ impl Decoder {
                 return Err(MALFORMED);
             }
             let stem = path.len();
-            cursor.long |= count > LONGEST_ARRAY && field.kind != Kind::Text;
+            cursor.long |= count > LONGEST_ARRAY && !matches!(field.kind, Kind::Text);
             for index in 0..count {
                 if count > LONGEST_ARRAY {
                     self.value(field.kind, cursor, path, &mut |_: &str, _| {}, depth)?;
@@ -215,42 +197,17 @@ impl Decoder {
         put: &mut dyn FnMut(&str, f64),
         depth: usize,
     ) -> Decoded {
-        let value = match kind {
-            Kind::Flag => f64::from(u8::from(cursor.word::<1>()? != [0])),
-            Kind::U8 => f64::from(u8::from_ne_bytes(cursor.word()?)),
-            Kind::I8 => f64::from(i8::from_ne_bytes(cursor.word()?)),
-            Kind::U16 => f64::from(u16::from_ne_bytes(cursor.word()?)),
-            Kind::I16 => f64::from(i16::from_ne_bytes(cursor.word()?)),
-            Kind::U32 => f64::from(u32::from_ne_bytes(cursor.word()?)),
-            Kind::I32 => f64::from(i32::from_ne_bytes(cursor.word()?)),
-            Kind::U64 => u64::from_ne_bytes(cursor.word()?) as f64,
-            Kind::I64 => i64::from_ne_bytes(cursor.word()?) as f64,
-            Kind::Single => f64::from(f32::from_ne_bytes(cursor.word()?)),
-            Kind::Double => f64::from_ne_bytes(cursor.word()?),
+        match kind {
+            Kind::Number(read) => {
+                put(path, read(cursor)?);
+                Ok(())
+            }
             Kind::Text => {
                 let length = u32::from_ne_bytes(cursor.word()?) as usize;
-                return cursor.skip(length);
+                cursor.skip(length)
             }
-            Kind::Time { signed } => {
-                let (seconds, nanoseconds) = if signed {
-                    (
-                        f64::from(i32::from_ne_bytes(cursor.word()?)),
-                        f64::from(i32::from_ne_bytes(cursor.word()?)),
-                    )
-                } else {
-                    (
-                        f64::from(u32::from_ne_bytes(cursor.word()?)),
-                        f64::from(u32::from_ne_bytes(cursor.word()?)),
-                    )
-                };
-                seconds + nanoseconds * 1e-9
-            }
-            Kind::Message(message) => {
-                return self.message(message, cursor, path, put, depth + 1);
-            }
-        };
-        put(path, value);
-        Ok(())
+            Kind::Message(message) => self.message(message, cursor, path, put, depth + 1),
+        }
     }
 }
 
@@ -329,30 +286,44 @@ fn field(
         return None;
     }
     let element = element.split("<=").next().unwrap_or_default();
-    let kind = match element {
-        "bool" => Kind::Flag,
-        "uint8" | "byte" => Kind::U8,
-        // ROS 1's deprecated `char` is unsigned, and ROS 2 kept that.
-        "char" => Kind::U8,
-        "int8" => Kind::I8,
-        "uint16" => Kind::U16,
-        "int16" => Kind::I16,
-        "uint32" => Kind::U32,
-        "int32" => Kind::I32,
-        "uint64" => Kind::U64,
-        "int64" => Kind::I64,
-        "float32" => Kind::Single,
-        "float64" => Kind::Double,
-        "string" => Kind::Text,
-        "time" if wire == Wire::Ros1 => Kind::Time { signed: false },
-        "duration" if wire == Wire::Ros1 => Kind::Time { signed: true },
-        other => Kind::Message(resolve(other, package, names)?),
+    let kind = match number(element, wire) {
+        Some(read) => Kind::Number(read),
+        None if element == "string" => Kind::Text,
+        None => Kind::Message(resolve(element, package, names)?),
     };
     Some(Some(Field {
         name: name.to_owned(),
         kind,
         count,
     }))
+}
+
+/// How a built-in type is read; `None` for any other.
+fn number(name: &str, wire: Wire) -> Option<Read> {
+    Some(match name {
+        "bool" => |cursor| Ok(f64::from(u8::from(cursor.word::<1>()? != [0]))),
+        // ROS 1's deprecated `char` is unsigned, and ROS 2 kept that.
+        "uint8" | "byte" | "char" => |cursor| Ok(u8::from_ne_bytes(cursor.word()?).into()),
+        "int8" => |cursor| Ok(i8::from_ne_bytes(cursor.word()?).into()),
+        "uint16" => |cursor| Ok(u16::from_ne_bytes(cursor.word()?).into()),
+        "int16" => |cursor| Ok(i16::from_ne_bytes(cursor.word()?).into()),
+        "uint32" => |cursor| Ok(u32::from_ne_bytes(cursor.word()?).into()),
+        "int32" => |cursor| Ok(i32::from_ne_bytes(cursor.word()?).into()),
+        "uint64" => |cursor| Ok(u64::from_ne_bytes(cursor.word()?) as f64),
+        "int64" => |cursor| Ok(i64::from_ne_bytes(cursor.word()?) as f64),
+        "float32" => |cursor| Ok(f32::from_ne_bytes(cursor.word()?).into()),
+        "float64" => |cursor| Ok(f64::from_ne_bytes(cursor.word()?)),
+        // Seconds and nanoseconds.
+        "time" if wire == Wire::Ros1 => |cursor| {
+            let seconds = f64::from(u32::from_ne_bytes(cursor.word()?));
+            Ok(seconds + f64::from(u32::from_ne_bytes(cursor.word()?)) * 1e-9)
+        },
+        "duration" if wire == Wire::Ros1 => |cursor| {
+            let seconds = f64::from(i32::from_ne_bytes(cursor.word()?));
+            Ok(seconds + f64::from(i32::from_ne_bytes(cursor.word()?)) * 1e-9)
+        },
+        _ => return None,
+    })
 }
 
 fn resolve(name: &str, package: &str, names: &HashMap<String, usize>) -> Option<usize> {

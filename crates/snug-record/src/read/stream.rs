@@ -10,11 +10,12 @@ use std::ops::ControlFlow;
 use std::rc::Rc;
 
 /// How much of the file could be read.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub enum Completeness {
     /// Everything, up to the footer.
     Complete,
     /// The file ends early, as after a killed run or a broken copy; everything before the cut was read.
+    #[default]
     Truncated,
     /// A record or chunk is damaged; everything before it was read, and nothing of a chunk whose checksum is wrong.
     Damaged {

@@ -8,7 +8,7 @@ use std::fmt::{Display, Formatter};
 const MOST_REASONS: usize = 100;
 
 /// What was saved of a recording, and what is missing. Its text is a few lines for a person.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Recovery {
     /// Nothing was missing, the index included; what was written is a copy.
     pub was_complete: bool,
@@ -51,28 +51,6 @@ pub struct LeftOut {
     pub count: u64,
     /// Their bytes, as the file has them.
     pub bytes: u64,
-}
-
-impl Default for Recovery {
-    fn default() -> Self {
-        Self {
-            was_complete: false,
-            completeness: Completeness::Truncated,
-            data_complete: false,
-            messages: 0,
-            torn_messages: 0,
-            attachments: 0,
-            metadata: 0,
-            dropped_bytes: 0,
-            left_out: Vec::new(),
-            tightenings: 0,
-            last_tightening: None,
-            incomplete_tightenings: Vec::new(),
-            files: 0,
-            last_file: None,
-            incomplete_files: Vec::new(),
-        }
-    }
 }
 
 impl Recovery {

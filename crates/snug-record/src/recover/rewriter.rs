@@ -8,11 +8,11 @@ use crate::read::content::{Attachment, Channel, Header, Message, Metadata, Schem
 use crate::read::fault::Fault;
 use crate::read::records::framed;
 use crate::topic;
-use crate::until_failure::UntilFailure;
+use crate::until_failure::{self, LastingWriter, UntilFailure};
+use mcap::McapError;
 use mcap::records::{MessageHeader, op};
 use mcap::write::NoSeek;
 use mcap::write::PrivateRecordOptions::IncludeInChunks;
-use mcap::{McapError, WriteOptions, Writer};
 use std::borrow::Cow;
 use std::collections::HashMap;
 use std::io::Write;
@@ -107,19 +107,16 @@ impl<'a> Repeated<'a> {
         let mut repeated = Self::default();
         let mut summary = index::summary(file).unwrap_or_default();
         while let Some((opcode, body)) = framed(&mut summary) {
-            match opcode {
-                op::SCHEMA => {
-                    if let Ok(schema) = Schema::read(body) {
-                        repeated.schemas.insert(schema.id, body);
-                    }
-                }
-                op::CHANNEL => {
-                    if let Ok(channel) = Channel::read(body) {
-                        let declared = (channel.schema_id, body);
-                        repeated.channels.insert(channel.id, declared);
-                    }
-                }
-                _ => {}
+            if opcode == op::SCHEMA
+                && let Ok(schema) = Schema::read(body)
+            {
+                repeated.schemas.insert(schema.id, body);
+            }
+            if opcode == op::CHANNEL
+                && let Ok(channel) = Channel::read(body)
+            {
+                let declared = (channel.schema_id, body);
+                repeated.channels.insert(channel.id, declared);
             }
         }
         repeated
@@ -127,7 +124,7 @@ impl<'a> Repeated<'a> {
 }
 
 pub(super) struct Rewriter<'a, W: Write> {
-    writer: Writer<NoSeek<UntilFailure<W>>>,
+    writer: LastingWriter<W>,
     budget: Budget,
     library: String,
     repeated: Repeated<'a>,
@@ -146,12 +143,8 @@ impl<'a, W: Write> Rewriter<'a, W> {
             Some((op::HEADER, body)) => Header::read(body).unwrap_or_default(),
             _ => Header::default(),
         };
-        let writer = WriteOptions::new()
+        let writer = until_failure::options(CHUNK_BYTES)
             .compression(Some(mcap::Compression::Zstd))
-            .compression_level(1)
-            .compression_threads(0)
-            .chunk_size(Some(CHUNK_BYTES))
-            .disable_seeking(true)
             .profile(header.profile)
             .library(concat!(
                 "snug-record ",
@@ -215,17 +208,12 @@ impl<'a, W: Write> Rewriter<'a, W> {
         let Some(written) = self.channel_numbers.take(channel.id) else {
             return Err(Unwritten::LeftOut("more than 65536 channels".to_owned()));
         };
-        let metadata = channel
-            .metadata
-            .iter()
-            .map(|(name, text)| (name.to_owned(), text.to_owned()))
-            .collect();
         self.writer.add_channel_with_id(
             written,
             schema_id,
             channel.topic,
             channel.message_encoding,
-            &metadata,
+            &channel.metadata.to_map(),
         )?;
         let declared = Declared {
             written,
@@ -291,11 +279,7 @@ impl<'a, W: Write> Rewriter<'a, W> {
             .spend((metadata.name.len() + INDEX_BYTES) as u64)?;
         self.writer.write_metadata(&mcap::records::Metadata {
             name: metadata.name.to_owned(),
-            metadata: metadata
-                .entries
-                .iter()
-                .map(|(name, text)| (name.to_owned(), text.to_owned()))
-                .collect(),
+            metadata: metadata.entries.to_map(),
         })?;
         Ok(())
     }
@@ -349,10 +333,8 @@ impl<'a, W: Write> Rewriter<'a, W> {
         Ok(())
     }
 
-    pub(super) fn finish(mut self) -> Result<(), RecordError> {
-        self.writer.finish()?;
-        let mut inner = self.writer.into_inner().into_inner().into_inner();
-        inner.flush().map_err(McapError::from)?;
+    pub(super) fn finish(self) -> Result<(), RecordError> {
+        until_failure::finish(self.writer)?;
         Ok(())
     }
 }

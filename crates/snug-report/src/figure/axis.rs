@@ -13,6 +13,16 @@ pub struct Tick {
     pub heading: bool,
 }
 
+impl Tick {
+    fn new(at: f64, text: String) -> Self {
+        Self {
+            at,
+            text,
+            heading: false,
+        }
+    }
+}
+
 /// One axis: a range of data coordinates, its ticks and its label with unit.
 #[derive(Debug, Clone)]
 pub struct Axis {
@@ -187,11 +197,7 @@ fn round_ticks(low: f64, high: f64, count: usize) -> Vec<Tick> {
     (first..=last)
         .map(|multiple| {
             let at = multiple as f64 * step;
-            Tick {
-                at,
-                text: fixed(at / 10f64.powi(power), decimals),
-                heading: false,
-            }
+            Tick::new(at, fixed(at / 10f64.powi(power), decimals))
         })
         .collect()
 }
@@ -205,11 +211,7 @@ fn decade_ticks(low: f64, high: f64) -> Vec<Tick> {
         .filter(|(_, factor)| !wide || *factor == 1.0)
         .map(|(power, factor)| factor * 10f64.powi(power))
         .filter(|at| (low * (1.0 - 1e-9)..=high * (1.0 + 1e-9)).contains(at))
-        .map(|at| Tick {
-            at,
-            text: short(at),
-            heading: false,
-        })
+        .map(|at| Tick::new(at, short(at)))
         .collect()
 }
 

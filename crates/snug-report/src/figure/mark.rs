@@ -31,57 +31,35 @@ pub struct Segment {
     pub y: (f64, f64),
 }
 
-/// One layer of a figure. `class` names the colour in the page's style.
+/// One layer of a figure: the class that names its colour in the page's style, and what is drawn.
 pub enum Mark {
-    /// A line through points; it breaks where a value is missing.
-    Line {
-        /// Style class.
-        class: &'static str,
-        /// Points in order; `None` breaks the line.
-        points: Vec<Option<(f64, f64)>>,
-    },
-    /// The area between two lines.
-    Band {
-        /// Style class.
-        class: &'static str,
-        /// Lower edge, from left to right.
-        low: Vec<(f64, f64)>,
-        /// Upper edge, from left to right.
-        high: Vec<(f64, f64)>,
-    },
+    /// A line through points in order; `None` breaks it.
+    Line(&'static str, Vec<Option<(f64, f64)>>),
+    /// The area between a lower and an upper edge, both from left to right.
+    Band(&'static str, Vec<(f64, f64)>, Vec<(f64, f64)>),
     /// Points.
-    Dots {
-        /// Style class.
-        class: &'static str,
-        /// The points.
-        dots: Vec<Dot>,
-    },
+    Dots(&'static str, Vec<Dot>),
     /// Rectangles.
-    Bars {
-        /// Style class.
-        class: &'static str,
-        /// The rectangles.
-        bars: Vec<Bar>,
-    },
+    Bars(&'static str, Vec<Bar>),
     /// Straight lines, for whiskers and rules.
-    Segments {
-        /// Style class.
-        class: &'static str,
-        /// The lines.
-        segments: Vec<Segment>,
-    },
+    Segments(&'static str, Vec<Segment>),
 }
 
 impl Mark {
+    /// A single straight line between two points, in the units of the axes.
+    pub fn rule(class: &'static str, x: (f64, f64), y: (f64, f64)) -> Self {
+        Self::Segments(class, vec![Segment { x, y }])
+    }
+
     pub(super) fn svg(&self, frame: &Frame) -> Markup {
         match self {
-            Self::Line { class, points } => html! {
+            Self::Line(class, points) => html! {
                 path.line.(class) d=(line_path(points, frame)) {}
             },
-            Self::Band { class, low, high } => html! {
+            Self::Band(class, low, high) => html! {
                 path.area.(class) d=(area_path(low, high, frame)) {}
             },
-            Self::Dots { class, dots } => html! {
+            Self::Dots(class, dots) => html! {
                 g.dots.(class) {
                     @for dot in dots.iter().filter(|dot| finite(&[dot.x, dot.y])) {
                         circle cx=(pixel(frame.x(dot.x))) cy=(pixel(frame.y(dot.y))) r="3.2" {
@@ -90,10 +68,10 @@ impl Mark {
                     }
                 }
             },
-            Self::Bars { class, bars } => html! {
+            Self::Bars(class, bars) => html! {
                 g.bars.(class) { @for bar in bars.iter().filter(|bar| finite(&[bar.x.0, bar.x.1, bar.y.0, bar.y.1])) { (bar_svg(bar, frame)) } }
             },
-            Self::Segments { class, segments } => html! {
+            Self::Segments(class, segments) => html! {
                 path.segments.(class) d=(segment_path(segments, frame)) {}
             },
         }

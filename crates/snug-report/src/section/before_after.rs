@@ -1,46 +1,34 @@
 //! What the final model gained on one tightening: curves to zoom into, or still ones where no script runs.
 
-use super::DiagnosisSection;
+use super::{Render, Section};
+use crate::curves::{
+    self, Curves, DIGITS, STILL_POINTS, Series, Values, embedded, steps, time_unit,
+};
 use crate::decimation;
-use crate::figure::{Axis, Bar, Figure, Mark, captioned, legend, linear_range};
 use crate::number::{drawn, significant};
-use crate::traces_json::embedded;
 use maud::{Markup, PreEscaped, html};
 use serde_json::json;
 use snug_campaign::{CampaignResult, Diagnosis, NORMAL_95, Quantity, Showcase};
 
 /// One tightening with the study's own model and with the final one.
-pub const SECTION: DiagnosisSection = DiagnosisSection {
+pub const SECTION: Section = Section {
     anchor: "before-after",
     short_title: "Before and after",
     title: "Before and after",
-    render,
+    render: Render::Diagnosed(render),
 };
 
-/// Points of a line in the interactive picture, and in the still one.
+/// Points of a line in the interactive picture.
 const POINTS: usize = 1200;
-const STILL_POINTS: usize = 400;
-const DIGITS: i32 = 6;
 
-/// A panel: its heading, axis, signals, and the noise band behind a residual.
-struct Panel {
-    title: String,
-    axis: String,
-    lines: Vec<Line>,
-    band: Option<f64>,
-}
+/// A panel whose curves hold all their samples.
+type Panel = curves::Panel<Vec<f64>>;
 
-struct Line {
-    label: &'static str,
-    class: &'static str,
-    values: Vec<f64>,
-}
-
-fn line(label: &'static str, class: &'static str, values: &[f64]) -> Line {
-    Line {
+fn line(label: &'static str, class: &'static str, values: &[f64]) -> Series<Vec<f64>> {
+    Series {
         label,
         class,
-        values: values.to_vec(),
+        source: values.to_vec(),
     }
 }
 
@@ -52,25 +40,17 @@ fn render(diagnosis: &Diagnosis, _: &CampaignResult) -> Option<Markup> {
     }
     let interval_s = showcase.after.time_base.interval_s;
     let length = showcase.after.torque_nm.len();
-    let (unit, per_second) = if length as f64 * interval_s <= 2.0 {
-        ("ms", 1000.0)
-    } else {
-        ("s", 1.0)
-    };
+    let (unit, per_second) = time_unit(length as f64 * interval_s);
     let kept_samples = kept(&panels, POINTS);
-    let mut previous = 0;
-    let steps: Vec<usize> = kept_samples
-        .iter()
-        .map(|index| index - std::mem::replace(&mut previous, *index))
-        .collect();
+    let noise = noise(diagnosis);
     let data = json!({
-        "panels": panels.iter().map(panel_json).collect::<Vec<_>>(),
+        "panels": panels.iter().map(Panel::json).collect::<Vec<_>>(),
         "examples": [{
             "step": interval_s * per_second,
             "unit": unit,
-            "steps": steps,
+            "steps": steps(&kept_samples),
             "signals": panels.iter().map(|panel| signals(panel, &kept_samples)).collect::<Vec<_>>(),
-            "noise": panels.iter().find_map(|panel| panel.band),
+            "noise": noise.filter(|_| panels.iter().any(|panel| panel.residual)),
         }],
     });
     let still_kept = kept(&panels, STILL_POINTS);
@@ -80,7 +60,7 @@ fn render(diagnosis: &Diagnosis, _: &CampaignResult) -> Option<Markup> {
         p.help.scripted { "Point at a curve to read values; drag across to zoom, double-click to see all again." }
         div.viewer data-viewer="showcase-data" {
             div.figures {
-                @for panel in &panels { (still(panel, &still_kept, interval_s * per_second, unit)) }
+                @for panel in &panels { (still(panel, &still_kept, interval_s * per_second, unit, noise)) }
             }
         }
         script type="application/json" id="showcase-data" { (PreEscaped(embedded(&data))) }
@@ -88,21 +68,17 @@ fn render(diagnosis: &Diagnosis, _: &CampaignResult) -> Option<Markup> {
 }
 
 fn panels(diagnosis: &Diagnosis, showcase: &Showcase) -> Vec<Panel> {
-    [
-        Quantity::Displacement,
-        Quantity::Velocity,
-        Quantity::Acceleration,
-    ]
-    .into_iter()
-    .flat_map(|quantity| {
-        let compared = diagnosis.compared_output.contains(quantity.name());
-        // Velocity is drawn only where it is what is compared.
-        if quantity == Quantity::Velocity && !compared {
-            return vec![];
-        }
-        of_quantity(diagnosis, showcase, quantity).unwrap_or_default()
-    })
-    .collect()
+    Quantity::ALL
+        .into_iter()
+        .flat_map(|quantity| {
+            let compared = diagnosis.compared_output.contains(quantity.name());
+            // Velocity is drawn only where it is what is compared.
+            if quantity == Quantity::Velocity && !compared {
+                return vec![];
+            }
+            of_quantity(diagnosis, showcase, quantity).unwrap_or_default()
+        })
+        .collect()
 }
 
 fn of_quantity(
@@ -121,18 +97,12 @@ fn of_quantity(
     let residual = |simulated: &[f64]| -> Vec<f64> {
         measured.iter().zip(simulated).map(|(y, s)| y - s).collect()
     };
-    let noise = diagnosis
-        .noise
-        .acceleration_rad_per_s2
-        .filter(|noise| quantity == Quantity::Acceleration && noise.is_finite());
+    let name = crate::quantity::capitalised(quantity.name());
     Some(vec![
         Panel {
-            title: format!(
-                "{}: model and measurement",
-                crate::quantity::capitalised(quantity.name())
-            ),
+            title: format!("{name}: model and measurement"),
             axis: format!("{symbol} [{unit}]"),
-            lines: vec![
+            series: vec![
                 line(
                     "measured",
                     if quantity == Quantity::Displacement {
@@ -145,114 +115,66 @@ fn of_quantity(
                 line("before", "c-rejected", before),
                 line("after", "c-simulated", after),
             ],
-            band: None,
+            residual: false,
         },
         Panel {
-            title: format!(
-                "{}: what is left over",
-                crate::quantity::capitalised(quantity.name())
-            ),
+            title: format!("{name}: what is left over"),
             axis: format!("measured − simulated [{unit}]"),
-            lines: vec![
+            series: vec![
                 line("before", "c-rejected", &residual(before)),
                 line("after", "c-simulated", &residual(after)),
             ],
-            band: noise.map(|noise| NORMAL_95 * noise),
+            residual: quantity == Quantity::Acceleration && noise(diagnosis).is_some(),
         },
     ])
+}
+
+/// 95 % of the noise of the acceleration to either side, where it is known.
+fn noise(diagnosis: &Diagnosis) -> Option<f64> {
+    let noise = diagnosis.noise.acceleration_rad_per_s2;
+    noise
+        .filter(|noise| noise.is_finite())
+        .map(|noise| NORMAL_95 * noise)
 }
 
 /// Samples that keep the shape of every line.
 fn kept(panels: &[Panel], points: usize) -> Vec<usize> {
     let lines: Vec<&[f64]> = panels
         .iter()
-        .flat_map(|panel| panel.lines.iter().map(|line| line.values.as_slice()))
+        .flat_map(|panel| panel.series.iter().map(|line| line.source.as_slice()))
         .collect();
     // The last panel's first line is the noisiest: a residual.
     let leading = panels
         .last()
-        .and_then(|panel| panel.lines.first())
-        .map_or(&[][..], |line| line.values.as_slice());
+        .and_then(|panel| panel.series.first())
+        .map_or(&[][..], |line| line.source.as_slice());
     decimation::indices(leading, &lines, points)
 }
 
-fn panel_json(panel: &Panel) -> serde_json::Value {
-    let series: Vec<serde_json::Value> = panel
-        .lines
-        .iter()
-        .map(|line| json!({ "label": line.label, "class": line.class }))
-        .collect();
-    json!({ "title": panel.title, "axis": panel.axis, "series": series, "residual": panel.band.is_some() })
-}
-
-fn signals(panel: &Panel, kept: &[usize]) -> Vec<Vec<Option<f64>>> {
-    panel
-        .lines
-        .iter()
-        .map(|line| {
-            kept.iter()
-                .map(|index| {
-                    line.values
-                        .get(*index)
-                        .and_then(|value| drawn(*value, DIGITS))
-                })
-                .collect()
-        })
-        .collect()
+fn signals(panel: &Panel, kept: &[usize]) -> Vec<Option<Values>> {
+    let values = |line: &Series<Vec<f64>>| {
+        let kept = kept.iter().map(|index| line.source.get(*index));
+        kept.map(|value| drawn(*value?, DIGITS)).collect()
+    };
+    panel.series.iter().map(|line| Some(values(line))).collect()
 }
 
 /// A panel without JavaScript.
-fn still(panel: &Panel, kept: &[usize], step: f64, unit: &str) -> Markup {
-    let values = signals(panel, kept);
-    let all = values.iter().flatten().flatten().copied();
-    let (low, high) = linear_range(all.chain(panel.band.iter().flat_map(|b| [-b, *b])), 0.05);
-    let end = kept.last().map_or(1.0, |last| *last as f64 * step);
-    let mut marks: Vec<Mark> = panel
-        .band
-        .map(|band| Mark::Bars {
-            class: "c-band",
-            bars: vec![Bar {
-                x: (0.0, end),
-                y: (-band, band),
-                title: format!("95 % of the noise: ±{} rad/s²", significant(band, 2)),
-            }],
-        })
-        .into_iter()
-        .collect();
-    marks.extend(panel.lines.iter().zip(values).map(|(line, values)| {
-        Mark::Line {
-            class: line.class,
-            points: kept
-                .iter()
-                .zip(values)
-                .map(|(index, value)| value.map(|value| (*index as f64 * step, value)))
-                .collect(),
-        }
-    }));
-    let figure = Figure {
+fn still(
+    panel: &Panel,
+    kept: &[usize],
+    step: f64,
+    time_unit: &'static str,
+    noise: Option<f64>,
+) -> Markup {
+    panel.still(Curves {
         description: panel.title.clone(),
-        width: 520.0,
-        height: 260.0,
-        x: Axis::linear(
-            format!("time since the window's start [{unit}]"),
-            0.0,
-            end,
-            6,
-        ),
-        y: Axis::linear(&panel.axis, low, high, 5),
-        marks,
-    };
-    let mut entries: Vec<(&str, &str)> = panel
-        .lines
-        .iter()
-        .map(|line| (line.class, line.label))
-        .collect();
-    if panel.band.is_some() {
-        entries.push(("c-band", "95 % of the noise"));
-    }
-    captioned(
-        &panel.title,
-        html! { div data-panel="" { (figure.svg()) (legend(&entries)) } },
-        None,
-    )
+        times: kept.iter().map(|index| *index as f64 * step).collect(),
+        time_unit,
+        values: signals(panel, kept),
+        noise,
+        noise_title: noise.map_or_else(String::new, |noise| {
+            format!("95 % of the noise: ±{} rad/s²", significant(noise, 2))
+        }),
+    })
 }

@@ -1,18 +1,18 @@
 //! Tables of the misfit in units, in percent and in multiples of the noise, for all tightenings together and for each.
 
-use super::DiagnosisSection;
-use crate::number::{drawn, plain, significant};
+use super::{Render, Section, headings};
+use crate::number::{plain, sortable};
 use crate::quantity;
 use maud::{Markup, html};
 use snug_campaign::words::effect_name::unit_text;
 use snug_campaign::{CampaignResult, Comparison, Diagnosis, Misfit, TighteningMisfit};
 
 /// Model against measurement, pooled and tightening by tightening.
-pub const SECTION: DiagnosisSection = DiagnosisSection {
+pub const SECTION: Section = Section {
     anchor: "comparison",
     short_title: "Comparison",
     title: "Model against measurement",
-    render,
+    render: Render::Diagnosed(render),
 };
 
 /// Rows of the table of tightenings; `verdict.json` holds all.
@@ -36,10 +36,7 @@ fn pooled(comparison: &Comparison) -> Markup {
     html! {
         div.scroll { table {
             caption { "All tightenings together" }
-            thead { tr {
-                th scope="col" { "quantity" }
-                @for heading in ["rms error", "largest error", "error [% of the signal]", "fit [%]", "error over noise [×]"] { th scope="col" { (heading) } }
-            } }
+            (headings(&["quantity", "rms error", "largest error", "error [% of the signal]", "fit [%]", "error over noise [×]"]))
             tbody { @for misfit in &comparison.pooled { tr {
                 th scope="row" { (quantity::capitalised(&misfit.quantity)) }
                 td { (with_unit(misfit.rms, misfit)) }
@@ -89,27 +86,14 @@ fn each(comparison: &Comparison) -> Markup {
 }
 
 fn row(tightening: &TighteningMisfit, columns: &[Misfit]) -> Markup {
+    let why = "could not be compared";
     html! { tr {
         th scope="row" { (tightening.id) }
         @for column in columns {
             @let misfit = tightening.misfits.iter().find(|misfit| misfit.quantity == column.quantity);
-            (number(misfit.map(|misfit| misfit.rms), 3))
-            (number(misfit.and_then(|misfit| misfit.fit_percent), 4))
-            @if column.over_noise.is_some() { (number(misfit.and_then(|misfit| misfit.over_noise), 4)) }
+            (sortable(misfit.map(|misfit| misfit.rms), 3, why))
+            (sortable(misfit.and_then(|misfit| misfit.fit_percent), 4, why))
+            @if column.over_noise.is_some() { (sortable(misfit.and_then(|misfit| misfit.over_noise), 4, why)) }
         }
     } }
-}
-
-fn number(value: Option<f64>, digits: i32) -> Markup {
-    let key = value
-        .and_then(|value| drawn(value, 6))
-        .map(|value| value.to_string());
-    html! {
-        td data-v=[key] {
-            @match value.filter(|value| value.is_finite()) {
-                Some(value) => (significant(value, digits)),
-                None => (plain(None, digits, "could not be compared")),
-            }
-        }
-    }
 }

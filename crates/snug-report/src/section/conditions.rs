@@ -1,7 +1,8 @@
 //! Groups side by side: mean, interval and spread of every quantity per level of every factor, drawn and as tables.
 
-use super::{Section, factors, nothing};
+use super::{Render, Section, factors, nothing};
 use crate::figure::{Axis, Dot, Figure, Mark, Segment, captioned, legend, linear_range};
+use crate::grouping::first_seen;
 use crate::number::{missing, percent, percent_interval, rounded, share, significant};
 use crate::quantity;
 use maud::{Markup, html};
@@ -12,7 +13,7 @@ pub const SECTION: Section = Section {
     anchor: "conditions",
     short_title: "Conditions",
     title: "Means and spreads per condition",
-    render,
+    render: Render::Always(render),
 };
 
 type Side = fn(&QuantitySummary) -> Option<&Moments>;
@@ -60,17 +61,11 @@ fn drawings(quantities: &[&str], result: &CampaignResult) -> Markup {
 
 /// The quantities that stand in the table, in order of first appearance.
 fn quantities(result: &CampaignResult) -> Vec<&str> {
-    let mut columns: Vec<&str> = Vec::new();
-    for row in result
+    let rows = result
         .conditions
         .iter()
-        .flat_map(|summary| &summary.quantities)
-    {
-        if !columns.contains(&row.quantity.as_str()) {
-            columns.push(&row.quantity);
-        }
-    }
-    columns
+        .flat_map(|summary| &summary.quantities);
+    first_seen(rows.map(|row| row.quantity.as_str()))
 }
 
 fn moments<'a>(summary: &'a ConditionSummary, column: &str, side: Side) -> Option<&'a Moments> {
@@ -221,17 +216,8 @@ fn marks(placed: &[Placed<'_>], (low, high): (f64, f64), unit: &str) -> Vec<Mark
         }
     });
     vec![
-        Mark::Segments {
-            class: "c-quiet",
-            segments: spreads.collect(),
-        },
-        Mark::Segments {
-            class: "thick c-selected",
-            segments: intervals.collect(),
-        },
-        Mark::Dots {
-            class: "c-selected",
-            dots: dots.collect(),
-        },
+        Mark::Segments("c-quiet", spreads.collect()),
+        Mark::Segments("thick c-selected", intervals.collect()),
+        Mark::Dots("c-selected", dots.collect()),
     ]
 }

@@ -1,7 +1,8 @@
 //! Which sensor errors were taken out, how large they were, and whether chance alone could make them so.
 
-use super::{Section, nothing};
+use super::{Render, Section, headings, nothing};
 use crate::figure::{Axis, Dot, Figure, Mark, Segment, captioned, legend, linear_range};
+use crate::grouping::grouped;
 use crate::number::{missing, percent, share, significant};
 use crate::quartiles::Quartiles;
 use maud::{Markup, html};
@@ -13,17 +14,14 @@ pub const SECTION: Section = Section {
     anchor: "corrections",
     short_title: "Corrections",
     title: "What was corrected before the fit",
-    render,
+    render: Render::Always(render),
 };
 
 /// Beyond this many tightenings a figure shows every n-th.
 const DRAWN: usize = 400;
 
 /// One sensor error over the campaign: the tightenings' index and correction.
-struct Corrected<'a> {
-    effect: &'a str,
-    sizes: Vec<(usize, &'a Correction)>,
-}
+type Corrected<'a> = (&'a str, Vec<(usize, &'a Correction)>);
 
 fn render(result: &CampaignResult) -> Markup {
     let corrected = corrected(result);
@@ -39,15 +37,8 @@ fn render(result: &CampaignResult) -> Markup {
         }
         div.scroll { table {
             caption { "Corrections over all tightenings" }
-            thead { tr {
-                th scope="col" { "sensor error" }
-                th scope="col" { "significant in" }
-                th scope="col" { "typical size (median of |size|)" }
-                th scope="col" { "from" }
-                th scope="col" { "to" }
-                th scope="col" { "standard error (median)" }
-                th scope="col" { "unit" }
-            } }
+            (headings(&["sensor error", "significant in", "typical size (median of |size|)", "from", "to",
+                "standard error (median)", "unit"]))
             tbody { @for row in &corrected { (table_row(row)) } }
         } }
         div.figures { @for row in &corrected { (drawing(row, result)) } }
@@ -55,74 +46,60 @@ fn render(result: &CampaignResult) -> Markup {
 }
 
 fn corrected(result: &CampaignResult) -> Vec<Corrected<'_>> {
-    let mut rows: Vec<Corrected> = Vec::new();
-    for (index, tightening) in result.tightenings.iter().enumerate() {
-        for correction in &tightening.corrections {
-            match rows.iter_mut().find(|row| row.effect == correction.effect) {
-                Some(row) => row.sizes.push((index, correction)),
-                None => rows.push(Corrected {
-                    effect: &correction.effect,
-                    sizes: vec![(index, correction)],
-                }),
-            }
-        }
-    }
-    rows
+    let tightenings = result.tightenings.iter().enumerate();
+    grouped(tightenings.flat_map(|(index, tightening)| {
+        let corrections = tightening.corrections.iter();
+        corrections.map(move |correction| (correction.effect.as_str(), (index, correction)))
+    }))
 }
 
-fn table_row(row: &Corrected) -> Markup {
-    let significant_count = row.sizes.iter().filter(|(_, c)| c.significant).count();
-    let sizes = Quartiles::of(row.sizes.iter().map(|(_, c)| c.value));
-    let magnitude = Quartiles::of(row.sizes.iter().map(|(_, c)| c.value.abs()));
-    let errors = Quartiles::of(row.sizes.iter().map(|(_, c)| c.standard_error));
+fn table_row((effect, sizes): &Corrected) -> Markup {
+    let significant_count = sizes.iter().filter(|(_, c)| c.significant).count();
+    let spread = Quartiles::of(sizes.iter().map(|(_, c)| c.value));
+    let magnitude = Quartiles::of(sizes.iter().map(|(_, c)| c.value.abs()));
+    let errors = Quartiles::of(sizes.iter().map(|(_, c)| c.standard_error));
     let shown = |value: Option<f64>| match value {
         Some(value) => html! { (significant(value, 3)) },
         None => missing("no finite size"),
     };
     html! { tr {
-        th scope="row" { (row.effect.replace('_', " ")) }
-        td { (significant_count) " of " (row.sizes.len())
-            " (" (percent(share(significant_count, row.sizes.len()).unwrap_or(f64::NAN))) ")" }
+        th scope="row" { (effect.replace('_', " ")) }
+        td { (significant_count) " of " (sizes.len())
+            " (" (percent(share(significant_count, sizes.len()).unwrap_or(f64::NAN))) ")" }
         td { (shown(magnitude.map(|q| q.median))) }
-        td { (shown(sizes.map(|q| q.minimum))) }
-        td { (shown(sizes.map(|q| q.maximum))) }
+        td { (shown(spread.map(|q| q.minimum))) }
+        td { (shown(spread.map(|q| q.maximum))) }
         td { (shown(errors.map(|q| q.median))) }
-        td { (unit(row)) }
+        td { (unit(sizes)) }
     } }
 }
 
-fn unit(row: &Corrected) -> String {
-    row.sizes
+fn unit(sizes: &[(usize, &Correction)]) -> String {
+    sizes
         .first()
         .map_or_else(String::new, |(_, c)| unit_text(&c.unit))
 }
 
 /// Size with 95 % interval, tightening by tightening.
-fn drawing(row: &Corrected, result: &CampaignResult) -> Markup {
-    let every = row.sizes.len().div_ceil(DRAWN).max(1);
-    let drawn: Vec<(usize, &Correction)> = row.sizes.iter().step_by(every).copied().collect();
+fn drawing((effect, all): &Corrected, result: &CampaignResult) -> Markup {
+    let every = all.len().div_ceil(DRAWN).max(1);
+    let drawn: Vec<(usize, &Correction)> = all.iter().step_by(every).copied().collect();
     let ends = drawn
         .iter()
         .flat_map(|(_, correction)| [interval(correction).0, interval(correction).1, 0.0]);
     let (low, high) = linear_range(ends, 0.04);
     let last = result.tightenings.len() as f64 + 1.0;
-    let zero = Mark::Segments {
-        class: "c-zero",
-        segments: vec![Segment {
-            x: (0.0, last),
-            y: (0.0, 0.0),
-        }],
-    };
+    let zero = Mark::rule("c-zero", (0.0, last), (0.0, 0.0));
     let mut marks = vec![zero];
     marks.extend(sizes("c-quiet", &drawn, false, result));
     marks.extend(sizes("c-selected", &drawn, true, result));
-    let name = row.effect.replace('_', " ");
+    let name = effect.replace('_', " ");
     let figure = Figure {
         description: format!("{name} of every tightening with its 95 % interval"),
         width: 440.0,
         height: 230.0,
         x: Axis::linear("tightening, in campaign order", 0.0, last, 6),
-        y: Axis::linear(format!("{name} [{}]", unit(row)), low, high, 5),
+        y: Axis::linear(format!("{name} [{}]", unit(all)), low, high, 5),
         marks,
     };
     captioned(
@@ -171,13 +148,7 @@ fn sizes(
         ),
     });
     [
-        Mark::Segments {
-            class,
-            segments: segments.collect(),
-        },
-        Mark::Dots {
-            class,
-            dots: dots.collect(),
-        },
+        Mark::Segments(class, segments.collect()),
+        Mark::Dots(class, dots.collect()),
     ]
 }

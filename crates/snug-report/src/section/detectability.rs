@@ -1,6 +1,6 @@
 //! Limits of a diagnosis: how often it raises a false alarm, and from which size on an absent effect would show.
 
-use super::DiagnosisSection;
+use super::{Render, Section, headings};
 use crate::effect_words::{parameter_name, sentence};
 use crate::number::{percent, percent_interval, significant};
 use maud::{Markup, html};
@@ -8,11 +8,11 @@ use snug_campaign::words::effect_name::{effect_name, unit_text};
 use snug_campaign::{CampaignResult, Detectability, Diagnosis, Interval, NegativeControl};
 
 /// What would have been found, and how often something is found where nothing is.
-pub const SECTION: DiagnosisSection = DiagnosisSection {
+pub const SECTION: Section = Section {
     anchor: "detectability",
     short_title: "How sure",
     title: "How far to trust this",
-    render,
+    render: Render::Diagnosed(render),
 };
 
 fn render(diagnosis: &Diagnosis, result: &CampaignResult) -> Option<Markup> {
@@ -48,11 +48,7 @@ fn absent(list: &[Detectability], result: &CampaignResult) -> Markup {
         p { "Each effect was put into these data to see from which size on it would be found 95 times in 100. Beside it stands the \
             largest size that is physically plausible: where the first is much smaller, the effect can be ruled out for practical purposes." }
         div.scroll { table {
-            thead { tr {
-                th scope="col" { "effect" }
-                th scope="col" { "absent or smaller than" }
-                th scope="col" { "largest plausible" }
-            } }
+            (headings(&["effect", "absent or smaller than", "largest plausible"]))
             tbody { @for row in list { tr {
                 th scope="row" { (effect_name(&row.effect)) " " span.interval { (parameter_name(&row.meaning, &row.parameter, result)) } }
                 td {

@@ -1,6 +1,6 @@
 //! Quirks of the original program that move results. The numbers named here are fixed text: no run computes them.
 
-use super::{Section, nothing};
+use super::{Render, Section, nothing};
 use maud::{Markup, html};
 use snug_campaign::CampaignResult;
 
@@ -9,7 +9,7 @@ pub const SECTION: Section = Section {
     anchor: "deviations",
     short_title: "Thesis preset",
     title: "What the thesis preset does differently",
-    render,
+    render: Render::Always(render),
 };
 
 /// Each quirk of the original program that moves results: what it does, what snug does.

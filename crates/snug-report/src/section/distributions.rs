@@ -1,7 +1,7 @@
 //! Histograms around the bulk of the values; what lies beyond the axis is counted in words and squeezes nothing.
 
-use super::{Section, fitted, nothing};
-use crate::figure::{Axis, Bar, Figure, Mark, Segment, captioned, legend, round_step};
+use super::{Render, Section, fitted, nothing};
+use crate::figure::{Axis, Bar, Figure, Mark, captioned, legend, round_step};
 use crate::number::significant;
 use crate::quantity;
 use crate::quartiles::Quartiles;
@@ -15,7 +15,7 @@ pub const SECTION: Section = Section {
     anchor: "distributions",
     short_title: "Distributions",
     title: "Distributions of selected and rejected values",
-    render,
+    render: Render::Always(render),
 };
 
 /// About how many bars a histogram has.
@@ -101,13 +101,7 @@ fn histogram(column: &str, result: &CampaignResult) -> Option<Markup> {
         marks: vec![
             bars("c-selected", &edges, &above, 1.0, &name.unit),
             bars("c-rejected", &edges, &below, -1.0, &name.unit),
-            Mark::Segments {
-                class: "c-zero",
-                segments: vec![Segment {
-                    x: (edges.low, edges.high()),
-                    y: (0.0, 0.0),
-                }],
-            },
+            Mark::rule("c-zero", (edges.low, edges.high()), (0.0, 0.0)),
         ],
     };
     let note = (outside > 0).then(|| {
@@ -158,7 +152,7 @@ fn bars(class: &'static str, edges: &Edges, counts: &[usize], sign: f64, unit: &
             }
         })
         .collect();
-    Mark::Bars { class, bars }
+    Mark::Bars(class, bars)
 }
 
 /// Equally wide bins with round edges.

@@ -1,15 +1,15 @@
 //! Work counters instead of times: they are the same on every run, so that a slower diagnosis shows as a change.
 
-use super::DiagnosisSection;
+use super::{Render, Section};
 use maud::{Markup, html};
 use snug_campaign::{CampaignResult, Diagnosis, WorkDone};
 
 /// How much work the diagnosis was, where that was counted.
-pub const SECTION: DiagnosisSection = DiagnosisSection {
+pub const SECTION: Section = Section {
     anchor: "effort",
     short_title: "Work done",
     title: "How much work this was",
-    render,
+    render: Render::Diagnosed(render),
 };
 
 fn render(diagnosis: &Diagnosis, _result: &CampaignResult) -> Option<Markup> {

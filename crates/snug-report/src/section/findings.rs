@@ -1,18 +1,20 @@
 //! Findings by kind, the gravest first, so that a frequent remark does not hide a rare loss of data.
 
-use super::{Section, nothing};
+use super::{Render, Section, findings_of, nothing};
+use crate::grouping::grouped;
+use crate::json;
 use crate::number::missing;
-use crate::outcome::{severity_name, severity_words};
 use maud::{Markup, html};
 use snug_campaign::words::counted;
 use snug_campaign::{CampaignResult, Finding, Severity};
+use std::cmp::Reverse;
 
 /// What was left out, repaired or is worth knowing.
 pub const SECTION: Section = Section {
     anchor: "findings",
     short_title: "Findings",
     title: "Findings about the data",
-    render,
+    render: Render::Always(render),
 };
 
 /// Findings of one kind listed on the page; the file holds all.
@@ -22,52 +24,30 @@ fn render(result: &CampaignResult) -> Markup {
     if result.findings.is_empty() {
         return nothing("Nothing was left out, repaired or remarked on.");
     }
-    let count = |severity| {
-        result
-            .findings
-            .iter()
-            .filter(|finding| finding.severity == severity)
-            .count()
-    };
+    let count = |severity| counted(findings_of(result, severity), "finding");
     html! {
         p {
-            (counted(count(Severity::LeftOut), "finding")) " left data out, " (counted(count(Severity::Repaired), "finding"))
-            " repaired or corrected data, " (counted(count(Severity::Note), "finding")) " worth knowing changed nothing. findings.json lists all."
+            (count(Severity::LeftOut)) " left data out, " (count(Severity::Repaired))
+            " repaired or corrected data, " (count(Severity::Note)) " worth knowing changed nothing. findings.json lists all."
         }
-        @for (index, kind) in kinds(result).into_iter().enumerate() {
-            details open[index < 3 && kind.findings.len() <= 10] {
+        @for (index, ((severity, code), findings)) in kinds(result).into_iter().enumerate() {
+            details open[index < 3 && findings.len() <= 10] {
                 summary {
-                    span class=(format!("severity {}", severity_name(kind.severity))) { (severity_words(kind.severity)) }
-                    " " strong { (kind.code.replace('_', " ")) } " – " (counted(kind.findings.len(), "finding"))
+                    @let severity = json::name(severity);
+                    span class=(format!("severity {severity}")) { (severity.replace('_', " ")) }
+                    " " strong { (code.replace('_', " ")) } " – " (counted(findings.len(), "finding"))
                 }
-                (listing(&kind.findings))
+                (listing(&findings))
             }
         }
     }
 }
 
-struct Kind<'a> {
-    severity: Severity,
-    code: &'a str,
-    findings: Vec<&'a Finding>,
-}
-
-/// Findings by kind, the gravest first, then the most frequent.
-fn kinds(result: &CampaignResult) -> Vec<Kind<'_>> {
-    let mut kinds: Vec<Kind> = Vec::new();
-    for finding in &result.findings {
-        let same =
-            |kind: &&mut Kind| kind.code == finding.code && kind.severity == finding.severity;
-        match kinds.iter_mut().find(same) {
-            Some(kind) => kind.findings.push(finding),
-            None => kinds.push(Kind {
-                severity: finding.severity,
-                code: &finding.code,
-                findings: vec![finding],
-            }),
-        }
-    }
-    kinds.sort_by_key(|kind| std::cmp::Reverse((kind.severity, kind.findings.len())));
+/// Findings by severity and code, the gravest first, then the most frequent.
+fn kinds(result: &CampaignResult) -> Vec<((Severity, &str), Vec<&Finding>)> {
+    let findings = result.findings.iter();
+    let mut kinds = grouped(findings.map(|one| ((one.severity, one.code.as_str()), one)));
+    kinds.sort_by_key(|((severity, _), findings)| Reverse((*severity, findings.len())));
     kinds
 }
 

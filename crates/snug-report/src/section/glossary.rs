@@ -1,6 +1,6 @@
 //! Explains what the page calls things, and what T and θ stand for on a rig that is no nutrunner.
 
-use super::Section;
+use super::{Render, Section};
 use maud::{Markup, html};
 use snug_campaign::CampaignResult;
 
@@ -9,7 +9,7 @@ pub const SECTION: Section = Section {
     anchor: "glossary",
     short_title: "Glossary",
     title: "Terms, symbols and units",
-    render,
+    render: Render::Always(render),
 };
 
 const TERMS: &[(&str, &str)] = &[

@@ -1,12 +1,14 @@
 //! Whether data or constraints decided the estimates: how fits ended, interval widths, correlations, noise sources.
 
-use super::{Section, nothing};
+use super::{Render, Section, headings, nothing};
+use crate::grouping::grouped;
+use crate::json;
 use crate::number::{fixed, missing, percent, share, short, significant};
-use crate::outcome::{STATUSES, status_meaning, status_name};
+use crate::outcome::{STATUSES, status_meaning};
 use crate::quantity;
 use crate::quartiles::Quartiles;
 use maud::{Markup, html};
-use snug_campaign::{CampaignResult, Estimate, NoiseSource};
+use snug_campaign::{CampaignResult, Estimate, Interval, NoiseSource};
 use std::collections::BTreeMap;
 
 /// How identifications ended and how well the data determine the parameters.
@@ -14,7 +16,7 @@ pub const SECTION: Section = Section {
     anchor: "identifiability",
     short_title: "Identifiability",
     title: "How sure the estimates are",
-    render,
+    render: Render::Always(render),
 };
 
 fn render(result: &CampaignResult) -> Markup {
@@ -47,7 +49,7 @@ fn statuses(estimates: &[&Estimate]) -> Markup {
         tbody { @for status in STATUSES {
             @let count = estimates.iter().filter(|estimate| estimate.status == status).count();
             @if count > 0 { tr {
-                th scope="row" { (status_name(status).replace('_', " ")) }
+                th scope="row" { (json::name(status).replace('_', " ")) }
                 td { (count) " (" (percent(share(count, estimates.len()).unwrap_or(f64::NAN))) ")" }
                 td.words { (status_meaning(status)) }
             } }
@@ -69,7 +71,7 @@ fn constraints(estimates: &[&Estimate]) -> Markup {
         } @else {
             div.scroll { table {
                 caption { "Constraints that decided instead of the data" }
-                thead { tr { th scope="col" { "active constraint" } th scope="col" { "tightenings" } } }
+                (headings(&["active constraint", "tightenings"]))
                 tbody { @for (name, count) in active { tr {
                     th scope="row" { (name.replace('_', " ")) }
                     td { (count) " (" (percent(share(count, estimates.len()).unwrap_or(f64::NAN))) ")" }
@@ -81,31 +83,20 @@ fn constraints(estimates: &[&Estimate]) -> Markup {
 
 /// Half the interval in percent of the value, per parameter.
 fn certainty(estimates: &[&Estimate], result: &CampaignResult) -> Markup {
-    let mut widths: Vec<(&str, Vec<f64>)> = Vec::new();
-    for parameter in estimates.iter().flat_map(|estimate| &estimate.parameters) {
-        if !widths.iter().any(|(name, _)| *name == parameter.name) {
-            widths.push((&parameter.name, Vec::new()));
-        }
-        let Some(interval) = parameter.interval else {
-            continue;
-        };
-        let width = 50.0 * (interval.high - interval.low) / parameter.value.abs();
-        if let Some((_, values)) = widths.iter_mut().find(|(name, _)| *name == parameter.name) {
-            values.push(width);
-        }
-    }
+    let parameters = estimates.iter().flat_map(|estimate| &estimate.parameters);
+    let widths = grouped(parameters.map(|parameter| {
+        let width =
+            |interval: Interval| 50.0 * (interval.high - interval.low) / parameter.value.abs();
+        (parameter.name.as_str(), parameter.interval.map(width))
+    }));
     html! { div.scroll { table {
         caption { "Half the 95 % interval in percent of the value" }
-        thead { tr {
-            @for heading in ["parameter", "tightenings with interval", "median [%]", "middle half [%]", "widest [%]"] {
-                th scope="col" { (heading) }
-            }
-        } }
+        (headings(&["parameter", "tightenings with interval", "median [%]", "middle half [%]", "widest [%]"]))
         tbody { @for (name, values) in &widths {
-            @let spread = Quartiles::of(values.iter().copied());
+            @let spread = Quartiles::of(values.iter().flatten().copied());
             tr {
                 th scope="row" { (quantity::name(name, result).words) }
-                td { (values.len()) " of " (estimates.len()) }
+                td { (values.iter().flatten().count()) " of " (estimates.len()) }
                 @if let Some(spread) = spread {
                     td { (significant(spread.median, 2)) }
                     td { (significant(spread.low, 2)) " to " (significant(spread.high, 2)) }
@@ -130,9 +121,7 @@ fn correlations(estimates: &[&Estimate], result: &CampaignResult) -> Markup {
     html! { @if !pairs.is_empty() {
         div.scroll { table {
             caption { "The most correlated pair of parameters: near ±1 the data cannot tell the two apart" }
-            thead { tr {
-                @for heading in ["pair", "tightenings", "correlation, median", "from", "to"] { th scope="col" { (heading) } }
-            } }
+            (headings(&["pair", "tightenings", "correlation, median", "from", "to"]))
             tbody { @for ((first, second), values) in &pairs {
                 @let spread = Quartiles::of(values.iter().copied());
                 tr {

@@ -1,18 +1,18 @@
 //! Every model of the ladder with its error in fitted and in held-out data, and the share of tightenings it can use.
 
-use super::DiagnosisSection;
-use crate::figure::{Axis, Bar, Dot, Figure, Mark, Segment, captioned, legend};
+use super::{Render, Section};
+use crate::figure::{Axis, Bar, Dot, Figure, Mark, captioned, legend};
 use crate::number::{percent, plain, significant};
 use maud::{Markup, html};
 use snug_campaign::words::effect_name::{called_in, unit_text};
 use snug_campaign::{CampaignResult, Diagnosis, Rung, Verdict};
 
 /// How the error falls, effect by effect.
-pub const SECTION: DiagnosisSection = DiagnosisSection {
+pub const SECTION: Section = Section {
     anchor: "ladder",
     short_title: "Error ladder",
     title: "How the error falls",
-    render,
+    render: Render::Diagnosed(render),
 };
 
 const ROW: f64 = 46.0;
@@ -136,26 +136,16 @@ fn rows(names: &[String]) -> Axis {
     Axis::rows(&rows)
 }
 
-fn height(rungs: &[Rung]) -> f64 {
-    62.0 + ROW * rungs.len().max(2) as f64
+fn height(names: &[String]) -> f64 {
+    62.0 + ROW * names.len().max(2) as f64
 }
 
 fn error_figure(rungs: &[Rung], names: &[String]) -> Markup {
     let (low, high) = error_scale(rungs);
     let left = |rung: &Rung| rung.error_over_noise;
-    let floor = Segment {
-        x: (1.0, 1.0),
-        y: (0.5, 0.5 - rungs.len() as f64),
-    };
     let mut marks = vec![
-        Mark::Bars {
-            class: "c-faint",
-            bars: bars(rungs, low, left, "error over noise"),
-        },
-        Mark::Segments {
-            class: "c-floor thick",
-            segments: vec![floor],
-        },
+        Mark::Bars("c-faint", bars(rungs, low, left, "error over noise")),
+        Mark::rule("c-floor thick", (1.0, 1.0), (0.5, 0.5 - rungs.len() as f64)),
     ];
     let mut entries = vec![
         ("c-faint", "all tightenings"),
@@ -165,16 +155,13 @@ fn error_figure(rungs: &[Rung], names: &[String]) -> Markup {
         let dots = view.dots(rungs, names);
         if !dots.is_empty() {
             entries.push((view.class, view.words));
-            marks.push(Mark::Dots {
-                class: view.class,
-                dots,
-            });
+            marks.push(Mark::Dots(view.class, dots));
         }
     }
     let figure = Figure {
         description: "Error over noise of each model of the ladder".into(),
         width: 520.0,
-        height: height(rungs),
+        height: height(names),
         x: Axis::logarithmic("error over noise [× noise]", low, high),
         y: rows(names),
         marks,
@@ -239,43 +226,37 @@ fn rms_figure(rungs: &[Rung], names: &[String], unit: &str) -> Markup {
         .map(|rung| rung.rms_fitted_output)
         .filter(|rms| rms.is_finite())
         .fold(0.0, f64::max);
-    let figure = Figure {
-        description: "Residual of each model of the ladder".into(),
-        width: 520.0,
-        height: height(rungs),
-        x: Axis::linear(
-            format!("root mean square of the residual [{unit}]"),
-            0.0,
-            1.06 * largest,
-            5,
-        ),
-        y: rows(names),
-        marks: vec![Mark::Bars {
-            class: "c-selected",
-            bars: bars(rungs, 0.0, |rung| Some(rung.rms_fitted_output), "residual"),
-        }],
-    };
-    captioned("What the model leaves", figure.svg(), None)
+    let axis = format!("root mean square of the residual [{unit}]");
+    bar_figure(
+        "What the model leaves",
+        "Residual of each model of the ladder",
+        Axis::linear(axis, 0.0, 1.06 * largest, 5),
+        names,
+        bars(rungs, 0.0, |rung| Some(rung.rms_fitted_output), "residual"),
+    )
 }
 
 fn selected_figure(rungs: &[Rung], names: &[String]) -> Markup {
+    let selected = |rung: &Rung| Some(100.0 * rung.selected_fraction);
+    bar_figure(
+        "Usable tightenings",
+        "Share of tightenings selected with each model of the ladder",
+        Axis::linear("tightenings selected [%]", 0.0, 100.0, 5),
+        names,
+        bars(rungs, 0.0, selected, "selected, percent:"),
+    )
+}
+
+fn bar_figure(heading: &str, shows: &str, x: Axis, names: &[String], bars: Vec<Bar>) -> Markup {
     let figure = Figure {
-        description: "Share of tightenings selected with each model of the ladder".into(),
+        description: shows.into(),
         width: 520.0,
-        height: height(rungs),
-        x: Axis::linear("tightenings selected [%]", 0.0, 100.0, 5),
+        height: height(names),
+        x,
         y: rows(names),
-        marks: vec![Mark::Bars {
-            class: "c-selected",
-            bars: bars(
-                rungs,
-                0.0,
-                |rung| Some(100.0 * rung.selected_fraction),
-                "selected, percent:",
-            ),
-        }],
+        marks: vec![Mark::Bars("c-selected", bars)],
     };
-    captioned("Usable tightenings", figure.svg(), None)
+    captioned(heading, figure.svg(), None)
 }
 
 fn table(rungs: &[Rung], names: &[String], unit: &str) -> Markup {

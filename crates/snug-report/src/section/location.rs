@@ -4,18 +4,18 @@ mod aspects;
 mod force;
 mod force_map;
 
-use super::DiagnosisSection;
+use super::{Render, Section};
 use crate::number::{measured, missing, p_value, percent};
 use crate::quantity;
 use maud::{Markup, html};
 use snug_campaign::{CampaignResult, Diagnosis, Drift, Location};
 
 /// Where the model fails.
-pub const SECTION: DiagnosisSection = DiagnosisSection {
+pub const SECTION: Section = Section {
     anchor: "location",
     short_title: "Where it fails",
     title: "Where the model fails",
-    render,
+    render: Render::Diagnosed(render),
 };
 
 fn render(diagnosis: &Diagnosis, result: &CampaignResult) -> Option<Markup> {

@@ -1,4 +1,4 @@
-//! The page's sections. A new one is a new file and one line in [`SECTIONS`] or [`DIAGNOSIS`].
+//! The page's sections. A new one is A new one is a new file and one line in [`SECTIONS`]..
 
 mod before_after;
 mod comparison;
@@ -23,8 +23,11 @@ mod tightening_table;
 mod torque;
 mod verdict;
 
+use crate::grouping::grouped;
 use maud::{Markup, html};
-use snug_campaign::{CampaignResult, Diagnosis, Rejection, TighteningResult};
+use snug_campaign::{
+    CampaignResult, ConditionSummary, Diagnosis, Rejection, Severity, TighteningResult,
+};
 
 /// One part of the page.
 pub struct Section {
@@ -35,23 +38,35 @@ pub struct Section {
     /// Heading.
     pub title: &'static str,
     /// Its content.
-    pub render: fn(&CampaignResult) -> Markup,
+    pub render: Render,
 }
 
-/// One part of the page that is there only when the model was put to the question.
-pub struct DiagnosisSection {
-    /// Stable name within the page's address.
-    pub anchor: &'static str,
-    /// Short title for the list of sections.
-    pub short_title: &'static str,
-    /// Heading.
-    pub title: &'static str,
-    /// Its content; `None` when there is nothing to show.
-    pub render: fn(&Diagnosis, &CampaignResult) -> Option<Markup>,
+/// How a section's content comes about.
+pub enum Render {
+    /// It is always there.
+    Always(fn(&CampaignResult) -> Markup),
+    /// It is there when the model was put to the question; `None` when there is nothing to show.
+    Diagnosed(fn(&Diagnosis, &CampaignResult) -> Option<Markup>),
 }
 
-/// What a diagnosis shows, right after the overview.
-const DIAGNOSIS: &[DiagnosisSection] = &[
+/// The sections that a result has something for with their content, in reading order.
+pub fn rendered(result: &CampaignResult) -> Vec<(&'static Section, Markup)> {
+    SECTIONS
+        .iter()
+        .filter_map(|section| {
+            let content = match section.render {
+                Render::Always(render) => render(result),
+                Render::Diagnosed(render) => render(result.diagnosis.as_ref()?, result)?,
+            };
+            Some((section, content))
+        })
+        .collect()
+}
+
+/// Every section, from what a manager asks to what an engineer asks; what a diagnosis shows stands right after the
+/// overview.
+const SECTIONS: &[Section] = &[
+    overview::SECTION,
     verdict::SECTION,
     ladder::SECTION,
     before_after::SECTION,
@@ -60,48 +75,6 @@ const DIAGNOSIS: &[DiagnosisSection] = &[
     comparison::SECTION,
     detectability::SECTION,
     effort::SECTION,
-];
-
-/// A section with its content.
-pub struct Rendered {
-    /// Stable name within the page's address.
-    pub anchor: &'static str,
-    /// Short title for the list of sections.
-    pub short_title: &'static str,
-    /// Heading.
-    pub title: &'static str,
-    /// Its content.
-    pub content: Markup,
-}
-
-/// The sections that a result has something for, in reading order.
-pub fn rendered(result: &CampaignResult) -> Vec<Rendered> {
-    let mut sections: Vec<Rendered> = SECTIONS
-        .iter()
-        .map(|section| Rendered {
-            anchor: section.anchor,
-            short_title: section.short_title,
-            title: section.title,
-            content: (section.render)(result),
-        })
-        .collect();
-    let found = result.diagnosis.iter().flat_map(|diagnosis| {
-        DIAGNOSIS.iter().filter_map(|section| {
-            Some(Rendered {
-                anchor: section.anchor,
-                short_title: section.short_title,
-                title: section.title,
-                content: (section.render)(diagnosis, result)?,
-            })
-        })
-    });
-    sections.splice(1..1, found);
-    sections
-}
-
-/// Every section, from what a manager asks to what an engineer asks.
-const SECTIONS: &[Section] = &[
-    overview::SECTION,
     selection::SECTION,
     corrections::SECTION,
     tightening_figures::SECTION,
@@ -117,16 +90,10 @@ const SECTIONS: &[Section] = &[
     glossary::SECTION,
 ];
 
-/// Row index of every factor level: levels of one factor stand together, in the order in which they come.
-fn factors(result: &CampaignResult) -> Vec<(&str, Vec<&snug_campaign::ConditionSummary>)> {
-    let mut factors: Vec<(&str, Vec<_>)> = Vec::new();
-    for summary in &result.conditions {
-        match factors.iter_mut().find(|(name, _)| *name == summary.factor) {
-            Some((_, levels)) => levels.push(summary),
-            None => factors.push((&summary.factor, vec![summary])),
-        }
-    }
-    factors
+/// The levels of every factor, factors and levels in the order in which they come.
+fn factors(result: &CampaignResult) -> Vec<(&str, Vec<&ConditionSummary>)> {
+    let summaries = result.conditions.iter();
+    grouped(summaries.map(|summary| (summary.factor.as_str(), summary)))
 }
 
 /// The tightenings that were fitted or should have been: all but those kept for validation.
@@ -137,6 +104,19 @@ fn fitted(result: &CampaignResult) -> impl Iterator<Item = &TighteningResult> {
             .rejections
             .contains(&Rejection::Validation)
     })
+}
+
+/// How many findings of a severity there are.
+fn findings_of(result: &CampaignResult, severity: Severity) -> usize {
+    let findings = result.findings.iter();
+    findings
+        .filter(|finding| finding.severity == severity)
+        .count()
+}
+
+/// A table's head without a word on any column but its heading.
+fn headings(headings: &[&str]) -> Markup {
+    html! { thead { tr { @for heading in headings { th scope="col" { (heading) } } } } }
 }
 
 /// A plain sentence in place of a section's content.

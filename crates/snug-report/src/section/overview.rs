@@ -1,12 +1,15 @@
 //! The page's opening: the outcome in one sentence, key numbers, and a warning where data were left out or changed.
 
-use super::{Section, fitted};
+use super::{Render, Section, findings_of, fitted};
 use crate::number::{fixed, missing, percent, percent_interval, plain, rounded, share, short};
 use crate::quantity::{self, capitalised};
 use crate::quartiles::Quartiles;
 use maud::{Markup, html};
 use snug_campaign::words::counted;
-use snug_campaign::{CampaignResult, Conditions, FitMeasures, QuantitySummary, Severity};
+use snug_campaign::{
+    CampaignResult, ConditionSummary, Conditions, FitMeasures, QuantitySummary, Severity,
+    TighteningResult,
+};
 use std::collections::BTreeSet;
 
 /// What was measured, what came out, the key numbers.
@@ -14,7 +17,7 @@ pub const SECTION: Section = Section {
     anchor: "overview",
     short_title: "Overview",
     title: "What was measured and what came out",
-    render,
+    render: Render::Always(render),
 };
 
 fn render(result: &CampaignResult) -> Markup {
@@ -51,7 +54,7 @@ fn outcome(result: &CampaignResult) -> String {
 }
 
 fn usable(result: &CampaignResult, all: usize) -> String {
-    let selected = selected_count(result);
+    let selected = selected(result).count();
     let share = percent(share(selected, all).unwrap_or(f64::NAN));
     let model = model_words(result);
     if selected == 0 {
@@ -167,23 +170,14 @@ fn numbers(values: impl Iterator<Item = f64>) -> Vec<String> {
     values.into_iter().map(short).collect()
 }
 
-fn selected_count(result: &CampaignResult) -> usize {
-    result
-        .tightenings
-        .iter()
-        .filter(|tightening| tightening.selection.selected())
-        .count()
+fn selected(result: &CampaignResult) -> impl Iterator<Item = &TighteningResult> {
+    let tightenings = result.tightenings.iter();
+    tightenings.filter(|tightening| tightening.selection.selected())
 }
 
 /// Median and quartiles of a measure over the selected tightenings.
 fn spread(result: &CampaignResult, read: fn(&FitMeasures) -> Option<f64>) -> Option<Quartiles> {
-    Quartiles::of(
-        result
-            .tightenings
-            .iter()
-            .filter(|tightening| tightening.selection.selected())
-            .filter_map(|tightening| read(&tightening.measures)),
-    )
+    Quartiles::of(selected(result).filter_map(|tightening| read(&tightening.measures)))
 }
 
 fn error_over_noise(result: &CampaignResult) -> Option<f64> {
@@ -211,11 +205,10 @@ fn key_numbers(result: &CampaignResult) -> Markup {
         spread(result, |measures| measures.error_over_noise),
         2,
     ));
-    let everything = result
-        .conditions
+    for row in everything(result)
         .iter()
-        .find(|summary| summary.factor == "all");
-    for row in everything.iter().flat_map(|summary| &summary.quantities) {
+        .flat_map(|summary| &summary.quantities)
+    {
         cards.push(quantity_card(row, result));
     }
     html! {
@@ -231,13 +224,15 @@ fn key_numbers(result: &CampaignResult) -> Markup {
     }
 }
 
+/// The summary over all tightenings together.
+fn everything(result: &CampaignResult) -> Option<&ConditionSummary> {
+    let mut summaries = result.conditions.iter();
+    summaries.find(|summary| summary.factor == "all")
+}
+
 fn share_card(result: &CampaignResult) -> Card {
-    let (selected, all) = (selected_count(result), fitted(result).count());
-    let interval = result
-        .conditions
-        .iter()
-        .find(|summary| summary.factor == "all")
-        .and_then(|summary| summary.selected_share_interval);
+    let (selected, all) = (selected(result).count(), fitted(result).count());
+    let interval = everything(result).and_then(|summary| summary.selected_share_interval);
     Card {
         name: "Selected".into(),
         value: plain(
@@ -306,16 +301,8 @@ fn quantity_card(row: &QuantitySummary, result: &CampaignResult) -> Card {
 
 /// What a reader must not miss: data that were left out.
 fn attention(result: &CampaignResult) -> Markup {
-    let left_out = result
-        .findings
-        .iter()
-        .filter(|finding| finding.severity == Severity::LeftOut)
-        .count();
-    let repaired = result
-        .findings
-        .iter()
-        .filter(|finding| finding.severity == Severity::Repaired)
-        .count();
+    let left_out = findings_of(result, Severity::LeftOut);
+    let repaired = findings_of(result, Severity::Repaired);
     html! {
         @if left_out + repaired > 0 {
             p.attention {

@@ -2,7 +2,8 @@
 
 mod assumptions;
 
-use super::{Section, nothing};
+use super::{Render, Section, headings, nothing};
+use crate::grouping::{first_seen, grouped};
 use crate::number::{fixed, measured, missing, p_value, plain};
 use crate::quantity;
 use maud::{Markup, html};
@@ -13,7 +14,7 @@ pub const SECTION: Section = Section {
     anchor: "p-values",
     short_title: "p-values",
     title: "Do the conditions differ? p-values",
-    render,
+    render: Render::Always(render),
 };
 
 /// Differences below this adjusted p are set off.
@@ -79,17 +80,9 @@ fn reading(result: &CampaignResult, methods: &[(&str, bool)]) -> String {
 }
 
 fn side_by_side(result: &CampaignResult, methods: &[(&str, bool)]) -> Markup {
-    let mut quantities: Vec<(&str, Vec<&str>)> = Vec::new();
-    for row in &result.tests {
-        match quantities
-            .iter_mut()
-            .find(|(name, _)| *name == row.quantity)
-        {
-            Some((_, factors)) if factors.contains(&row.factor.as_str()) => {}
-            Some((_, factors)) => factors.push(&row.factor),
-            None => quantities.push((&row.quantity, vec![&row.factor])),
-        }
-    }
+    let tests = result.tests.iter();
+    let compared = tests.map(|row| (row.quantity.as_str(), row.factor.as_str()));
+    let quantities = grouped(first_seen(compared));
     let rows = |quantity: &str, factor: &str| -> Vec<&TestRow> {
         result
             .tests
@@ -158,11 +151,7 @@ fn effect_size(effect: &EffectSize) -> Markup {
 fn in_full(result: &CampaignResult) -> Markup {
     html! {
         div.scroll { table {
-            thead { tr {
-                @for heading in ["quantity", "factor", "method", "statistic", "degrees of freedom", "p", "adjusted p", "effect size", "note"] {
-                    th scope="col" { (heading) }
-                }
-            } }
+            (headings(&["quantity", "factor", "method", "statistic", "degrees of freedom", "p", "adjusted p", "effect size", "note"]))
             tbody { @for row in &result.tests { (full_row(row, result)) } }
         } }
     }

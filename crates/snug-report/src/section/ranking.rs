@@ -1,6 +1,6 @@
 //! Every candidate with size, gain and chance; terms in no catalogue are folded away unless they lead or are chosen.
 
-use super::DiagnosisSection;
+use super::{Render, Section};
 use crate::effect_words::{parameter_name, sentence, sizes};
 use crate::figure::{Axis, Bar, Figure, Mark, Segment, captioned, legend};
 use crate::number::{p_value, plain, short, significant};
@@ -10,11 +10,11 @@ use snug_campaign::words::effect_name::{called, names_in};
 use snug_campaign::{CampaignResult, Diagnosis, Doubt, RankedEffect, Verdict};
 
 /// What could be missing, best first.
-pub const SECTION: DiagnosisSection = DiagnosisSection {
+pub const SECTION: Section = Section {
     anchor: "ranking",
     short_title: "Candidates",
     title: "What could be missing",
-    render,
+    render: Render::Diagnosed(render),
 };
 
 const ROW: f64 = 21.0;
@@ -111,16 +111,13 @@ fn figure(ranking: &[&RankedEffect]) -> Markup {
             .map(|(row, candidate)| bar(row, candidate, (low, high)))
             .collect()
     };
-    let bars = LAYERS.map(|(layer, _)| Mark::Bars {
-        class: layer,
-        bars: of_layer(layer),
-    });
-    let whiskers = Mark::Segments {
-        class: "c-whisker",
-        segments: placed()
+    let bars = LAYERS.map(|(layer, _)| Mark::Bars(layer, of_layer(layer)));
+    let whiskers = Mark::Segments(
+        "c-whisker",
+        placed()
             .map(|(row, candidate)| whisker(row, candidate, (low, high)))
             .collect(),
-    };
+    );
     let labels: Vec<(String, bool)> = ranking.iter().map(|one| (label(one), false)).collect();
     let figure = Figure {
         description: "Share of the misfit that each candidate removes in held-out tightenings"

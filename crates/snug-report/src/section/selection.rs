@@ -1,6 +1,6 @@
 //! Why tightenings were rejected, under both presets side by side, and on which of them the presets differ.
 
-use super::{Section, nothing};
+use super::{Render, Section, nothing};
 use crate::number::{percent, share};
 use crate::outcome::{REJECTIONS, outcome_words, rejection_meaning, rejection_words};
 use maud::{Markup, html};
@@ -12,7 +12,7 @@ pub const SECTION: Section = Section {
     anchor: "selection",
     short_title: "Selection",
     title: "What was selected, and why not the rest",
-    render,
+    render: Render::Always(render),
 };
 
 /// Up to this many tightenings the outcomes stand open; beyond, they unfold.

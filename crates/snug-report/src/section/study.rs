@@ -1,6 +1,6 @@
 //! Prints the study into the report, so that a page alone says how to get its numbers again.
 
-use super::{Section, nothing};
+use super::{Render, Section, nothing};
 use maud::{Markup, html};
 use snug_campaign::CampaignResult;
 
@@ -9,7 +9,7 @@ pub const SECTION: Section = Section {
     anchor: "study",
     short_title: "Study",
     title: "The study as run",
-    render,
+    render: Render::Always(render),
 };
 
 fn render(result: &CampaignResult) -> Markup {

@@ -1,26 +1,23 @@
 //! Data for the page's interactive viewer of curves, and a still picture of the first tightening where no script runs.
 
-use super::{Section, nothing};
-use crate::figure::{Axis, Bar, Figure, Mark, captioned, legend, linear_range};
-use crate::number::{rounded, short, significant};
+use super::{Render, Section, nothing};
+use crate::curves::{Curves, STILL_POINTS, embedded};
+use crate::number::{between, rounded, short, significant};
 use crate::outcome::outcome_words;
 use crate::quantity;
 use crate::signal_unit;
-use crate::traces_json::{Example, Panel, embedded, examples, panels, residual_quantity};
+use crate::traces_json::{Example, Panel, examples, panels, residual_quantity};
 use maud::{Markup, PreEscaped, html};
 use serde_json::{Value, json};
-use snug_campaign::{CampaignResult, FitMeasures, Interval, NORMAL_95, TighteningResult};
+use snug_campaign::{CampaignResult, FitMeasures, NORMAL_95, TighteningResult};
 
 /// Measured and simulated signals of single tightenings.
 pub const SECTION: Section = Section {
     anchor: "tightening-figures",
     short_title: "Curve fits",
     title: "Model and measurement, tightening by tightening",
-    render,
+    render: Render::Always(render),
 };
-
-/// Points of a line in a still picture.
-const STILL_POINTS: usize = 400;
 
 fn render(result: &CampaignResult) -> Markup {
     let examples = examples(result);
@@ -29,7 +26,7 @@ fn render(result: &CampaignResult) -> Markup {
         return nothing("No signals were kept for drawing.");
     };
     let data = json!({
-        "panels": panels.iter().map(panel_json).collect::<Vec<_>>(),
+        "panels": panels.iter().map(Panel::json).collect::<Vec<_>>(),
         "examples": examples.iter().map(|example| example_json(example, &panels, result)).collect::<Vec<_>>(),
     });
     html! {
@@ -102,15 +99,6 @@ fn heading(tightening: &TighteningResult, result: &CampaignResult) -> String {
     parts.join(" · ")
 }
 
-fn panel_json(panel: &Panel) -> Value {
-    let series: Vec<Value> = panel
-        .series
-        .iter()
-        .map(|series| json!({ "label": series.label, "class": series.class }))
-        .collect();
-    json!({ "title": panel.title, "axis": panel.axis, "series": series, "residual": panel.residual })
-}
-
 fn example_json(example: &Example, panels: &[Panel], result: &CampaignResult) -> Value {
     let tightening = &result.tightenings[example.tightening];
     let mut value = example.json(panels);
@@ -150,69 +138,15 @@ fn note(example: &Example, tightening: &TighteningResult, result: &CampaignResul
 /// A panel without JavaScript: the first example, all of it.
 fn still(panel: &Panel, example: &Example, result: &CampaignResult) -> Markup {
     let example = example.coarser(STILL_POINTS);
-    let times: Vec<f64> = example.times().collect();
-    let lines: Vec<(&'static str, Vec<Option<f64>>)> = panel
-        .series
-        .iter()
-        .filter_map(|series| Some((series.class, example.values(series)?)))
-        .collect();
-    let band =
-        noise_band(&result.tightenings[example.tightening], result).filter(|_| panel.residual);
-    let values = lines
-        .iter()
-        .flat_map(|(_, line)| line.iter().flatten().copied());
-    let (low, high) = linear_range(values.chain(band.iter().flat_map(|b| [-b, *b])), 0.05);
-    let end = times.last().copied().unwrap_or(1.0);
-    let mut marks = Vec::new();
-    if let Some(band) = band {
-        marks.push(Mark::Bars {
-            class: "c-band",
-            bars: vec![Bar {
-                x: (0.0, end),
-                y: (-band, band),
-                title: String::new(),
-            }],
-        });
-    }
-    marks.extend(lines.into_iter().map(|(class, line)| {
-        Mark::Line {
-            class,
-            points: times
-                .iter()
-                .zip(line)
-                .map(|(time, value)| value.map(|value| (*time, value)))
-                .collect(),
-        }
-    }));
-    let figure = Figure {
-        description: format!(
-            "{} of {}",
-            panel.title, result.tightenings[example.tightening].id
-        ),
-        width: 520.0,
-        height: 260.0,
-        x: Axis::linear(
-            format!("time since the window's start [{}]", example.time_unit().0),
-            0.0,
-            end,
-            6,
-        ),
-        y: Axis::linear(panel.axis.clone(), low, high, 5),
-        marks,
-    };
-    let mut entries: Vec<(&str, &str)> = panel
-        .series
-        .iter()
-        .map(|series| (series.class, series.label))
-        .collect();
-    if band.is_some() {
-        entries.push(("c-band", "95 % of the noise"));
-    }
-    captioned(
-        panel.title,
-        html! { div data-panel="" { (figure.svg()) (legend(&entries)) } },
-        None,
-    )
+    let tightening = &result.tightenings[example.tightening];
+    panel.still(Curves {
+        description: format!("{} of {}", panel.title, tightening.id),
+        times: example.times().collect(),
+        time_unit: example.time_unit().0,
+        values: example.signals(panel),
+        noise: noise_band(tightening, result),
+        noise_title: String::new(),
+    })
 }
 
 /// What was found out about one tightening: name, value with unit, interval.
@@ -249,15 +183,12 @@ fn derived_facts(tightening: &TighteningResult) -> impl Iterator<Item = [String;
         true => " with the tool",
         false => "",
     };
-    let interval = |low: Option<f64>, high: Option<f64>| {
-        low.zip(high).map(|(low, high)| Interval { low, high })
-    };
     [
         (
             "natural frequency fₙ",
             "",
             measures.natural_frequency_hz,
-            interval(
+            between(
                 measures.natural_frequency_low_hz,
                 measures.natural_frequency_high_hz,
             ),
@@ -267,7 +198,7 @@ fn derived_facts(tightening: &TighteningResult) -> impl Iterator<Item = [String;
             "damped frequency",
             of_what,
             measures.damped_frequency_hz,
-            interval(
+            between(
                 measures.damped_frequency_low_hz,
                 measures.damped_frequency_high_hz,
             ),
@@ -277,7 +208,7 @@ fn derived_facts(tightening: &TighteningResult) -> impl Iterator<Item = [String;
             "damping ratio ζ",
             of_what,
             measures.damping_ratio,
-            interval(measures.damping_ratio_low, measures.damping_ratio_high),
+            between(measures.damping_ratio_low, measures.damping_ratio_high),
             "",
         ),
     ]

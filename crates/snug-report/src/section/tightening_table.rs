@@ -1,13 +1,13 @@
 //! The table to look single tightenings up in; the page's script sorts and filters it by its `data-` attributes.
 
-use super::{Section, nothing};
-use crate::number::{measured, missing, plain, short};
+use super::{Render, Section, nothing};
+use crate::number::{between, measured, missing, short, sort_key, sortable};
 use crate::outcome::outcome_words;
 use crate::quantity;
-use crate::tightenings_csv::effect_parameters;
+use crate::tightenings_csv::{BASE_PARAMETERS, effect_parameters};
 use crate::traces_json::examples;
 use maud::{Markup, html};
-use snug_campaign::{CampaignResult, Interval, TighteningResult};
+use snug_campaign::{CampaignResult, TighteningResult};
 use std::collections::HashMap;
 
 /// Every tightening with its estimate, to sort and filter.
@@ -15,10 +15,8 @@ pub const SECTION: Section = Section {
     anchor: "tightenings",
     short_title: "Tightenings",
     title: "Every tightening",
-    render,
+    render: Render::Always(render),
 };
-
-const BASE_PARAMETERS: [&str; 3] = ["mass_kg", "damping_kg_per_s", "stiffness_n_per_m"];
 
 fn render(result: &CampaignResult) -> Markup {
     if result.tightenings.is_empty() {
@@ -72,6 +70,11 @@ fn row(
     let conditions = &tightening.conditions;
     let measures = &tightening.measures;
     let selected = tightening.selection.selected();
+    let frequency = measures.natural_frequency_hz;
+    let ends = between(
+        measures.natural_frequency_low_hz,
+        measures.natural_frequency_high_hz,
+    );
     html! { tr data-selected=(if selected { "yes" } else { "no" }) {
         th scope="row" {
             @match drawn {
@@ -88,11 +91,9 @@ fn row(
             td data-v=[sort_key(Some(tightening.target_torque_nm))] { (setting(Some(tightening.target_torque_nm))) }
         }
         @for name in parameters { (parameter(tightening, name)) }
-        td data-v=[sort_key(measures.natural_frequency_hz)] {
-            (measured(measures.natural_frequency_hz, natural_frequency_interval(tightening), "needs a positive mass and stiffness"))
-        }
-        (measure(measures.fit_percent, "no simulation to compare with"))
-        (measure(measures.error_over_noise, "no noise floor or no fit"))
+        td data-v=[sort_key(frequency)] { (measured(frequency, ends, "needs a positive mass and stiffness")) }
+        (sortable(measures.fit_percent, 4, "no simulation to compare with"))
+        (sortable(measures.error_over_noise, 4, "no noise floor or no fit"))
     } }
 }
 
@@ -112,28 +113,9 @@ fn parameter(tightening: &TighteningResult, name: &str) -> Markup {
     }
 }
 
-fn natural_frequency_interval(tightening: &TighteningResult) -> Option<Interval> {
-    let measures = &tightening.measures;
-    Some(Interval {
-        low: measures.natural_frequency_low_hz?,
-        high: measures.natural_frequency_high_hz?,
-    })
-}
-
-fn measure(value: Option<f64>, why: &str) -> Markup {
-    html! { td data-v=[sort_key(value)] { (plain(value, 4, why)) } }
-}
-
 fn setting(value: Option<f64>) -> Markup {
     match value.filter(|value| value.is_finite()) {
         Some(value) => html! { (short(value)) },
         None => missing("the file does not say"),
     }
-}
-
-/// What the column is sorted by; a missing value has none and stays last.
-fn sort_key(value: Option<f64>) -> Option<String> {
-    value
-        .and_then(|value| crate::number::drawn(value, 6))
-        .map(|value| value.to_string())
 }

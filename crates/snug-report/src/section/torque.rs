@@ -1,7 +1,7 @@
 //! Shows which tightenings rounding to 5 Nm may have put into the wrong torque group.
 
-use super::{Section, nothing};
-use crate::figure::{Axis, Bar, Dot, Figure, Mark, Segment, captioned, legend, linear_range};
+use super::{Render, Section, headings, nothing};
+use crate::figure::{Axis, Bar, Dot, Figure, Mark, captioned, legend, linear_range};
 use crate::number::{short, significant};
 use maud::{Markup, html};
 use snug_campaign::words::counted;
@@ -12,7 +12,7 @@ pub const SECTION: Section = Section {
     anchor: "torque",
     short_title: "Torque",
     title: "Rounded and actual torque",
-    render,
+    render: Render::Always(render),
 };
 
 /// Width of a torque group \[Nm\].
@@ -55,10 +55,7 @@ fn render(result: &CampaignResult) -> Markup {
             details {
                 summary { "The " (counted(borderline.len(), "borderline tightening")) }
                 div.scroll { table {
-                    thead { tr {
-                        th scope="col" { "tightening" } th scope="col" { "peak torque [Nm]" }
-                        th scope="col" { "rounded [Nm]" } th scope="col" { "difference [Nm]" }
-                    } }
+                    (headings(&["tightening", "peak torque [Nm]", "rounded [Nm]", "difference [Nm]"]))
                     tbody { @for tightening in borderline.iter().take(LISTED) { tr {
                         th scope="row" { (tightening.id) }
                         td { (significant(tightening.peak_torque_nm, 4)) }
@@ -120,28 +117,16 @@ fn drawing(torques: &[&TighteningResult]) -> Markup {
         x,
         y,
         marks: vec![
-            Mark::Bars {
-                class: "c-caution",
-                bars: vec![
+            Mark::Bars(
+                "c-caution",
+                vec![
                     strip(edge - BORDERLINE_NM, edge),
                     strip(-edge, BORDERLINE_NM - edge),
                 ],
-            },
-            Mark::Segments {
-                class: "c-zero",
-                segments: vec![Segment {
-                    x: ends,
-                    y: (0.0, 0.0),
-                }],
-            },
-            Mark::Dots {
-                class: "c-rejected",
-                dots: dots(false),
-            },
-            Mark::Dots {
-                class: "c-selected",
-                dots: dots(true),
-            },
+            ),
+            Mark::rule("c-zero", ends, (0.0, 0.0)),
+            Mark::Dots("c-rejected", dots(false)),
+            Mark::Dots("c-selected", dots(true)),
         ],
     };
     figure.svg()

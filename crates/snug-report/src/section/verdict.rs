@@ -1,6 +1,6 @@
 //! The diagnosis in words: what is missing or was added, a term to try, the experiment that decides, why it stopped.
 
-use super::DiagnosisSection;
+use super::{Render, Section};
 use crate::effect_words::{sentence, sizes};
 use crate::number::{fixed, percent, significant};
 use maud::{Markup, html};
@@ -12,11 +12,11 @@ use snug_campaign::{
 };
 
 /// What is missing in the model, in one sentence, and why.
-pub const SECTION: DiagnosisSection = DiagnosisSection {
+pub const SECTION: Section = Section {
     anchor: "verdict",
     short_title: "Verdict",
     title: "Is something missing in the model?",
-    render,
+    render: Render::Diagnosed(render),
 };
 
 fn render(diagnosis: &Diagnosis, result: &CampaignResult) -> Option<Markup> {

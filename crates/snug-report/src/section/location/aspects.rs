@@ -2,6 +2,7 @@
 
 use crate::figure::{Axis, Dot, Figure, Mark, Segment, captioned};
 use crate::number::{measured, missing, percent, short, significant};
+use crate::section::headings;
 use maud::{Markup, html};
 use snug_campaign::{Aspect, Share};
 
@@ -129,10 +130,7 @@ fn in_rows(aspect: &Aspect, largest: f64, factor: f64, unit: &str) -> Markup {
         marks: marks(
             whiskers.collect(),
             dots.collect(),
-            Segment {
-                x: (1.0, 1.0),
-                y: (0.5, 0.5 - count as f64),
-            },
+            Mark::rule("c-floor", (1.0, 1.0), (0.5, 0.5 - count as f64)),
         ),
     }
     .svg()
@@ -161,10 +159,7 @@ fn along(aspect: &Aspect, largest: f64, factor: f64, unit: &str) -> Markup {
         y: part.error_over_noise,
         title: spoken(&part_name(part, factor, unit), part),
     });
-    let floor = Segment {
-        x: (start, end),
-        y: (1.0, 1.0),
-    };
+    let floor = Mark::rule("c-floor", (start, end), (1.0, 1.0));
     Figure {
         description: format!("Error over noise by {}", aspect.aspect.replace('_', " ")),
         width: 380.0,
@@ -181,29 +176,18 @@ fn along(aspect: &Aspect, largest: f64, factor: f64, unit: &str) -> Markup {
     .svg()
 }
 
-fn marks(whiskers: Vec<Segment>, dots: Vec<Dot>, floor: Segment) -> Vec<Mark> {
+fn marks(whiskers: Vec<Segment>, dots: Vec<Dot>, floor: Mark) -> Vec<Mark> {
     vec![
-        Mark::Segments {
-            class: "c-floor",
-            segments: vec![floor],
-        },
-        Mark::Segments {
-            class: "c-rejected",
-            segments: whiskers,
-        },
-        Mark::Dots {
-            class: "c-rejected",
-            dots,
-        },
+        floor,
+        Mark::Segments("c-rejected", whiskers),
+        Mark::Dots("c-rejected", dots),
     ]
 }
 
 fn table(aspects: &[Aspect]) -> Markup {
     html! {
         div.scroll { table {
-            thead { tr {
-                @for heading in ["part", "error over noise [×], 95 % interval", "share of the excess", "samples"] { th scope="col" { (heading) } }
-            } }
+            (headings(&["part", "error over noise [×], 95 % interval", "share of the excess", "samples"]))
             @for aspect in aspects {
                 @let (title, factor, unit) = heading(&aspect.aspect);
                 tbody {

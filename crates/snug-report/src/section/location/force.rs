@@ -1,7 +1,7 @@
 //! The force that would have to be added: over time with its band, and over displacement and velocity.
 
 use super::force_map;
-use crate::figure::{Axis, Figure, Mark, Segment, captioned, legend, linear_range};
+use crate::figure::{Axis, Figure, Mark, captioned, legend, linear_range};
 use maud::{Markup, html};
 use snug_campaign::{ForceCurve, Location};
 
@@ -39,22 +39,12 @@ fn over_time_figure(curve: &ForceCurve) -> Markup {
         x: Axis::linear("time since the pulse began [ms]", start, end, 6),
         y: Axis::linear("missing force [N]", low, high, 6),
         marks: vec![
-            Mark::Band {
-                class: "c-band",
-                low: points(&curve.low_n),
-                high: points(&curve.high_n),
-            },
-            Mark::Segments {
-                class: "c-zero",
-                segments: vec![Segment {
-                    x: (start, end),
-                    y: (0.0, 0.0),
-                }],
-            },
-            Mark::Line {
-                class: "c-rejected",
-                points: points(&curve.force_n).into_iter().map(Some).collect(),
-            },
+            Mark::Band("c-band", points(&curve.low_n), points(&curve.high_n)),
+            Mark::rule("c-zero", (start, end), (0.0, 0.0)),
+            Mark::Line(
+                "c-rejected",
+                points(&curve.force_n).into_iter().map(Some).collect(),
+            ),
         ],
     };
     captioned(

@@ -1,6 +1,7 @@
 //! Heat map of the missing force; a cell whose 95 % band holds zero is grey, so that noise is not read as a law.
 
 use crate::figure::{Axis, Bar, Figure, Mark, captioned, legend};
+use crate::grouping::grouped;
 use crate::number::significant;
 use maud::{Markup, html};
 use snug_campaign::ForceMap;
@@ -43,7 +44,7 @@ pub fn figure(map: &ForceMap) -> Markup {
         });
     let largest = sure.fold(0.0_f64, |largest, force| largest.max(force.abs()));
     let step = if largest > 0.0 { largest / 4.0 } else { 1.0 };
-    let mut layers: Vec<(&'static str, Vec<Bar>)> = Vec::new();
+    let mut bars = Vec::new();
     let columns = map.v_m_per_s.len();
     for (cell, force) in map.force_n.iter().enumerate() {
         let Some(force) = force.filter(|force| force.is_finite()) else {
@@ -60,11 +61,9 @@ pub fn figure(map: &ForceMap) -> Markup {
             y: (v - 0.5 * height, v + 0.5 * height),
             title: spoken(x_mm, v, force, half),
         };
-        match layers.iter_mut().find(|(layer, _)| *layer == class) {
-            Some((_, bars)) => bars.push(bar),
-            None => layers.push((class, vec![bar])),
-        }
+        bars.push((class, bar));
     }
+    let layers = grouped(bars);
     let used: Vec<&str> = layers.iter().map(|(class, _)| *class).collect();
     let ends = |values: &[f64], factor: f64, room: f64| {
         let low = values.iter().copied().fold(f64::INFINITY, f64::min);
@@ -81,7 +80,7 @@ pub fn figure(map: &ForceMap) -> Markup {
         y: Axis::linear("velocity of the grip v [m/s]", bottom, top, 6),
         marks: layers
             .into_iter()
-            .map(|(class, bars)| Mark::Bars { class, bars })
+            .map(|(class, bars)| Mark::Bars(class, bars))
             .collect(),
     };
     captioned(

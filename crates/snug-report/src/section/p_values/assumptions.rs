@@ -1,6 +1,7 @@
 //! How what the tests presume stands: one quiet line below every factor, and what it means.
 
 use super::{LEVEL, freedom};
+use crate::grouping::first_seen;
 use crate::number::{fixed, missing, p_value, plain};
 use crate::quantity;
 use maud::{Markup, html};
@@ -42,15 +43,10 @@ pub fn line(rows: &[&TestRow]) -> Markup {
 /// What is checked and how to read it; empty where nothing was checked.
 pub fn explanation(result: &CampaignResult) -> Markup {
     let presuming = |assumption: &str| {
-        let mut methods: Vec<String> = Vec::new();
-        for row in &result.tests {
-            let words = quantity::words(&row.method);
-            let presumes = row.assumptions.iter().any(|c| c.assumption == assumption);
-            if presumes && !methods.contains(&words) {
-                methods.push(words);
-            }
-        }
-        methods.join(", ")
+        let presumes = |check: &AssumptionCheck| check.assumption == assumption;
+        let rows = result.tests.iter();
+        let presuming = rows.filter(|row| row.assumptions.iter().any(presumes));
+        first_seen(presuming.map(|row| quantity::words(&row.method))).join(", ")
     };
     let rows: Vec<&TestRow> = result.tests.iter().collect();
     let checks = checks(&rows);
