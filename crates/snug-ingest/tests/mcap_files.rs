@@ -139,7 +139,7 @@ fn recordings_of_snug_come_back_as_they_were_even_when_cut() {
     for original in &originals {
         assert!(recorder.measurement(original).unwrap());
     }
-    drop(recorder.finish().unwrap());
+    recorder.finish().unwrap();
 
     let source = Source::default();
     let listing = list(&source, folder.path()).unwrap();

@@ -29,8 +29,8 @@ const PLACE_NS: u64 = 100_000_000;
 ///
 /// Memory stays below a few chunks however long the recording gets. Every call that adds a tightening, a measurement file
 /// or the study ends with a flush, so that a run killed later leaves it readable. The same calls give the same bytes.
-pub struct Recorder<W: Write> {
-    writer: LastingWriter<W>,
+pub struct Recorder<'w> {
+    writer: LastingWriter<'w>,
     settings: RecordSettings,
     channels: HashMap<String, OpenChannel>,
     /// Where the next message stands on the time axis.
@@ -47,7 +47,7 @@ struct OpenChannel {
     shape: Option<Shape>,
 }
 
-impl Recorder<BufWriter<File>> {
+impl Recorder<'static> {
     /// Begins a recording in a new file. A file that is there already is never touched: the measurements and results in
     /// it may exist nowhere else.
     ///
@@ -66,12 +66,12 @@ impl Recorder<BufWriter<File>> {
     }
 }
 
-impl<W: Write> Recorder<W> {
+impl<'w> Recorder<'w> {
     /// Begins a recording on any writer.
     ///
     /// # Errors
     /// [`RecordError::Write`], [`RecordError::Setting`].
-    pub fn new(writer: W, settings: RecordSettings) -> Result<Self, RecordError> {
+    pub fn new(writer: impl Write + 'w, settings: RecordSettings) -> Result<Self, RecordError> {
         settings.check()?;
         let compression = match settings.compression {
             Compression::Zstd => Some(mcap::Compression::Zstd),
@@ -283,12 +283,12 @@ impl<W: Write> Recorder<W> {
         Ok(self.writer.flush()?)
     }
 
-    /// Ends the recording with its index and gives the writer back. Dropping a recorder does the same, but hides errors;
+    /// Ends the recording with its index. Dropping a recorder does the same, but hides errors;
     /// after a failed write nothing more is written.
     ///
     /// # Errors
     /// [`RecordError::Write`].
-    pub fn finish(self) -> Result<W, RecordError> {
+    pub fn finish(self) -> Result<(), RecordError> {
         until_failure::finish(self.writer)
     }
 

@@ -36,7 +36,7 @@ use std::io::Write;
 /// # Errors
 /// [`RecordError::NotMcap`] for data that do not begin as an MCAP file (none at all, less than its magic number, another
 /// kind), [`RecordError::Write`].
-pub fn recover<W: Write>(bytes: &[u8], to: W) -> Result<Recovery, RecordError> {
+pub fn recover(bytes: &[u8], to: impl Write) -> Result<Recovery, RecordError> {
     recover_within(bytes, to, DEFAULT_LIMIT_BYTES)
 }
 
@@ -45,15 +45,15 @@ pub fn recover<W: Write>(bytes: &[u8], to: W) -> Result<Recovery, RecordError> {
 ///
 /// # Errors
 /// As [`recover`].
-pub fn recover_within<W: Write>(
+pub fn recover_within(
     bytes: &[u8],
-    to: W,
+    mut to: impl Write,
     limit_bytes: u64,
 ) -> Result<Recovery, RecordError> {
     check_magic(bytes)?;
     let limits = Limits::new(limit_bytes, bytes.len());
     let mut rescue = Rescue {
-        rewriter: Rewriter::new(bytes, to, Budget::new(limits.kept_bytes))?,
+        rewriter: Rewriter::new(bytes, &mut to, Budget::new(limits.kept_bytes))?,
         contents: Contents::default(),
         index: Index::default(),
         recovery: Recovery::default(),
@@ -89,8 +89,8 @@ pub fn recover_within<W: Write>(
     Ok(recovery)
 }
 
-struct Rescue<'a, W: Write> {
-    rewriter: Rewriter<'a, W>,
+struct Rescue<'a> {
+    rewriter: Rewriter<'a>,
     contents: Contents,
     index: Index,
     recovery: Recovery,
@@ -98,7 +98,7 @@ struct Rescue<'a, W: Write> {
     failed: Option<RecordError>,
 }
 
-impl<W: Write> Rescue<'_, W> {
+impl Rescue<'_> {
     fn found(&mut self, found: Found<'_>) -> Result<(), Stop> {
         match found {
             Found::Record {

@@ -151,12 +151,14 @@ fn tightenings() -> Vec<(TighteningResult, Traces)> {
 }
 
 fn record(settings: RecordSettings) -> Vec<u8> {
-    let mut recorder = Recorder::new(Vec::new(), settings).unwrap();
+    let mut bytes = Vec::new();
+    let mut recorder = Recorder::new(&mut bytes, settings).unwrap();
     recorder.study("(title: \"round trip\")").unwrap();
     for (result, traces) in &tightenings() {
         recorder.tightening(result, traces, Some(17)).unwrap();
     }
-    recorder.finish().unwrap()
+    recorder.finish().unwrap();
+    bytes
 }
 
 fn bits(samples: &[f64]) -> Vec<u64> {

@@ -6,7 +6,7 @@ use mcap::{McapError, WriteOptions, Writer};
 use std::io::{Error, ErrorKind, Result, Write};
 
 /// An MCAP writer whose file stays readable up to its last flush.
-pub(crate) type LastingWriter<W> = Writer<NoSeek<UntilFailure<W>>>;
+pub(crate) type LastingWriter<'w> = Writer<NoSeek<UntilFailure<'w>>>;
 
 /// How chunks are written.
 pub(crate) fn options(chunk_bytes: u64) -> WriteOptions {
@@ -20,42 +20,35 @@ pub(crate) fn options(chunk_bytes: u64) -> WriteOptions {
         .disable_seeking(true)
 }
 
-/// Ends the file with its index and gives the inner writer back.
-pub(crate) fn finish<W: Write>(
-    mut writer: LastingWriter<W>,
-) -> std::result::Result<W, RecordError> {
+/// Ends the file with its index.
+pub(crate) fn finish(mut writer: LastingWriter<'_>) -> std::result::Result<(), RecordError> {
     writer.finish()?;
-    let mut inner = writer.into_inner().into_inner().into_inner();
-    inner.flush().map_err(McapError::from)?;
-    Ok(inner)
+    let mut inner = writer.into_inner().into_inner();
+    Ok(inner.flush().map_err(McapError::from)?)
 }
 
 /// Passes everything on until the first failure, and gives that failure again ever after.
 ///
 /// Half a record may stand at the end then. What is written behind it (by a caller that goes on, or by the MCAP writer,
 /// which ends the file when it is dropped) would be taken for the rest of that record.
-pub(crate) struct UntilFailure<W> {
-    writer: W,
+pub(crate) struct UntilFailure<'w> {
+    writer: Box<dyn Write + 'w>,
     failure: Option<(ErrorKind, Option<i32>)>,
 }
 
-impl<W> UntilFailure<W> {
-    pub(crate) fn new(writer: W) -> Self {
+impl<'w> UntilFailure<'w> {
+    pub(crate) fn new(writer: impl Write + 'w) -> Self {
         Self {
-            writer,
+            writer: Box::new(writer),
             failure: None,
         }
     }
 
-    pub(crate) fn into_inner(self) -> W {
-        self.writer
-    }
-
-    fn call<T>(&mut self, call: impl FnOnce(&mut W) -> Result<T>) -> Result<T> {
+    fn call<T>(&mut self, call: impl FnOnce(&mut dyn Write) -> Result<T>) -> Result<T> {
         if let Some((kind, code)) = self.failure {
             return Err(code.map_or_else(|| kind.into(), Error::from_raw_os_error));
         }
-        let result = call(&mut self.writer);
+        let result = call(&mut *self.writer);
         if let Err(error) = &result
             && error.kind() != ErrorKind::Interrupted
         {
@@ -65,12 +58,12 @@ impl<W> UntilFailure<W> {
     }
 }
 
-impl<W: Write> Write for UntilFailure<W> {
+impl Write for UntilFailure<'_> {
     fn write(&mut self, bytes: &[u8]) -> Result<usize> {
         self.call(|writer| writer.write(bytes))
     }
 
     fn flush(&mut self) -> Result<()> {
-        self.call(Write::flush)
+        self.call(|writer| writer.flush())
     }
 }

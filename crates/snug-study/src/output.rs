@@ -5,7 +5,10 @@ use snug_campaign::CampaignResult;
 use snug_files::{Exchanged, Growing, Inputs, Results, keep_apart};
 use snug_ingest::Listing;
 use snug_record::{RecordError, Recorder};
+use std::cell::RefCell;
+use std::io::Write;
 use std::path::{Path, PathBuf};
+use std::rc::Rc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Every name that a result may have.
@@ -61,7 +64,8 @@ impl Workplace {
 /// The results in the making.
 pub(crate) struct Output {
     results: Results,
-    recorder: Recorder<Growing>,
+    recorder: Recorder<'static>,
+    file: Shared,
     /// Where the recording will stand.
     recording: PathBuf,
 }
@@ -75,8 +79,8 @@ impl Output {
         settings: &RunSettings,
     ) -> Result<Self, StudyError> {
         let recording = settings.out.join(RECORDING);
-        let file = results.create_lasting(RECORDING)?;
-        let begun = Recorder::new(file, study.record).and_then(|mut recorder| {
+        let file = Shared(Rc::new(RefCell::new(results.create_lasting(RECORDING)?)));
+        let begun = Recorder::new(file.clone(), study.record).and_then(|mut recorder| {
             recorder.study(study_ron)?;
             Ok(recorder)
         });
@@ -84,6 +88,7 @@ impl Output {
             Ok(recorder) => Ok(Self {
                 results,
                 recorder,
+                file,
                 recording,
             }),
             Err(source) => Err(StudyError::Recording {
@@ -96,7 +101,7 @@ impl Output {
     /// Records something.
     pub fn record<T>(
         &mut self,
-        what: impl FnOnce(&mut Recorder<Growing>) -> Result<T, RecordError>,
+        what: impl FnOnce(&mut Recorder<'static>) -> Result<T, RecordError>,
     ) -> Result<T, StudyError> {
         what(&mut self.recorder).map_err(|source| StudyError::Recording {
             path: self.recording.clone(),
@@ -119,18 +124,34 @@ impl Output {
         let Self {
             mut results,
             recorder,
+            file,
             recording: path,
         } = self;
         let ended = recorder.finish();
-        let file = ended.map_err(|source| StudyError::Recording { path, source })?;
+        ended.map_err(|source| StudyError::Recording { path, source })?;
         for (name, content) in snug_report::files(result) {
             results.write(name, content.as_bytes())?;
         }
-        results.seal(file)?;
+        let file = Rc::into_inner(file.0).expect("the recorder let go of it when it ended");
+        results.seal(file.into_inner())?;
         let layout = snug_record::layout(&parameter_names(result));
         results.write(LAYOUT, layout.as_bytes())?;
         results.write(STUDY, result.study_ron.as_bytes())?;
         Ok(results.exchange()?)
+    }
+}
+
+/// The recording's file, which the recorder writes to until it has ended.
+#[derive(Clone)]
+struct Shared(Rc<RefCell<Growing>>);
+
+impl Write for Shared {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        self.0.borrow_mut().write(bytes)
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        self.0.borrow_mut().flush()
     }
 }
 

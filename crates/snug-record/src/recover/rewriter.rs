@@ -123,8 +123,8 @@ impl<'a> Repeated<'a> {
     }
 }
 
-pub(super) struct Rewriter<'a, W: Write> {
-    writer: LastingWriter<W>,
+pub(super) struct Rewriter<'a> {
+    writer: LastingWriter<'a>,
     budget: Budget,
     library: String,
     repeated: Repeated<'a>,
@@ -136,9 +136,13 @@ pub(super) struct Rewriter<'a, W: Write> {
     bytes: u64,
 }
 
-impl<'a, W: Write> Rewriter<'a, W> {
+impl<'a> Rewriter<'a> {
     /// Begins the new file with the profile of the old.
-    pub(super) fn new(file: &'a [u8], to: W, budget: Budget) -> Result<Self, RecordError> {
+    pub(super) fn new(
+        file: &'a [u8],
+        to: impl Write + 'a,
+        budget: Budget,
+    ) -> Result<Self, RecordError> {
         let header = match framed(&mut &file[mcap::MAGIC.len()..]) {
             Some((op::HEADER, body)) => Header::read(body).unwrap_or_default(),
             _ => Header::default(),

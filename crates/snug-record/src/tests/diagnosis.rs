@@ -121,9 +121,11 @@ fn messages(bytes: &[u8], wanted: &str) -> Vec<(Value, Value, f64)> {
 }
 
 fn recorded() -> Vec<u8> {
-    let mut recorder = Recorder::new(Vec::new(), small_chunks()).unwrap();
+    let mut bytes = Vec::new();
+    let mut recorder = Recorder::new(&mut bytes, small_chunks()).unwrap();
     recorder.diagnosis(&diagnosis()).unwrap();
-    recorder.finish().unwrap()
+    recorder.finish().unwrap();
+    bytes
 }
 
 #[test]
@@ -183,9 +185,10 @@ fn an_empty_diagnosis_is_a_verdict_alone() {
     let mut found = diagnosis();
     found.ladder.clear();
     found.ranking.clear();
-    let mut recorder = Recorder::new(Vec::new(), small_chunks()).unwrap();
+    let mut bytes = Vec::new();
+    let mut recorder = Recorder::new(&mut bytes, small_chunks()).unwrap();
     recorder.diagnosis(&found).unwrap();
-    let bytes = recorder.finish().unwrap();
+    recorder.finish().unwrap();
     assert_eq!(messages(&bytes, topic::VERDICT).len(), 1);
     assert!(messages(&bytes, topic::LADDER).is_empty());
 }

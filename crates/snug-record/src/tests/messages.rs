@@ -48,7 +48,8 @@ struct Verdict {
 }
 
 fn full_recording() -> Vec<u8> {
-    let mut recorder = Recorder::new(Vec::new(), RecordSettings::default()).unwrap();
+    let mut bytes = Vec::new();
+    let mut recorder = Recorder::new(&mut bytes, RecordSettings::default()).unwrap();
     for (result, traces) in &tightenings() {
         recorder.tightening(result, traces, Some(3)).unwrap();
     }
@@ -128,7 +129,8 @@ fn full_recording() -> Vec<u8> {
         recorder.json("/verdict", "snug.Verdict", &verdict).unwrap();
     }
     recorder.json("/count", "snug.Count", &3).unwrap();
-    recorder.finish().unwrap()
+    recorder.finish().unwrap();
+    bytes
 }
 
 #[test]

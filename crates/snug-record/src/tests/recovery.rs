@@ -92,11 +92,12 @@ fn every_cut_gives_the_beginning_of_the_original() {
 
 #[test]
 fn what_is_whole_and_what_is_missing_is_named() {
-    let mut recorder = Recorder::new(Vec::new(), RecordSettings::default()).unwrap();
+    let mut end = Vec::new();
+    let mut recorder = Recorder::new(&mut end, RecordSettings::default()).unwrap();
     for (result, traces) in &tightenings()[..2] {
         recorder.tightening(result, traces, None).unwrap();
     }
-    let end = recorder.finish().unwrap();
+    recorder.finish().unwrap();
     let chunks: Vec<usize> = Summary::read(&end)
         .unwrap()
         .unwrap()

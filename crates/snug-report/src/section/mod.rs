@@ -1,4 +1,4 @@
-//! The page's sections. A new one is A new one is a new file and one line in [`SECTIONS`]..
+//! The page's sections. A new one is a new file and one line in [`SECTIONS`].
 
 mod before_after;
 mod comparison;
