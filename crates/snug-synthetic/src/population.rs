@@ -28,7 +28,8 @@ impl HandArm {
         self.damping_kg_per_s * square / (2.0 * (self.stiffness_n_per_m * square * inertia).sqrt())
     }
 
-    fn scaled(&self, ratio: [f64; 3]) -> Self {
+    /// With m, c, k multiplied by these.
+    pub(crate) fn scaled(&self, ratio: [f64; 3]) -> Self {
         Self {
             mass_kg: self.mass_kg * ratio[0],
             damping_kg_per_s: self.damping_kg_per_s * ratio[1],

@@ -1,9 +1,8 @@
 //! From the true motion to what the channels hold.
 
-use crate::effects::MeasurementLaw;
 use crate::fault::Fault;
 use crate::random::Stream;
-use crate::{CampaignPlan, NoiseKind, Plant, Trajectory, ZeroErrors};
+use crate::{CampaignPlan, HiddenEffect, NoiseKind, Plant, Trajectory, ZeroErrors};
 use rand::Rng;
 use rand_distr::{Distribution, StandardNormal};
 use std::f64::consts::TAU;
@@ -99,12 +98,10 @@ pub(crate) fn sense(
 fn measured_acceleration(plant: &Plant, trajectory: &Trajectory, step: usize) -> f64 {
     let omega = trajectory.omega_rad_per_s[step];
     let mut measured = trajectory.sensed_acceleration_rad_per_s2[step];
-    for law in plant.measurement_laws() {
-        measured += match law {
-            MeasurementLaw::CentripetalCrosstalk { epsilon } => epsilon * omega * omega,
-            MeasurementLaw::GravityLeakage { gamma_rad_per_s2 } => {
-                gamma_rad_per_s2 * trajectory.theta_rad[step].sin()
-            }
+    for law in &plant.laws {
+        measured += match law.parts() {
+            (HiddenEffect::CentripetalCrosstalk, [epsilon]) => epsilon * omega * omega,
+            (HiddenEffect::GravityLeakage, [gamma]) => gamma * trajectory.theta_rad[step].sin(),
             _ => 0.0,
         };
     }
@@ -127,16 +124,12 @@ impl ConstantErrors {
             bias_rad_per_s2: 0.0,
             output_offset_rad_per_s2: 0.0,
         };
-        for law in plant.measurement_laws() {
-            match law {
-                MeasurementLaw::TorqueOffset { offset_nm } => errors.torque_offset_nm += offset_nm,
-                MeasurementLaw::TorqueGain { gain_error } => errors.torque_gain += gain_error,
-                MeasurementLaw::AccelerationBias { bias_rad_per_s2 } => {
-                    errors.bias_rad_per_s2 += bias_rad_per_s2;
-                }
-                MeasurementLaw::OutputOffset { y0_rad_per_s2 } => {
-                    errors.output_offset_rad_per_s2 += y0_rad_per_s2;
-                }
+        for law in &plant.laws {
+            match law.parts() {
+                (HiddenEffect::TorqueOffset, [offset]) => errors.torque_offset_nm += offset,
+                (HiddenEffect::TorqueGain, [gain_error]) => errors.torque_gain += gain_error,
+                (HiddenEffect::AccelerationBias, [bias]) => errors.bias_rad_per_s2 += bias,
+                (HiddenEffect::OutputOffset, [y0]) => errors.output_offset_rad_per_s2 += y0,
                 _ => {}
             }
         }

@@ -1,13 +1,14 @@
 //! From plan to campaign: draws people and pulses, integrates each tightening, measures it, and notes the truth.
 
-use crate::effects::{Law, MeasurementLaw};
 use crate::fault::Fault;
 use crate::file::SyntheticFile;
 use crate::random::Stream;
 use crate::sensing::{Channels, sense};
 use crate::truth::{TighteningTruth, Truth};
-use crate::{CampaignPlan, FilePlan, HandArm, NoiseKind, Plant, Pulse, Strategy, SyntheticError};
-use crate::{SyntheticCampaign, Trajectory};
+use crate::{
+    CampaignPlan, FilePlan, HandArm, HiddenEffect, Law, NoiseKind, Plant, Pulse, Strategy,
+};
+use crate::{SyntheticCampaign, SyntheticError, Trajectory};
 use std::collections::BTreeMap;
 
 /// Samples of rest before the window that are integrated as well, so that nothing starts by surprise.
@@ -140,7 +141,7 @@ impl Bench<'_> {
         let mut used = BTreeMap::new();
         for &effect in &self.plan.effects {
             if let Some(law) = effect.law(self.plan.strength, &mut rng) {
-                used.insert(effect.name().to_owned(), law.values());
+                used.insert(effect.name().to_owned(), law.numbers.clone());
                 laws.push(law);
             }
         }
@@ -162,25 +163,17 @@ impl Bench<'_> {
 }
 
 fn lever_arm_error(laws: &[Law]) -> f64 {
-    laws.iter()
-        .find_map(|law| match law {
-            Law::Measurement(MeasurementLaw::LeverArmError { error_ratio }) => Some(*error_ratio),
-            _ => None,
-        })
-        .unwrap_or(0.0)
+    let error = laws
+        .iter()
+        .find(|law| law.effect == HiddenEffect::LeverArmError);
+    error.map_or(0.0, |law| law.numbers[0])
 }
 
-/// `arm` after `index` tightenings.
+/// `arm` after `index` tightenings; each of m, c, k keeps at least a tenth.
 fn tired(arm: HandArm, laws: &[Law], index: usize) -> HandArm {
-    laws.iter().fold(arm, |arm, law| match law {
-        Law::Trend(trend) => {
-            let [mass, damping, stiffness] = trend.ratios(index);
-            HandArm {
-                mass_kg: arm.mass_kg * mass,
-                damping_kg_per_s: arm.damping_kg_per_s * damping,
-                stiffness_n_per_m: arm.stiffness_n_per_m * stiffness,
-            }
-        }
+    laws.iter().fold(arm, |arm, law| match law.parts() {
+        (HiddenEffect::Fatigue, &[stiffness, damping, mass]) => arm
+            .scaled([mass, damping, stiffness].map(|slope| (1.0 + slope * index as f64).max(0.1))),
         _ => arm,
     })
 }
