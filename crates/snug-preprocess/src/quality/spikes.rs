@@ -1,5 +1,6 @@
 //! Mends spikes of one to three samples, except those that the tool's own motion explains.
 
+use super::non_finite::fill;
 use crate::spread::median;
 use std::ops::Range;
 
@@ -51,16 +52,13 @@ pub(crate) fn repair(
             continue;
         };
         behind = end;
-        let (before, after) = (samples[start - 1], samples[end]);
+        let before = samples[start - 1];
         let is_explained = |index: usize| explains(index, before, samples[index], 0.5 * threshold);
         if (start..end).all(is_explained) {
             found.explained.push(start..end);
             continue;
         }
-        let steps = (end - start + 1) as f64;
-        for (step, sample) in samples[start..end].iter_mut().enumerate() {
-            *sample = before + (after - before) * (step + 1) as f64 / steps;
-        }
+        fill(samples, &(start..end));
         found.mended.push(start..end);
     }
     found
