@@ -3,8 +3,8 @@
 mod events;
 
 use crate::finding_log::{About, FindingLog};
-use crate::layout::Layout;
-use crate::mat::{self, Content, MatFile, MatSelection, Value};
+use crate::layout::{Layout, name_and_stem};
+use crate::mat::{self, Content, MatSelection, Value};
 use crate::mcap::McapLayout;
 use crate::memory::Budget;
 use crate::source::ending;
@@ -65,22 +65,16 @@ impl Layout for ThesisLayout {
 
     fn check(&self) -> Result<(), IngestError> {
         if !(self.sample_rate_hz.is_finite() && self.sample_rate_hz > 0.0) {
-            return Err(IngestError::Setting {
-                field: "sample_rate_hz",
-                value: self.sample_rate_hz.to_string(),
-                allowed: "a positive number",
-            });
+            let (rate, allowed) = (self.sample_rate_hz, "a positive number");
+            return Err(IngestError::setting("sample_rate_hz", rate, allowed));
         }
         for (field, names) in [
             ("acceleration", &self.acceleration),
             ("torque", &self.torque),
         ] {
             if names.is_empty() {
-                return Err(IngestError::Setting {
-                    field,
-                    value: "[]".to_owned(),
-                    allowed: "at least one variable name",
-                });
+                let allowed = "at least one variable name";
+                return Err(IngestError::setting(field, "[]", allowed));
             }
         }
         Ok(())
@@ -103,7 +97,7 @@ impl Layout for ThesisLayout {
 
 impl ThesisLayout {
     /// Whether a variable of this name is read.
-    pub fn wants(&self, name: &str) -> bool {
+    fn wants(&self, name: &str) -> bool {
         [
             &self.acceleration,
             &self.torque,
@@ -117,15 +111,7 @@ impl ThesisLayout {
         .any(|wanted| wanted == name)
     }
 
-    /// The recording that a MAT file holds; `path` names it.
-    ///
-    /// # Errors
-    /// As [`ThesisLayout::selected`].
-    pub fn recording(&self, mat: MatFile, path: &Path) -> Result<Ingested, IngestError> {
-        self.selected(mat.into(), path)
-    }
-
-    /// The recording in the variables that [`ThesisLayout::wants`]; `path` names it.
+    /// The recording in the variables that are wanted; `path` names it.
     ///
     /// A damaged force, label or sampling rate costs itself, and is a finding.
     ///
@@ -133,27 +119,14 @@ impl ThesisLayout {
     /// [`IngestError::MissingChannel`], [`IngestError::UnusableChannel`] or [`IngestError::DamagedVariable`] for
     /// acceleration and torque, [`IngestError::EventTable`] or [`IngestError::DamagedVariable`] for events. Everything
     /// less is a finding.
-    pub fn selected(&self, mat: MatSelection, path: &Path) -> Result<Ingested, IngestError> {
-        self.within(mat, path, &Budget::new(None))
-    }
-
     fn within(
         &self,
         mut mat: MatSelection,
         path: &Path,
         budget: &Budget,
     ) -> Result<Ingested, IngestError> {
-        let file = path
-            .file_name()
-            .unwrap_or_default()
-            .to_string_lossy()
-            .into_owned();
-        let stem = path
-            .file_stem()
-            .unwrap_or_default()
-            .to_string_lossy()
-            .into_owned();
-        let mut log = FindingLog::new(&file);
+        let (file, stem) = name_and_stem(path);
+        let mut log = FindingLog::new(path);
         let mat = &mut mat;
         let mut channels = Channels {
             acceleration: required(mat, "acceleration", &self.acceleration, budget, &mut log)?,

@@ -1,9 +1,9 @@
 //! Text to columns of numbers.
 
 use super::rows::Rows;
-use super::{Column, CsvLayout, report_gaps, report_open_quotes};
+use super::{Column, CsvLayout};
 use crate::IngestError;
-use crate::finding_log::FindingLog;
+use crate::finding_log::{About, FindingLog};
 use crate::memory::Budget;
 use csv::StringRecord;
 use serde::{Deserialize, Serialize};
@@ -101,7 +101,14 @@ pub(super) fn read(
         });
     }
     if let Some(line) = first_swallowed {
-        report_open_quotes(swallowed, line, log);
+        log.left_out(
+            "quoted_lines",
+            About::File,
+            format!(
+                "{swallowed} lines stand within quotes, as parts of the cell before them, and are no rows (first: the row \
+                 at line {line}); is a quote open?"
+            ),
+        );
     }
     for (column, (channel, _)) in columns.iter().zip(wanted) {
         if column.gaps == lines.len() {
@@ -112,7 +119,15 @@ pub(super) fn read(
             });
         }
         if let Some((line, text)) = &column.first_gap {
-            report_gaps(&column.name, column.gaps, lines.len(), *line, text, log);
+            log.note(
+                "not_a_number",
+                About::Channel(&column.name),
+                format!(
+                    "{} of {} cells are no numbers and are read as NaN (first: {text:?} in line {line})",
+                    column.gaps,
+                    lines.len()
+                ),
+            );
         }
     }
     Ok(Table {

@@ -97,14 +97,3 @@ impl MatSelection {
         }
     }
 }
-
-impl From<MatFile> for MatSelection {
-    fn from(file: MatFile) -> Self {
-        Self {
-            format: file.format,
-            present: file.variables.iter().map(|v| v.name.clone()).collect(),
-            variables: file.variables,
-            unreadable: Vec::new(),
-        }
-    }
-}

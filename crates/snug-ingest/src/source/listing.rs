@@ -3,6 +3,7 @@
 use super::entry::Entry;
 use super::{Source, ending};
 use crate::IngestError;
+use crate::layout::name_and_stem;
 use snug_campaign::{Finding, Severity};
 use snug_files::{Disk, Host, Identity};
 use std::collections::HashMap;
@@ -137,7 +138,7 @@ impl Listing {
             };
             let message = format!(
                 "not read again: it is the same file as {}, which is read",
-                name_of(first)
+                name_and_stem(first).0
             );
             findings.push(finding(Severity::Note, "same_file", path, &message));
             false
@@ -149,7 +150,7 @@ impl Listing {
 fn unread(disk: &dyn Disk, path: &Path, endings: &[&str]) -> Option<Finding> {
     let ends_like_one = endings.contains(&ending(path).as_str());
     // `._x.mat` and the like are shadows that systems and programs leave behind.
-    let hidden = name_of(path).starts_with('.');
+    let hidden = name_and_stem(path).0.starts_with('.');
     let severity = if ends_like_one && !hidden {
         Severity::LeftOut
     } else {
@@ -200,7 +201,7 @@ fn finding(severity: Severity, code: &str, path: &Path, message: &str) -> Findin
     Finding {
         severity,
         code: code.to_owned(),
-        file: name_of(path),
+        file: name_and_stem(path).0,
         tightening: None,
         channel: None,
         message: message.to_owned(),
@@ -217,13 +218,6 @@ fn told(finding: &Finding) -> String {
         _ => "",
     };
     format!("{}{what}", finding.file)
-}
-
-fn name_of(path: &Path) -> String {
-    path.file_name()
-        .unwrap_or_default()
-        .to_string_lossy()
-        .into_owned()
 }
 
 fn dotted(endings: &[&str]) -> String {
