@@ -8,7 +8,7 @@ use crate::mat::{self, Content, MatSelection, Value};
 use crate::mcap::McapLayout;
 use crate::memory::Budget;
 use crate::source::ending;
-use crate::{ConditionPattern, IngestError, Ingested};
+use crate::{ConditionPattern, IngestError, Ingested, range};
 use serde::{Deserialize, Serialize};
 use snug_campaign::{Motion, Recording, Segment, TimeBase};
 use snug_files::Input;
@@ -177,48 +177,28 @@ impl ThesisLayout {
             return self.sample_rate_hz;
         };
         let declared = self.sample_rate_hz;
-        let value = match value {
-            Ok(value) => value,
-            Err(reason) => {
-                log.note(
-                    "sample_rate_unusable",
-                    About::Channel(name),
-                    format!("cannot be read: {reason}; the study's {declared} Hz are used"),
-                );
-                return declared;
-            }
-        };
-        let single = |numbers: Vec<f64>| match numbers.as_slice() {
-            &[rate] => Some(rate),
-            _ => None,
-        };
-        let found = value
-            .to_f64()
-            .and_then(single)
-            .or_else(|| value.text().and_then(|text| events::number(&text)));
-        match found.filter(|rate| rate.is_finite() && *rate > 0.0) {
-            Some(rate) => {
-                if (rate - declared).abs() > 1e-6 * declared {
-                    log.note(
-                        "sample_rate_differs",
-                        About::Channel(name),
-                        format!("the file says {rate} Hz, the study {declared} Hz; the file's own rate is used"),
-                    );
+        let reason = match value {
+            Ok(value) => match rate(&value) {
+                Some(rate) => {
+                    if (rate - declared).abs() > 1e-6 * declared {
+                        log.note(
+                            "sample_rate_differs",
+                            About::Channel(name),
+                            format!("the file says {rate} Hz, the study {declared} Hz; the file's own rate is used"),
+                        );
+                    }
+                    return rate;
                 }
-                rate
-            }
-            None => {
-                log.note(
-                    "sample_rate_unusable",
-                    About::Channel(name),
-                    format!(
-                        "{} is no positive number; the study's {declared} Hz are used",
-                        value.describe()
-                    ),
-                );
-                declared
-            }
-        }
+                None => format!("{} is no positive number", value.describe()),
+            },
+            Err(reason) => format!("cannot be read: {reason}"),
+        };
+        log.note(
+            "sample_rate_unusable",
+            About::Channel(name),
+            format!("{reason}; the study's {declared} Hz are used"),
+        );
+        declared
     }
 
     /// The text that names the conditions.
@@ -258,12 +238,7 @@ impl ThesisLayout {
                     self.events.join(" or ")
                 ),
             );
-            return Ok(vec![Segment {
-                number: 1,
-                start: 0,
-                end: samples,
-                event_times_s: None,
-            }]);
+            return Ok(range::segments(&[], samples, log));
         };
         // A damaged table is not one without events: the tightenings in it would be lost silently.
         let table = table.map_err(|reason| damaged("events", name, reason))?;
@@ -404,6 +379,16 @@ fn vector(value: Value, budget: &Budget) -> Result<Option<Vec<f64>>, IngestError
     let samples = value.into_f64().filter(|samples| !samples.is_empty());
     budget.give_back(stored);
     Ok(samples)
+}
+
+/// A positive number, as such or in words.
+fn rate(value: &Value) -> Option<f64> {
+    let number = match (value.to_f64().as_deref(), value.text()) {
+        (Some(&[number]), _) => number,
+        (_, Some(text)) => events::number(&text)?,
+        _ => return None,
+    };
+    (number.is_finite() && number > 0.0).then_some(number)
 }
 
 /// Text, or a cell with nothing but text in it.

@@ -10,7 +10,7 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 /// The files that a source reads, and what else lies there.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Listing {
     /// Files in the order in which they are to be read.
     pub files: Vec<PathBuf>,
@@ -60,10 +60,7 @@ fn all(disk: &dyn Disk, source: &Source, folder: &Path) -> Result<Listing, Inges
         .entries(folder)
         .map_err(|error| IngestError::Read(error).in_file(folder))?;
     entries.sort();
-    let mut listing = Listing {
-        files: Vec::new(),
-        findings: Vec::new(),
-    };
+    let mut listing = Listing::default();
     for path in entries {
         match unread(disk, &path, endings) {
             Some(finding) => listing.findings.push(finding),
@@ -84,11 +81,11 @@ fn all(disk: &dyn Disk, source: &Source, folder: &Path) -> Result<Listing, Inges
 }
 
 fn named(disk: &dyn Disk, source: &Source, folder: &Path) -> Result<Listing, IngestError> {
-    let mut files = Vec::with_capacity(source.files.len());
+    let mut listing = Listing::default();
     for name in &source.files {
         let file = folder.join(name);
         match Entry::of_named(disk, &file) {
-            Entry::File => files.push(file),
+            Entry::File => listing.files.push(file),
             Entry::Nothing => {
                 return Err(IngestError::NoSuchFile {
                     folder: folder.to_owned(),
@@ -98,10 +95,6 @@ fn named(disk: &dyn Disk, source: &Source, folder: &Path) -> Result<Listing, Ing
             entry => return Err(entry.error(file, "a file, because the source names it")),
         }
     }
-    let mut listing = Listing {
-        files,
-        findings: Vec::new(),
-    };
     listing.without_second_names(disk);
     Ok(listing)
 }
