@@ -8,7 +8,6 @@ mod error;
 mod faults;
 mod integration;
 mod locate;
-mod noise;
 mod offset;
 mod onset;
 mod prepared;
