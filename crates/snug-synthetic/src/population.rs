@@ -92,7 +92,7 @@ impl Population {
         known_inertia_kg_m2: f64,
         seed: u64,
     ) -> Result<HandArm, SyntheticError> {
-        let mut rng = Stream::Person(participant).rng(seed);
+        let mut rng = Stream::Person.rng(seed, 0, participant as usize);
         // A margin inside the limits, so that the person's tightenings mostly stay there without being drawn again.
         let kept = 1.25 * self.smallest_damping_ratio..0.85 * self.largest_damping_ratio;
         self.draw(self.median, self.between_participants, &mut rng, |arm| {

@@ -57,7 +57,7 @@ pub(crate) fn sense(
     let samples = plan.segment_samples();
     let quiet = samples - trajectory.time_s.len();
     let sensors = &plan.sensors;
-    let mut noise_rng = Stream::Noise { file, index }.rng(seed);
+    let mut noise_rng = Stream::Noise.rng(seed, file, index);
     let mut noise = |kind: NoiseKind, deviation| kind.samples(deviation, samples, &mut noise_rng);
     let mut acceleration = noise(sensors.noise, sensors.acceleration_noise_rad_per_s2);
     let mut torque = noise(NoiseKind::White, sensors.torque_noise_nm);
@@ -147,7 +147,7 @@ struct Nuisance {
 
 impl Nuisance {
     fn drawn(plan: &CampaignPlan, seed: u64, file: usize, index: usize) -> Self {
-        let mut rng = Stream::Nuisance { file, index }.rng(seed);
+        let mut rng = Stream::Nuisance.rng(seed, file, index);
         let standard: f64 = StandardNormal.sample(&mut rng);
         Self {
             bias_rad_per_s2: plan.sensors.bias_sd_rad_per_s2 * standard,

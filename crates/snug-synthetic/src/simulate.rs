@@ -69,11 +69,7 @@ impl Bench<'_> {
     ) -> Result<(Channels, TighteningTruth), SyntheticError> {
         let plan = self.plan;
         let fault = self.fault(number, index);
-        let place = Stream::Tightening {
-            file: number,
-            index,
-        };
-        let mut rng = place.rng(self.seed);
+        let mut rng = Stream::Tightening.rng(self.seed, number, index);
         let around = self.person(file)?;
         let known_inertia = file.known_inertia_kg_m2();
         let arm = plan
@@ -136,7 +132,7 @@ impl Bench<'_> {
     }
 
     fn laws(&self, file: usize, index: usize) -> (Vec<Law>, BTreeMap<String, Vec<f64>>) {
-        let mut rng = Stream::Effect { file, index }.rng(self.seed);
+        let mut rng = Stream::Effect.rng(self.seed, file, index);
         let mut laws = Vec::new();
         let mut used = BTreeMap::new();
         for &effect in &self.plan.effects {
