@@ -110,12 +110,26 @@ pub(super) fn read(
             ),
         );
     }
+    judge_gaps(&columns, wanted, lines.len(), log)?;
+    Ok(Table {
+        columns: columns.into_iter().map(|column| column.values).collect(),
+        lines,
+    })
+}
+
+/// Says how many cells of a column are no numbers, and refuses a column of nothing else.
+fn judge_gaps(
+    columns: &[Reading],
+    wanted: &[(String, &Column)],
+    rows: usize,
+    log: &mut FindingLog,
+) -> Result<(), IngestError> {
     for (column, (channel, _)) in columns.iter().zip(wanted) {
-        if column.gaps == lines.len() {
+        if column.gaps == rows {
             return Err(IngestError::UnusableChannel {
                 channel: channel.clone(),
                 variable: column.name.clone(),
-                found: format!("without any number in {} rows", lines.len()),
+                found: format!("without any number in {rows} rows"),
             });
         }
         if let Some((line, text)) = &column.first_gap {
@@ -123,17 +137,13 @@ pub(super) fn read(
                 "not_a_number",
                 About::Channel(&column.name),
                 format!(
-                    "{} of {} cells are no numbers and are read as NaN (first: {text:?} in line {line})",
-                    column.gaps,
-                    lines.len()
+                    "{} of {rows} cells are no numbers and are read as NaN (first: {text:?} in line {line})",
+                    column.gaps
                 ),
             );
         }
     }
-    Ok(Table {
-        columns: columns.into_iter().map(|column| column.values).collect(),
-        lines,
-    })
+    Ok(())
 }
 
 impl Reading {
