@@ -22,7 +22,7 @@ mod settings;
 mod signals;
 mod spread;
 #[cfg(test)]
-mod synthetic;
+mod tests;
 mod thesis_checks;
 mod torque_target;
 mod window;

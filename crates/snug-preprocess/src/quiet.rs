@@ -136,7 +136,7 @@ pub(crate) fn unsteadiness(quiet: &[f64], settings: &QuietSettings) -> Option<Un
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::synthetic::{coloured_noise, white_noise};
+    use crate::tests::synthetic::{coloured_noise, white_noise};
 
     #[test]
     fn ends_before_whichever_comes_first() {

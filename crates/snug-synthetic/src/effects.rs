@@ -98,7 +98,7 @@ pub enum HiddenEffect {
 pub struct Law {
     /// The effect.
     pub effect: HiddenEffect,
-    /// Its numbers, in the order of the effect's description.
+    /// Its numbers, in the order and the units of the effect's description; no unit where that gives none.
     pub numbers: Vec<f64>,
 }
 

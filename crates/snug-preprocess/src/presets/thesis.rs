@@ -102,7 +102,7 @@ fn noise_before(
 mod tests {
     #![allow(clippy::unwrap_used)]
     use crate::Preset;
-    use crate::synthetic::{prepared, recording};
+    use crate::tests::synthetic::{prepared, recording};
     use snug_campaign::Severity;
 
     #[test]

@@ -98,7 +98,9 @@ fn typical_difference(samples: &[f64], range: Range<usize>) -> f64 {
 mod tests {
     use super::*;
     use crate::quality::free_flight::FreeFlight;
-    use crate::synthetic::{ONSET, SEGMENT, acceleration, coloured_noise, pulse, white_noise};
+    use crate::tests::synthetic::{
+        ONSET, SEGMENT, acceleration, coloured_noise, pulse, white_noise,
+    };
     use snug_campaign::Rig;
 
     fn measured(seed: u64) -> [Vec<f64>; 2] {
