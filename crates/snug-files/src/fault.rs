@@ -88,6 +88,11 @@ impl FaultyDisk {
         }
     }
 
+    /// What a call is passed on to.
+    fn host(&self) -> io::Result<Host> {
+        self.pass().map(|()| Host)
+    }
+
     /// How many of `wanted` bytes may be moved.
     fn share(&self, wanted: usize) -> io::Result<usize> {
         match (self.fails(), self.fault, self.lasting) {
@@ -138,68 +143,56 @@ impl Output for Faulty<Box<dyn Output>> {
 
 impl Disk for FaultyDisk {
     fn metadata(&self, path: &Path) -> io::Result<Metadata> {
-        self.pass()?;
-        Host.metadata(path)
+        self.host()?.metadata(path)
     }
 
     fn link_metadata(&self, path: &Path) -> io::Result<Metadata> {
-        self.pass()?;
-        Host.link_metadata(path)
+        self.host()?.link_metadata(path)
     }
 
     fn entries(&self, folder: &Path) -> io::Result<Vec<PathBuf>> {
-        self.pass()?;
-        Host.entries(folder)
+        self.host()?.entries(folder)
     }
 
     fn open(&self, path: &Path) -> io::Result<Box<dyn Input>> {
-        self.pass()?;
         Ok(Box::new(Faulty {
             disk: self.clone(),
-            file: Host.open(path)?,
+            file: self.host()?.open(path)?,
         }))
     }
 
     fn create(&self, path: &Path) -> io::Result<Box<dyn Output>> {
-        self.pass()?;
         Ok(Box::new(Faulty {
             disk: self.clone(),
-            file: Host.create(path)?,
+            file: self.host()?.create(path)?,
         }))
     }
 
     fn open_lock(&self, path: &Path) -> io::Result<File> {
-        self.pass()?;
-        Host.open_lock(path)
+        self.host()?.open_lock(path)
     }
 
     fn create_folder(&self, path: &Path) -> io::Result<()> {
-        self.pass()?;
-        Host.create_folder(path)
+        self.host()?.create_folder(path)
     }
 
     fn rename(&self, from: &Path, to: &Path) -> io::Result<()> {
-        self.pass()?;
-        Host.rename(from, to)
+        self.host()?.rename(from, to)
     }
 
     fn link(&self, from: &Path, to: &Path) -> io::Result<()> {
-        self.pass()?;
-        Host.link(from, to)
+        self.host()?.link(from, to)
     }
 
     fn remove_file(&self, path: &Path) -> io::Result<()> {
-        self.pass()?;
-        Host.remove_file(path)
+        self.host()?.remove_file(path)
     }
 
     fn remove_folder(&self, path: &Path) -> io::Result<()> {
-        self.pass()?;
-        Host.remove_folder(path)
+        self.host()?.remove_folder(path)
     }
 
     fn sync_folder(&self, folder: &Path) -> io::Result<()> {
-        self.pass()?;
-        Host.sync_folder(folder)
+        self.host()?.sync_folder(folder)
     }
 }

@@ -290,10 +290,8 @@ impl Results {
         for number in 1.. {
             let name = names(number);
             let path = self.folder.join(&name);
-            match self.disk.link_metadata(&path) {
-                Ok(_) => {}
-                Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(name),
-                Err(error) => return Err(FilesError::refused("look at", &path)(error)),
+            if !exists(&*self.disk, &path).map_err(FilesError::refused("look at", &path))? {
+                return Ok(name);
             }
         }
         unreachable!("a folder holds fewer files than there are numbers")

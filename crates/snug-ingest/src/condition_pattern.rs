@@ -108,30 +108,26 @@ impl ConditionPattern {
         let mut conditions = Conditions::default();
         let mut unknown = Vec::new();
         for &(field, word) in fields {
-            match field {
-                Field::Participant => conditions.participant = Some(word.to_owned()),
-                Field::Pace => conditions.pace_per_min = number(word),
-                Field::Strategy => {
-                    conditions.strategy = accepted(&self.strategies, word);
-                    if conditions.strategy.is_none() {
-                        unknown.push(Unknown {
-                            field: "strategy",
-                            word,
-                            known: &self.strategies,
-                        });
-                    }
+            let (place, name, known) = match field {
+                Field::Strategy => (&mut conditions.strategy, "strategy", &self.strategies),
+                Field::Joint => (&mut conditions.joint, "joint", &self.joints),
+                Field::Participant => {
+                    conditions.participant = Some(word.to_owned());
+                    continue;
                 }
-                Field::Joint => {
-                    conditions.joint = accepted(&self.joints, word);
-                    if conditions.joint.is_none() {
-                        unknown.push(Unknown {
-                            field: "joint",
-                            word,
-                            known: &self.joints,
-                        });
-                    }
+                Field::Pace => {
+                    conditions.pace_per_min = number(word);
+                    continue;
                 }
-                Field::Skip => {}
+                Field::Skip => continue,
+            };
+            *place = accepted(known, word);
+            if place.is_none() {
+                unknown.push(Unknown {
+                    field: name,
+                    word,
+                    known,
+                });
             }
         }
         (conditions, unknown)

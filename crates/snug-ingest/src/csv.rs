@@ -7,7 +7,7 @@ mod table;
 pub use number::Decimal;
 pub use table::{Delimiter, Header};
 
-use crate::finding_log::{About, FindingLog};
+use crate::finding_log::FindingLog;
 use crate::layout::{self, Layout};
 use crate::memory::Budget;
 use crate::range::{self, Range};
@@ -15,7 +15,7 @@ use crate::sampling::{self, Timed};
 use crate::signal::{self, Signal, Unit};
 use crate::{ConditionPattern, IngestError, Ingested};
 use serde::{Deserialize, Serialize};
-use snug_campaign::{Conditions, Motion, Recording, Segment, TimeBase};
+use snug_campaign::TimeBase;
 use snug_files::Input;
 use std::fmt;
 use std::path::Path;
@@ -177,24 +177,24 @@ impl Layout for CsvLayout {
             ),
         };
         if !fits {
-            return Err(IngestError::Setting {
-                field,
-                value: value.to_string(),
-                allowed: "a positive number",
-            });
+            return Err(IngestError::setting(field, value, "a positive number"));
         }
         if let Some(comment) = self.comment.filter(|comment| !comment.is_ascii()) {
-            return Err(IngestError::Setting {
-                field: "comment",
-                value: comment.to_string(),
-                allowed: "an ASCII character",
-            });
+            return Err(IngestError::setting(
+                "comment",
+                comment,
+                "an ASCII character",
+            ));
         }
         Ok(())
     }
 
     fn ranges(&self) -> &[Range] {
         &self.ranges
+    }
+
+    fn conditions(&self) -> Option<&ConditionPattern> {
+        self.conditions.as_ref()
     }
 
     fn declared(&self) -> Vec<(Signal, Unit, f64)> {
@@ -210,80 +210,24 @@ impl Layout for CsvLayout {
         budget: &Budget,
     ) -> Result<Ingested, IngestError> {
         let content = layout::content(input, budget, check_text)?;
-        self.within(&content, path, lever_arm_m, budget)
-    }
-}
-
-impl CsvLayout {
-    /// The recording in a CSV file's content; `path` names it, `lever_arm_m` turns lengths of the grip into angles.
-    ///
-    /// # Errors
-    /// [`IngestError::NotText`], [`IngestError::MissingChannel`] for a column that is not there,
-    /// [`IngestError::CsvSyntax`], [`IngestError::RowTooLong`], [`IngestError::NoRows`], [`IngestError::TimeNotRising`] and [`IngestError::TimeGap`].
-    pub fn recording(
-        &self,
-        content: &[u8],
-        path: &Path,
-        lever_arm_m: f64,
-    ) -> Result<Ingested, IngestError> {
-        self.within(content, path, lever_arm_m, &Budget::new(None))
-    }
-
-    fn within(
-        &self,
-        content: &[u8],
-        path: &Path,
-        lever_arm_m: f64,
-        budget: &Budget,
-    ) -> Result<Ingested, IngestError> {
-        check_text(content)?;
         if content.trim_ascii().is_empty() {
             return Err(IngestError::EmptyFile);
         }
-        let file = path
-            .file_name()
-            .unwrap_or_default()
-            .to_string_lossy()
-            .into_owned();
-        let label = path
-            .file_stem()
-            .unwrap_or_default()
-            .to_string_lossy()
-            .into_owned();
-        let mut log = FindingLog::new(&file);
-        let table = table::read(content, self, &self.wanted(), budget, &mut log)?;
-        let (time_base, columns) = self.on_a_grid(table, budget, &mut log)?;
-        let samples = columns.first().map_or(0, Vec::len);
-        let recording = Recording {
-            conditions: self
-                .conditions
-                .as_ref()
-                .map_or_else(Conditions::default, |pattern| {
-                    pattern.read(&[label.as_str()], &mut log)
-                }),
-            segments: range::segments(&self.ranges, samples, &mut log),
-            ..assemble(
-                file,
-                label,
-                time_base,
-                self.declared().into_iter().zip(columns),
-                lever_arm_m,
-            )
-        };
+        let mut log = FindingLog::new(path);
+        let table = table::read(&content, self, &self.wanted(), budget, &mut log)?;
+        let (grid, columns) = self.on_a_grid(table, budget, &mut log)?;
+        let recording = layout::recording(self, path, grid, columns, lever_arm_m, &mut log);
         Ok(Ingested {
             recordings: vec![recording],
             findings: log.finish(),
         })
     }
+}
 
+impl CsvLayout {
     /// The columns to read, each with what it holds: the channels, then the times where a column has them.
     fn wanted(&self) -> Vec<(String, &Column)> {
-        let channels = self.channels.iter().map(|channel| {
-            (
-                format!("{:?}", channel.signal).to_lowercase(),
-                &channel.column,
-            )
-        });
+        let channels = (self.channels.iter()).map(|one| (one.signal.in_words(), &one.column));
         let times = match &self.sampling {
             Sampling::TimeColumn { column, .. } => Some(("time".to_owned(), column)),
             Sampling::Rate { .. } => None,
@@ -324,78 +268,12 @@ impl CsvLayout {
     }
 }
 
-/// A recording of declared channels, converted to SI units about the joint; one segment over everything.
-pub(crate) fn assemble(
-    file: String,
-    label: String,
-    time_base: TimeBase,
-    channels: impl Iterator<Item = ((Signal, Unit, f64), Vec<f64>)>,
-    lever_arm_m: f64,
-) -> Recording {
-    let mut recording = Recording {
-        file,
-        label,
-        conditions: Conditions::default(),
-        time_base,
-        torque_nm: Vec::new(),
-        motion: Motion::default(),
-        grip_force_n: None,
-        has_force_channel: false,
-        grip_force_channel: None,
-        segments: Vec::new(),
-    };
-    for ((signal, unit, scale), mut samples) in channels {
-        let factor = scale * unit.factor(signal, lever_arm_m).unwrap_or(f64::NAN);
-        // Numbers that are in SI units already stay what they are, bit for bit.
-        if factor != 1.0 {
-            samples.iter_mut().for_each(|sample| *sample *= factor);
-        }
-        match signal.quantity() {
-            Some(quantity) => recording.motion.set(quantity, samples),
-            None if signal == Signal::Torque => recording.torque_nm = samples,
-            None => {
-                recording.grip_force_n = Some(samples);
-                recording.has_force_channel = true;
-            }
-        }
-    }
-    recording.segments = vec![Segment {
-        number: 1,
-        start: 0,
-        end: recording.torque_nm.len(),
-        event_times_s: None,
-    }];
-    recording
-}
-
 /// Whether the start of a file can be text: UTF-16, and whatever a broken disk leaves, has zero bytes.
-fn check_text(content: &[u8]) -> Result<(), IngestError> {
-    let start = &content[..content.len().min(layout::FIRST_BLOCK_BYTES)];
+fn check_text(start: &[u8]) -> Result<(), IngestError> {
     match start.iter().position(|&byte| byte == 0) {
         Some(offset) => Err(IngestError::NotText { offset }),
         None => Ok(()),
     }
-}
-
-/// Says that quotes hold rows together.
-fn report_open_quotes(lines: usize, first: u64, log: &mut FindingLog) {
-    log.left_out(
-        "quoted_lines",
-        About::File,
-        format!(
-            "{lines} lines stand within quotes, as parts of the cell before them, and are no rows (first: the row at line \
-             {first}); is a quote open?"
-        ),
-    );
-}
-
-/// Says how many cells of a column are no numbers.
-fn report_gaps(name: &str, count: usize, rows: usize, line: u64, text: &str, log: &mut FindingLog) {
-    log.note(
-        "not_a_number",
-        About::Channel(name),
-        format!("{count} of {rows} cells are no numbers and are read as NaN (first: {text:?} in line {line})"),
-    );
 }
 
 #[cfg(test)]

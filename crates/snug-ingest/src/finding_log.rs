@@ -1,7 +1,9 @@
 //! What is found out about one file.
 
+use crate::layout::name_and_stem;
 use snug_campaign::{Finding, Severity};
 use std::collections::BTreeMap;
+use std::path::Path;
 
 /// Findings of one kind that one file may have; a table of events that is damaged throughout says no more with a million.
 const MOST_OF_A_KIND: usize = 1000;
@@ -24,9 +26,10 @@ pub(crate) enum About<'a> {
 }
 
 impl FindingLog {
-    pub(crate) fn new(file: &str) -> Self {
+    /// For the file at `path`.
+    pub(crate) fn new(path: &Path) -> Self {
         Self {
-            file: file.to_owned(),
+            file: name_and_stem(path).0,
             findings: Vec::new(),
             kinds: BTreeMap::new(),
         }
@@ -93,7 +96,7 @@ mod tests {
 
     #[test]
     fn a_flood_is_counted() {
-        let mut log = FindingLog::new("x.mat");
+        let mut log = FindingLog::new("x.mat".as_ref());
         for number in 1..=1500 {
             log.note("a", About::Tightening(number), String::new());
         }

@@ -1,10 +1,13 @@
 //! What a format of measurement files has to say and do; a new one implements [`Layout`] in a module of its own.
 
+use crate::finding_log::FindingLog;
 use crate::memory::Budget;
-use crate::range::Range;
+use crate::range::{self, Range};
 use crate::signal::{Signal, Unit};
-use crate::{IngestError, Ingested};
+use crate::{ConditionPattern, IngestError, Ingested};
+use snug_campaign::{Conditions, Motion, Recording, TimeBase};
 use snug_files::Input;
+use std::ffi::OsStr;
 use std::io::{Read as _, SeekFrom};
 use std::path::Path;
 
@@ -27,6 +30,11 @@ pub(crate) trait Layout {
     /// What the declared channels measure, in which unit, with which factor; none where the format fixes that.
     fn declared(&self) -> Vec<(Signal, Unit, f64)> {
         Vec::new()
+    }
+
+    /// How the file's name tells the conditions; `None` where it does not.
+    fn conditions(&self) -> Option<&ConditionPattern> {
+        None
     }
 
     /// The recordings in a file; `path` names it, `lever_arm_m` turns lengths of the grip into angles. All that is made of
@@ -70,4 +78,56 @@ pub(crate) fn content(
         .read_to_end(&mut content)
         .map_err(IngestError::Read)?;
     Ok(content)
+}
+
+/// A file's name, and the same without its ending.
+pub(crate) fn name_and_stem(path: &Path) -> (String, String) {
+    let text = |part: Option<&OsStr>| part.unwrap_or_default().to_string_lossy().into_owned();
+    (text(path.file_name()), text(path.file_stem()))
+}
+
+/// The recording in the file at `path` of the declared channels, on one time grid in `columns`, converted to SI units about
+/// the joint.
+pub(crate) fn recording(
+    layout: &impl Layout,
+    path: &Path,
+    time_base: TimeBase,
+    columns: Vec<Vec<f64>>,
+    lever_arm_m: f64,
+    log: &mut FindingLog,
+) -> Recording {
+    let (file, label) = name_and_stem(path);
+    let samples = columns.first().map_or(0, Vec::len);
+    let conditions = match layout.conditions() {
+        Some(pattern) => pattern.read(&[label.as_str()], log),
+        None => Conditions::default(),
+    };
+    let mut recording = Recording {
+        file,
+        label,
+        conditions,
+        time_base,
+        torque_nm: Vec::new(),
+        motion: Motion::default(),
+        grip_force_n: None,
+        has_force_channel: false,
+        grip_force_channel: None,
+        segments: range::segments(layout.ranges(), samples, log),
+    };
+    for ((signal, unit, scale), mut samples) in layout.declared().into_iter().zip(columns) {
+        let factor = scale * unit.factor(signal, lever_arm_m).unwrap_or(f64::NAN);
+        // Numbers that are in SI units already stay what they are, bit for bit.
+        if factor != 1.0 {
+            samples.iter_mut().for_each(|sample| *sample *= factor);
+        }
+        match signal.quantity() {
+            Some(quantity) => recording.motion.set(quantity, samples),
+            None if signal == Signal::Torque => recording.torque_nm = samples,
+            None => {
+                recording.grip_force_n = Some(samples);
+                recording.has_force_channel = true;
+            }
+        }
+    }
+    recording
 }

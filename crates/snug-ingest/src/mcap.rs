@@ -73,11 +73,8 @@ impl Layout for McapLayout {
             ("tolerance_ratio", Some(self.tolerance_ratio)),
         ] {
             if value.is_some_and(|value| !(value.is_finite() && value > 0.0)) {
-                return Err(IngestError::Setting {
-                    field,
-                    value: value.unwrap_or_default().to_string(),
-                    allowed: "a positive number",
-                });
+                let value = value.unwrap_or_default();
+                return Err(IngestError::setting(field, value, "a positive number"));
             }
         }
         Ok(())
@@ -85,6 +82,10 @@ impl Layout for McapLayout {
 
     fn ranges(&self) -> &[Range] {
         &self.ranges
+    }
+
+    fn conditions(&self) -> Option<&ConditionPattern> {
+        self.conditions.as_ref()
     }
 
     fn declared(&self) -> Vec<(Signal, Unit, f64)> {

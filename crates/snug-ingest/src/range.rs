@@ -21,11 +21,9 @@ pub(crate) fn check(ranges: &[Range]) -> Result<(), IngestError> {
     for (index, range) in ranges.iter().enumerate() {
         let twice = ranges[..index].iter().any(|other| other.name == range.name);
         if range.start >= range.end || twice {
-            return Err(IngestError::Setting {
-                field: "ranges",
-                value: format!("{:?} [{}, {})", range.name, range.start, range.end),
-                allowed: "start below end, and every name once",
-            });
+            let value = format!("{:?} [{}, {})", range.name, range.start, range.end);
+            let allowed = "start below end, and every name once";
+            return Err(IngestError::setting("ranges", value, allowed));
         }
     }
     Ok(())
@@ -74,7 +72,7 @@ mod tests {
 
     #[test]
     fn ranges_are_segments_in_order() {
-        let mut log = FindingLog::new("x.csv");
+        let mut log = FindingLog::new("x.csv".as_ref());
         let ranges = [
             range("late", 50, 80),
             range("early", 0, 20),

@@ -22,6 +22,11 @@ pub enum Signal {
 }
 
 impl Signal {
+    /// Its name in messages.
+    pub(crate) fn in_words(self) -> String {
+        format!("{self:?}").to_lowercase()
+    }
+
     /// The motion it belongs to; `None` for torque and force.
     pub fn quantity(self) -> Option<Quantity> {
         match self {
@@ -185,11 +190,7 @@ pub(crate) fn as_it_is() -> f64 {
 
 /// Checks a set of declared channels: units fit, torque and a motion are there, nothing is declared twice.
 pub(crate) fn check(channels: &[(Signal, Unit, f64)]) -> Result<(), IngestError> {
-    let refused = |value: String, allowed| IngestError::Setting {
-        field: "channels",
-        value,
-        allowed,
-    };
+    let refused = |value: String, allowed| IngestError::setting("channels", value, allowed);
     for (index, &(signal, unit, scale)) in channels.iter().enumerate() {
         if unit.factor(signal, 1.0).is_none() {
             let measures = |one: &Unit| one.factor(signal, 1.0).is_some();

@@ -82,11 +82,8 @@ impl Source {
     /// [`IngestError::Setting`] naming the field.
     pub fn check(&self) -> Result<(), IngestError> {
         if self.memory_mb == Some(0) {
-            return Err(IngestError::Setting {
-                field: "memory_mb",
-                value: "0".to_owned(),
-                allowed: "a positive number, or none",
-            });
+            let allowed = "a positive number, or none";
+            return Err(IngestError::setting("memory_mb", 0, allowed));
         }
         self.format.layout().check()
     }

@@ -3,12 +3,12 @@
 mod events;
 
 use crate::finding_log::{About, FindingLog};
-use crate::layout::Layout;
-use crate::mat::{self, Content, MatFile, MatSelection, Value};
+use crate::layout::{Layout, name_and_stem};
+use crate::mat::{self, Content, MatSelection, Value};
 use crate::mcap::McapLayout;
 use crate::memory::Budget;
 use crate::source::ending;
-use crate::{ConditionPattern, IngestError, Ingested};
+use crate::{ConditionPattern, IngestError, Ingested, range};
 use serde::{Deserialize, Serialize};
 use snug_campaign::{Motion, Recording, Segment, TimeBase};
 use snug_files::Input;
@@ -65,22 +65,16 @@ impl Layout for ThesisLayout {
 
     fn check(&self) -> Result<(), IngestError> {
         if !(self.sample_rate_hz.is_finite() && self.sample_rate_hz > 0.0) {
-            return Err(IngestError::Setting {
-                field: "sample_rate_hz",
-                value: self.sample_rate_hz.to_string(),
-                allowed: "a positive number",
-            });
+            let (rate, allowed) = (self.sample_rate_hz, "a positive number");
+            return Err(IngestError::setting("sample_rate_hz", rate, allowed));
         }
         for (field, names) in [
             ("acceleration", &self.acceleration),
             ("torque", &self.torque),
         ] {
             if names.is_empty() {
-                return Err(IngestError::Setting {
-                    field,
-                    value: "[]".to_owned(),
-                    allowed: "at least one variable name",
-                });
+                let allowed = "at least one variable name";
+                return Err(IngestError::setting(field, "[]", allowed));
             }
         }
         Ok(())
@@ -103,7 +97,7 @@ impl Layout for ThesisLayout {
 
 impl ThesisLayout {
     /// Whether a variable of this name is read.
-    pub fn wants(&self, name: &str) -> bool {
+    fn wants(&self, name: &str) -> bool {
         [
             &self.acceleration,
             &self.torque,
@@ -117,15 +111,7 @@ impl ThesisLayout {
         .any(|wanted| wanted == name)
     }
 
-    /// The recording that a MAT file holds; `path` names it.
-    ///
-    /// # Errors
-    /// As [`ThesisLayout::selected`].
-    pub fn recording(&self, mat: MatFile, path: &Path) -> Result<Ingested, IngestError> {
-        self.selected(mat.into(), path)
-    }
-
-    /// The recording in the variables that [`ThesisLayout::wants`]; `path` names it.
+    /// The recording in the variables that are wanted; `path` names it.
     ///
     /// A damaged force, label or sampling rate costs itself, and is a finding.
     ///
@@ -133,27 +119,14 @@ impl ThesisLayout {
     /// [`IngestError::MissingChannel`], [`IngestError::UnusableChannel`] or [`IngestError::DamagedVariable`] for
     /// acceleration and torque, [`IngestError::EventTable`] or [`IngestError::DamagedVariable`] for events. Everything
     /// less is a finding.
-    pub fn selected(&self, mat: MatSelection, path: &Path) -> Result<Ingested, IngestError> {
-        self.within(mat, path, &Budget::new(None))
-    }
-
     fn within(
         &self,
         mut mat: MatSelection,
         path: &Path,
         budget: &Budget,
     ) -> Result<Ingested, IngestError> {
-        let file = path
-            .file_name()
-            .unwrap_or_default()
-            .to_string_lossy()
-            .into_owned();
-        let stem = path
-            .file_stem()
-            .unwrap_or_default()
-            .to_string_lossy()
-            .into_owned();
-        let mut log = FindingLog::new(&file);
+        let (file, stem) = name_and_stem(path);
+        let mut log = FindingLog::new(path);
         let mat = &mut mat;
         let mut channels = Channels {
             acceleration: required(mat, "acceleration", &self.acceleration, budget, &mut log)?,
@@ -204,48 +177,28 @@ impl ThesisLayout {
             return self.sample_rate_hz;
         };
         let declared = self.sample_rate_hz;
-        let value = match value {
-            Ok(value) => value,
-            Err(reason) => {
-                log.note(
-                    "sample_rate_unusable",
-                    About::Channel(name),
-                    format!("cannot be read: {reason}; the study's {declared} Hz are used"),
-                );
-                return declared;
-            }
-        };
-        let single = |numbers: Vec<f64>| match numbers.as_slice() {
-            &[rate] => Some(rate),
-            _ => None,
-        };
-        let found = value
-            .to_f64()
-            .and_then(single)
-            .or_else(|| value.text().and_then(|text| events::number(&text)));
-        match found.filter(|rate| rate.is_finite() && *rate > 0.0) {
-            Some(rate) => {
-                if (rate - declared).abs() > 1e-6 * declared {
-                    log.note(
-                        "sample_rate_differs",
-                        About::Channel(name),
-                        format!("the file says {rate} Hz, the study {declared} Hz; the file's own rate is used"),
-                    );
+        let reason = match value {
+            Ok(value) => match rate(&value) {
+                Some(rate) => {
+                    if (rate - declared).abs() > 1e-6 * declared {
+                        log.note(
+                            "sample_rate_differs",
+                            About::Channel(name),
+                            format!("the file says {rate} Hz, the study {declared} Hz; the file's own rate is used"),
+                        );
+                    }
+                    return rate;
                 }
-                rate
-            }
-            None => {
-                log.note(
-                    "sample_rate_unusable",
-                    About::Channel(name),
-                    format!(
-                        "{} is no positive number; the study's {declared} Hz are used",
-                        value.describe()
-                    ),
-                );
-                declared
-            }
-        }
+                None => format!("{} is no positive number", value.describe()),
+            },
+            Err(reason) => format!("cannot be read: {reason}"),
+        };
+        log.note(
+            "sample_rate_unusable",
+            About::Channel(name),
+            format!("{reason}; the study's {declared} Hz are used"),
+        );
+        declared
     }
 
     /// The text that names the conditions.
@@ -285,12 +238,7 @@ impl ThesisLayout {
                     self.events.join(" or ")
                 ),
             );
-            return Ok(vec![Segment {
-                number: 1,
-                start: 0,
-                end: samples,
-                event_times_s: None,
-            }]);
+            return Ok(range::segments(&[], samples, log));
         };
         // A damaged table is not one without events: the tightenings in it would be lost silently.
         let table = table.map_err(|reason| damaged("events", name, reason))?;
@@ -431,6 +379,16 @@ fn vector(value: Value, budget: &Budget) -> Result<Option<Vec<f64>>, IngestError
     let samples = value.into_f64().filter(|samples| !samples.is_empty());
     budget.give_back(stored);
     Ok(samples)
+}
+
+/// A positive number, as such or in words.
+fn rate(value: &Value) -> Option<f64> {
+    let number = match (value.to_f64().as_deref(), value.text()) {
+        (Some(&[number]), _) => number,
+        (_, Some(text)) => events::number(&text)?,
+        _ => return None,
+    };
+    (number.is_finite() && number > 0.0).then_some(number)
 }
 
 /// Text, or a cell with nothing but text in it.

@@ -1,5 +1,7 @@
 //! Fits an autoregression to noise: it whitens residuals, and gives the standard error of a mean under coloured noise.
 
+use snug_campaign::{NoiseFloor, NoiseSource, Quantity};
+
 /// Prediction error over variance below which no further order is added: the rest is rounding (a pure line spectrum).
 const SMALLEST_ERROR_RATIO: f64 = 1e-6;
 
@@ -66,6 +68,18 @@ impl Autoregression {
     /// far fewer samples.
     pub fn standard_error_of_mean(&self, count: usize) -> f64 {
         (self.long_run_variance() / count as f64).sqrt()
+    }
+
+    /// The noise floor of `quantity`, where this is what the quiet part shows of it.
+    pub(crate) fn floor(&self, quantity: Quantity) -> NoiseFloor {
+        NoiseFloor {
+            source: NoiseSource::PreRoll,
+            quantity,
+            standard_deviation: self.standard_deviation,
+            autoregression: self.coefficients.clone(),
+            innovation_sd: self.innovation_sd,
+            samples: self.samples,
+        }
     }
 }
 

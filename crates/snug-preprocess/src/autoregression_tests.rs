@@ -1,7 +1,7 @@
 //! Known processes back, noise whitened that the fit has not seen, and hum that must stay stable.
 
 use super::*;
-use crate::synthetic::{autoregressive_noise, coloured_noise, white_noise};
+use crate::tests::synthetic::{autoregressive_noise, coloured_noise, white_noise};
 
 #[test]
 fn recovers_a_known_process_and_its_long_run_variance() {

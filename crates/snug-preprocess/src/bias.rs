@@ -56,7 +56,7 @@ impl Offset {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::synthetic::{autoregressive_noise, coloured_noise, white_noise};
+    use crate::tests::synthetic::{autoregressive_noise, coloured_noise, white_noise};
 
     /// Share of 400 simulations whose 95 % interval covers the true bias, and the largest |z|.
     fn coverage(noise: impl Fn(u64) -> Vec<f64>) -> (f64, f64) {

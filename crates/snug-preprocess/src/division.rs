@@ -76,7 +76,7 @@ fn without_gaps(torque_nm: &[f64]) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
-    use crate::synthetic::{ONSET, PEAK, SEGMENT, prepared, recording};
+    use crate::tests::synthetic::{ONSET, PEAK, SEGMENT, prepared, recording};
     use crate::{Preprocessed, Preset};
     use snug_campaign::Recording;
 

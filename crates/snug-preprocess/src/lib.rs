@@ -8,7 +8,6 @@ mod error;
 mod faults;
 mod integration;
 mod locate;
-mod noise;
 mod offset;
 mod onset;
 mod prepared;
@@ -23,7 +22,7 @@ mod settings;
 mod signals;
 mod spread;
 #[cfg(test)]
-mod synthetic;
+mod tests;
 mod thesis_checks;
 mod torque_target;
 mod window;

@@ -237,7 +237,7 @@ fn explained(rise: &[f64], power: i32) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::synthetic::{ONSET, PEAK, pulse, white_noise};
+    use crate::tests::synthetic::{ONSET, PEAK, pulse, white_noise};
 
     fn noisy(seed: u64) -> Vec<f64> {
         let noise = white_noise(20_000, 0.02, seed);

@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use super::*;
-use crate::synthetic::{
+use crate::tests::synthetic::{
     ONSET, PEAK, SEGMENT, acceleration, coloured_noise, pulse, recording, white_noise,
 };
 use crate::{KnownInertia, Prepared};

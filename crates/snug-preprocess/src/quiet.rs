@@ -69,14 +69,11 @@ impl QuietSettings {
 pub(crate) fn part(
     after_gap: usize,
     window_start: usize,
-    onset: Option<usize>,
+    onset: usize,
     guard: usize,
     minimum: usize,
 ) -> Option<Range<usize>> {
-    let end = match onset {
-        Some(onset) => window_start.min(onset.saturating_sub(guard)),
-        None => window_start,
-    };
+    let end = window_start.min(onset.saturating_sub(guard));
     (end >= after_gap + minimum.max(1)).then_some(after_gap..end)
 }
 
@@ -139,15 +136,15 @@ pub(crate) fn unsteadiness(quiet: &[f64], settings: &QuietSettings) -> Option<Un
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::synthetic::{coloured_noise, white_noise};
+    use crate::tests::synthetic::{coloured_noise, white_noise};
 
     #[test]
     fn ends_before_whichever_comes_first() {
-        assert_eq!(part(0, 14_800, Some(14_810), 50, 1000), Some(0..14_760));
-        assert_eq!(part(0, 14_800, Some(15_000), 50, 1000), Some(0..14_800));
-        assert_eq!(part(300, 14_800, None, 50, 1000), Some(300..14_800));
-        assert_eq!(part(0, 14_800, Some(900), 50, 1000), None);
-        assert_eq!(part(0, 0, None, 50, 0), None);
+        assert_eq!(part(0, 14_800, 14_810, 50, 1000), Some(0..14_760));
+        assert_eq!(part(0, 14_800, 15_000, 50, 1000), Some(0..14_800));
+        assert_eq!(part(300, 14_800, 15_000, 50, 1000), Some(300..14_800));
+        assert_eq!(part(0, 14_800, 900, 50, 1000), None);
+        assert_eq!(part(0, 0, 15_000, 50, 0), None);
     }
 
     #[test]

@@ -3,12 +3,11 @@
 use crate::autoregression::Autoregression;
 use crate::bias::Offset;
 use crate::channel::Channel;
-use crate::noise::pre_roll_floor;
 use crate::presets::Context;
 use crate::quiet::{Unsteadiness, unsteadiness};
 use crate::remarks::Remarks;
 use crate::signals::Signals;
-use snug_campaign::{Correction, NoiseFloor, Quantity};
+use snug_campaign::{Correction, Quantity};
 use std::ops::Range;
 
 /// What the quiet part told.
@@ -18,14 +17,6 @@ pub(crate) struct QuietMeasurement {
     pub(crate) corrections: Vec<Correction>,
     /// Noise of the channel that the fitted output comes from.
     pub(crate) source_noise: Option<Autoregression>,
-}
-
-impl QuietMeasurement {
-    /// The noise floor of the measured quantity `source`.
-    pub(crate) fn floor(&self, source: Quantity) -> Option<NoiseFloor> {
-        let noise = self.source_noise.as_ref()?;
-        Some(pre_roll_floor(noise, source))
-    }
 }
 
 /// Noise below this share of the channel's largest value is rounding of a simulation, not a sensor's.

@@ -170,7 +170,7 @@ fn grip_force(
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
-    use crate::synthetic::{SEGMENT, recording};
+    use crate::tests::synthetic::{SEGMENT, recording};
     use snug_campaign::TighteningId;
 
     fn remarks() -> Remarks {

@@ -41,18 +41,13 @@ pub fn plan() -> CampaignPlan {
         (5, TurboTight, Hard, 8),
         (6, TurboTight, Soft, 5),
     ];
-    let names = [
-        ChannelNames::Plain,
-        ChannelNames::Inline,
-        ChannelNames::Data1,
-    ];
     let file = |(index, (participant, strategy, joint, pace_per_min))| FilePlan {
         participant,
         strategy,
         joint,
         pace_per_min,
         tightenings: 4,
-        channel_names: names[index % names.len()],
+        channel_names: ChannelNames::in_turn(index),
     };
     CampaignPlan {
         files: conditions.into_iter().enumerate().map(file).collect(),

@@ -22,9 +22,7 @@ mod trajectory;
 mod truth;
 
 pub use campaign::SyntheticCampaign;
-pub use effects::{
-    HiddenEffect, Law, MeasurementLaw, MechanicalLaw, MuscularLaw, TrendLaw, UnlistedLaw,
-};
+pub use effects::{HiddenEffect, Law};
 pub use error::SyntheticError;
 pub use fault::{Fault, PlannedFault};
 pub use file::SyntheticFile;

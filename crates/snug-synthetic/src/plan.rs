@@ -36,6 +36,13 @@ pub enum ChannelNames {
     Data1,
 }
 
+impl ChannelNames {
+    /// The names of the file with this 0-based number: files take turns.
+    pub(crate) fn in_turn(file: usize) -> Self {
+        [Self::Plain, Self::Inline, Self::Data1][file % 3]
+    }
+}
+
 /// One file of a campaign.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -139,11 +146,6 @@ impl CampaignPlan {
             (Strategy::QuickStep, Joint::Hard, 5),
             (Strategy::TurboTight, Joint::Soft, 8),
         ];
-        const NAMES: [ChannelNames; 3] = [
-            ChannelNames::Plain,
-            ChannelNames::Inline,
-            ChannelNames::Data1,
-        ];
         let file = |index: usize| {
             let (strategy, joint, pace_per_min) = TURNS[index % TURNS.len()];
             let participant = index / TURNS.len() * 6 + index % TURNS.len() % 6;
@@ -153,7 +155,7 @@ impl CampaignPlan {
                 joint,
                 pace_per_min,
                 tightenings: tightenings_per_file,
-                channel_names: NAMES[index % NAMES.len()],
+                channel_names: ChannelNames::in_turn(index),
             }
         };
         Self {

@@ -1,8 +1,15 @@
 //! Tool, hand and arm with the hidden laws, as a system of first-order differential equations for `trajectory.rs`.
 
-use crate::effects::{Law, MeasurementLaw, MechanicalLaw};
+use crate::HiddenEffect::{
+    AccelerationLag, Backlash, BoucWen, CoContraction, CoulombFriction, CubicDamping,
+    CubicStiffness, DirectionalDamping, EndStop, ExponentialStiffness, GripSlip, InitialMotion,
+    MaxwellBranch, PositionFriction, QuadraticDamping, QuadraticStiffness, QuinticStiffness,
+    SecondMass, StretchReflex, TorqueDelay, TorqueDependentStiffness, TorqueLag, VoluntaryPush,
+    X2vDamping, XvDamping,
+};
 use crate::history::History;
-use crate::{HandArm, Pulse};
+use crate::pulse::smooth_step;
+use crate::{HandArm, HiddenEffect, Law, Pulse};
 
 /// Number of states of a [`Plant`].
 pub(crate) const STATES: usize = 8;
@@ -90,30 +97,19 @@ impl Plant {
 
     /// d: how much earlier torque is logged than it acts \[s\].
     pub(crate) fn torque_delay_s(&self) -> f64 {
-        self.measurement_laws()
-            .find_map(|law| match law {
-                MeasurementLaw::TorqueDelay { delay_s } => Some(delay_s),
-                _ => None,
-            })
-            .unwrap_or(0.0)
+        self.numbers_of(TorqueDelay).map_or(0.0, |delay| delay[0])
     }
 
     /// θ0, ω0 that are there when the window starts.
     pub(crate) fn initial_motion(&self) -> Option<(f64, f64)> {
-        self.measurement_laws().find_map(|law| match law {
-            MeasurementLaw::InitialMotion {
-                theta0_rad,
-                omega0_rad_per_s,
-            } => Some((theta0_rad, omega0_rad_per_s)),
-            _ => None,
-        })
+        let motion = self.numbers_of(InitialMotion)?;
+        Some((motion[0], motion[1]))
     }
 
-    pub(crate) fn measurement_laws(&self) -> impl Iterator<Item = MeasurementLaw> + '_ {
-        self.laws.iter().filter_map(|law| match law {
-            Law::Measurement(law) => Some(*law),
-            _ => None,
-        })
+    /// The numbers of a hidden effect; `None` where it is not hidden here.
+    pub(crate) fn numbers_of(&self, effect: HiddenEffect) -> Option<&[f64]> {
+        let law = self.laws.iter().find(|law| law.effect == effect)?;
+        Some(&law.numbers)
     }
 
     /// Instants at which a derivative of the right-hand side jumps, in order \[s\].
@@ -125,9 +121,8 @@ impl Plant {
             knots.extend(pulse.knots_s().map(|knot| knot + delay_s));
         }
         for law in &self.laws {
-            if let Law::Muscular(law) = law {
-                let knots_s = law.knots_s().into_iter().flatten();
-                knots.extend(knots_s.map(|knot| knot + self.onset_s()));
+            if let (VoluntaryPush | CoContraction, [_, onset_s, rise_s]) = law.parts() {
+                knots.extend([*onset_s, onset_s + rise_s].map(|knot| knot + self.onset_s()));
             }
         }
         knots.sort_by(f64::total_cmp);
@@ -137,32 +132,45 @@ impl Plant {
 
     /// Force between tool and hand \[N\].
     fn hand_force_n(&self, now: Now, state: &State, past: &History) -> f64 {
-        let x = self.lever_arm_m * state[THETA];
-        let v = self.lever_arm_m * state[OMEGA];
         let mut force = self.base_force_n(now, state);
         for law in &self.laws {
-            force += match law {
-                Law::Mechanical(law) => {
-                    let branch = match law {
-                        MechanicalLaw::MaxwellBranch { .. } => state[MAXWELL],
-                        MechanicalLaw::BoucWen { .. } => state[HYSTERESIS],
-                        _ => 0.0,
-                    };
-                    law.added_force_n(x, v, branch)
-                }
-                Law::Muscular(law) => law.added_force_n(self.since_onset_s(now), |delay_s| {
-                    self.lever_arm_m * past.theta_rad(now.time_s - delay_s)
-                }),
-                Law::Unlisted(law) => law.added_force_n(x, v),
-                Law::Measurement(_) | Law::Trend(_) => 0.0,
-            };
+            force += self.added_force_n(law, now, state, past);
         }
         for law in &self.laws {
-            if let Law::Mechanical(MechanicalLaw::GripSlip { f_max_n }) = law {
-                force = f_max_n * (force / f_max_n).tanh();
+            if let (GripSlip, [f_max]) = law.parts() {
+                force = f_max * (force / f_max).tanh();
             }
         }
         force
+    }
+
+    /// What a law adds to the force of spring and damper \[N\].
+    fn added_force_n(&self, law: &Law, now: Now, state: &State, past: &History) -> f64 {
+        let x = self.lever_arm_m * state[THETA];
+        let v = self.lever_arm_m * state[OMEGA];
+        match law.parts() {
+            (CubicStiffness, [k3]) => k3 * x * x * x,
+            (QuadraticStiffness, [k2]) => k2 * x * x,
+            (CoulombFriction, [fc, v_s]) => fc * (v / v_s).tanh(),
+            (QuadraticDamping, [c2]) => c2 * v * v.abs(),
+            (DirectionalDamping, [c_r]) => c_r * v.min(0.0),
+            (MaxwellBranch, _) => state[MAXWELL],
+            (BoucWen, [k_h, _]) => k_h * state[HYSTERESIS],
+            (StretchReflex, [k_r, tau_s]) => {
+                k_r * (self.lever_arm_m * past.theta_rad(now.time_s - tau_s))
+            }
+            (VoluntaryPush, [f_v, onset_s, rise_s]) => {
+                f_v * smooth_step((self.since_onset_s(now) - onset_s) / rise_s)
+            }
+            (X2vDamping, [d]) => d * x * x * v,
+            (XvDamping, [d]) => d * x * v,
+            (PositionFriction, [mu, v_s]) => mu * x.abs() * (v / v_s).tanh(),
+            (CubicDamping, [d]) => d * v * v * v,
+            (QuinticStiffness, [k5]) => k5 * x.powi(5),
+            (ExponentialStiffness, [f0, x0]) => f0 * ((x / x0).exp_m1() - x / x0),
+            (EndStop, [k_s, x_s]) => k_s * (x - x_s).max(0.0),
+            _ => 0.0,
+        }
     }
 
     /// Rates of all states.
@@ -173,29 +181,27 @@ impl Plant {
         rates[THETA] = state[OMEGA];
         rates[OMEGA] = acceleration;
         for law in &self.laws {
-            match *law {
-                Law::Mechanical(law @ MechanicalLaw::MaxwellBranch { .. }) => {
-                    rates[MAXWELL] = law.branch_rate(v, state[MAXWELL]);
+            match law.parts() {
+                (MaxwellBranch, [k_m, tau_s]) => {
+                    rates[MAXWELL] = k_m * v - state[MAXWELL] / tau_s;
                 }
-                Law::Mechanical(law @ MechanicalLaw::BoucWen { .. }) => {
-                    rates[HYSTERESIS] = law.branch_rate(v, state[HYSTERESIS]);
+                (BoucWen, [_, z_max]) => {
+                    let z = state[HYSTERESIS];
+                    let loading = if v * z > 0.0 { 1.0 } else { 0.0 };
+                    rates[HYSTERESIS] = v * (1.0 - loading * z.abs() / z_max);
                 }
-                Law::Mechanical(MechanicalLaw::SecondMass {
-                    m2_kg,
-                    k2_n_per_m,
-                    c2_kg_per_s,
-                }) => {
+                (SecondMass, [m2, k2, c2]) => {
                     rates[SUPPORT_X] = state[SUPPORT_V];
                     rates[SUPPORT_V] = (self.base_force_n(now, state)
-                        - k2_n_per_m * state[SUPPORT_X]
-                        - c2_kg_per_s * state[SUPPORT_V])
-                        / m2_kg;
+                        - k2 * state[SUPPORT_X]
+                        - c2 * state[SUPPORT_V])
+                        / m2;
                 }
-                Law::Measurement(MeasurementLaw::TorqueLag { tau_s }) => {
+                (TorqueLag, [tau_s]) => {
                     rates[LAGGED_TORQUE] =
                         (self.log_torque_nm(now.time_s) - state[LAGGED_TORQUE]) / tau_s;
                 }
-                Law::Measurement(MeasurementLaw::AccelerationLag { tau_s }) => {
+                (AccelerationLag, [tau_s]) => {
                     rates[LAGGED_ACCELERATION] =
                         (acceleration - state[LAGGED_ACCELERATION]) / tau_s;
                 }
@@ -218,13 +224,14 @@ impl Plant {
         let mut growth = 0.0;
         let mut touching = 1.0;
         for law in &self.laws {
-            match law {
-                Law::Muscular(law) => {
-                    growth += law.stiffness_growth_ratio(self.since_onset_s(now), now.torque_nm);
+            match law.parts() {
+                (CoContraction, [ratio, onset_s, rise_s]) => {
+                    growth += ratio * smooth_step((self.since_onset_s(now) - onset_s) / rise_s);
                 }
-                Law::Mechanical(MechanicalLaw::Backlash { gap_m }) => {
-                    touching = if x.abs() > *gap_m { 1.0 } else { 0.0 };
-                    x -= x.clamp(-gap_m, *gap_m);
+                (TorqueDependentStiffness, [kappa]) => growth += kappa * now.torque_nm.abs(),
+                (Backlash, [gap]) => {
+                    touching = if x.abs() > *gap { 1.0 } else { 0.0 };
+                    x -= x.clamp(-gap, *gap);
                 }
                 _ => {}
             }

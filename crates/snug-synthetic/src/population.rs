@@ -28,7 +28,8 @@ impl HandArm {
         self.damping_kg_per_s * square / (2.0 * (self.stiffness_n_per_m * square * inertia).sqrt())
     }
 
-    fn scaled(&self, ratio: [f64; 3]) -> Self {
+    /// With m, c, k multiplied by these.
+    pub(crate) fn scaled(&self, ratio: [f64; 3]) -> Self {
         Self {
             mass_kg: self.mass_kg * ratio[0],
             damping_kg_per_s: self.damping_kg_per_s * ratio[1],
@@ -91,7 +92,7 @@ impl Population {
         known_inertia_kg_m2: f64,
         seed: u64,
     ) -> Result<HandArm, SyntheticError> {
-        let mut rng = Stream::Person(participant).rng(seed);
+        let mut rng = Stream::Person.rng(seed, 0, participant as usize);
         // A margin inside the limits, so that the person's tightenings mostly stay there without being drawn again.
         let kept = 1.25 * self.smallest_damping_ratio..0.85 * self.largest_damping_ratio;
         self.draw(self.median, self.between_participants, &mut rng, |arm| {

@@ -1,9 +1,8 @@
 //! From the true motion to what the channels hold.
 
-use crate::effects::MeasurementLaw;
 use crate::fault::Fault;
 use crate::random::Stream;
-use crate::{CampaignPlan, NoiseKind, Plant, Trajectory, ZeroErrors};
+use crate::{CampaignPlan, HiddenEffect, NoiseKind, Plant, Trajectory, ZeroErrors};
 use rand::Rng;
 use rand_distr::{Distribution, StandardNormal};
 use std::f64::consts::TAU;
@@ -58,7 +57,7 @@ pub(crate) fn sense(
     let samples = plan.segment_samples();
     let quiet = samples - trajectory.time_s.len();
     let sensors = &plan.sensors;
-    let mut noise_rng = Stream::Noise { file, index }.rng(seed);
+    let mut noise_rng = Stream::Noise.rng(seed, file, index);
     let mut noise = |kind: NoiseKind, deviation| kind.samples(deviation, samples, &mut noise_rng);
     let mut acceleration = noise(sensors.noise, sensors.acceleration_noise_rad_per_s2);
     let mut torque = noise(NoiseKind::White, sensors.torque_noise_nm);
@@ -99,12 +98,10 @@ pub(crate) fn sense(
 fn measured_acceleration(plant: &Plant, trajectory: &Trajectory, step: usize) -> f64 {
     let omega = trajectory.omega_rad_per_s[step];
     let mut measured = trajectory.sensed_acceleration_rad_per_s2[step];
-    for law in plant.measurement_laws() {
-        measured += match law {
-            MeasurementLaw::CentripetalCrosstalk { epsilon } => epsilon * omega * omega,
-            MeasurementLaw::GravityLeakage { gamma_rad_per_s2 } => {
-                gamma_rad_per_s2 * trajectory.theta_rad[step].sin()
-            }
+    for law in &plant.laws {
+        measured += match law.parts() {
+            (HiddenEffect::CentripetalCrosstalk, [epsilon]) => epsilon * omega * omega,
+            (HiddenEffect::GravityLeakage, [gamma]) => gamma * trajectory.theta_rad[step].sin(),
             _ => 0.0,
         };
     }
@@ -127,16 +124,12 @@ impl ConstantErrors {
             bias_rad_per_s2: 0.0,
             output_offset_rad_per_s2: 0.0,
         };
-        for law in plant.measurement_laws() {
-            match law {
-                MeasurementLaw::TorqueOffset { offset_nm } => errors.torque_offset_nm += offset_nm,
-                MeasurementLaw::TorqueGain { gain_error } => errors.torque_gain += gain_error,
-                MeasurementLaw::AccelerationBias { bias_rad_per_s2 } => {
-                    errors.bias_rad_per_s2 += bias_rad_per_s2;
-                }
-                MeasurementLaw::OutputOffset { y0_rad_per_s2 } => {
-                    errors.output_offset_rad_per_s2 += y0_rad_per_s2;
-                }
+        for law in &plant.laws {
+            match law.parts() {
+                (HiddenEffect::TorqueOffset, [offset]) => errors.torque_offset_nm += offset,
+                (HiddenEffect::TorqueGain, [gain_error]) => errors.torque_gain += gain_error,
+                (HiddenEffect::AccelerationBias, [bias]) => errors.bias_rad_per_s2 += bias,
+                (HiddenEffect::OutputOffset, [y0]) => errors.output_offset_rad_per_s2 += y0,
                 _ => {}
             }
         }
@@ -154,7 +147,7 @@ struct Nuisance {
 
 impl Nuisance {
     fn drawn(plan: &CampaignPlan, seed: u64, file: usize, index: usize) -> Self {
-        let mut rng = Stream::Nuisance { file, index }.rng(seed);
+        let mut rng = Stream::Nuisance.rng(seed, file, index);
         let standard: f64 = StandardNormal.sample(&mut rng);
         Self {
             bias_rad_per_s2: plan.sensors.bias_sd_rad_per_s2 * standard,

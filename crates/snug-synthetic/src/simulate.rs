@@ -1,13 +1,14 @@
 //! From plan to campaign: draws people and pulses, integrates each tightening, measures it, and notes the truth.
 
-use crate::effects::{Law, MeasurementLaw};
 use crate::fault::Fault;
 use crate::file::SyntheticFile;
 use crate::random::Stream;
 use crate::sensing::{Channels, sense};
 use crate::truth::{TighteningTruth, Truth};
-use crate::{CampaignPlan, FilePlan, HandArm, NoiseKind, Plant, Pulse, Strategy, SyntheticError};
-use crate::{SyntheticCampaign, Trajectory};
+use crate::{
+    CampaignPlan, FilePlan, HandArm, HiddenEffect, Law, NoiseKind, Plant, Pulse, Strategy,
+};
+use crate::{SyntheticCampaign, SyntheticError, Trajectory};
 use std::collections::BTreeMap;
 
 /// Samples of rest before the window that are integrated as well, so that nothing starts by surprise.
@@ -68,11 +69,7 @@ impl Bench<'_> {
     ) -> Result<(Channels, TighteningTruth), SyntheticError> {
         let plan = self.plan;
         let fault = self.fault(number, index);
-        let place = Stream::Tightening {
-            file: number,
-            index,
-        };
-        let mut rng = place.rng(self.seed);
+        let mut rng = Stream::Tightening.rng(self.seed, number, index);
         let around = self.person(file)?;
         let known_inertia = file.known_inertia_kg_m2();
         let arm = plan
@@ -135,12 +132,12 @@ impl Bench<'_> {
     }
 
     fn laws(&self, file: usize, index: usize) -> (Vec<Law>, BTreeMap<String, Vec<f64>>) {
-        let mut rng = Stream::Effect { file, index }.rng(self.seed);
+        let mut rng = Stream::Effect.rng(self.seed, file, index);
         let mut laws = Vec::new();
         let mut used = BTreeMap::new();
         for &effect in &self.plan.effects {
             if let Some(law) = effect.law(self.plan.strength, &mut rng) {
-                used.insert(effect.name().to_owned(), law.values());
+                used.insert(effect.name().to_owned(), law.numbers.clone());
                 laws.push(law);
             }
         }
@@ -162,25 +159,17 @@ impl Bench<'_> {
 }
 
 fn lever_arm_error(laws: &[Law]) -> f64 {
-    laws.iter()
-        .find_map(|law| match law {
-            Law::Measurement(MeasurementLaw::LeverArmError { error_ratio }) => Some(*error_ratio),
-            _ => None,
-        })
-        .unwrap_or(0.0)
+    let error = laws
+        .iter()
+        .find(|law| law.effect == HiddenEffect::LeverArmError);
+    error.map_or(0.0, |law| law.numbers[0])
 }
 
-/// `arm` after `index` tightenings.
+/// `arm` after `index` tightenings; each of m, c, k keeps at least a tenth.
 fn tired(arm: HandArm, laws: &[Law], index: usize) -> HandArm {
-    laws.iter().fold(arm, |arm, law| match law {
-        Law::Trend(trend) => {
-            let [mass, damping, stiffness] = trend.ratios(index);
-            HandArm {
-                mass_kg: arm.mass_kg * mass,
-                damping_kg_per_s: arm.damping_kg_per_s * damping,
-                stiffness_n_per_m: arm.stiffness_n_per_m * stiffness,
-            }
-        }
+    laws.iter().fold(arm, |arm, law| match law.parts() {
+        (HiddenEffect::Fatigue, &[stiffness, damping, mass]) => arm
+            .scaled([mass, damping, stiffness].map(|slope| (1.0 + slope * index as f64).max(0.1))),
         _ => arm,
     })
 }

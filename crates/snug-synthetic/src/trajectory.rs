@@ -1,7 +1,7 @@
 //! The true motion, integrated in far finer steps than identification takes, so that its errors are not shared.
 
+use crate::HiddenEffect::{AccelerationLag, StretchReflex, TorqueLag};
 use crate::Plant;
-use crate::effects::{Law, MeasurementLaw, MuscularLaw};
 use crate::history::History;
 use crate::plant::{LAGGED_ACCELERATION, LAGGED_TORQUE, Now, OMEGA, STATES, State, THETA};
 
@@ -56,10 +56,8 @@ impl Trajectory {
         let (plant, state) = (run.plant, &run.state);
         let Now { time_s, torque_nm } = run.now;
         let acceleration = plant.acceleration_rad_per_s2(run.now, state, &run.past);
-        let lags =
-            |wanted: fn(&MeasurementLaw) -> bool| plant.measurement_laws().any(|law| wanted(&law));
-        let torque_lags = lags(|law| matches!(law, MeasurementLaw::TorqueLag { .. }));
-        let acceleration_lags = lags(|law| matches!(law, MeasurementLaw::AccelerationLag { .. }));
+        let torque_lags = plant.numbers_of(TorqueLag).is_some();
+        let acceleration_lags = plant.numbers_of(AccelerationLag).is_some();
         self.time_s.push(time_s);
         self.theta_rad.push(state[THETA]);
         self.omega_rad_per_s.push(state[OMEGA]);
@@ -93,16 +91,12 @@ struct Run<'a> {
 
 impl<'a> Run<'a> {
     fn new(plant: &'a Plant, first_s: f64) -> Self {
-        let looks_back = plant
-            .laws
-            .iter()
-            .any(|law| matches!(law, Law::Muscular(MuscularLaw::StretchReflex { .. })));
         Self {
             plant,
             now: plant.now(first_s),
             state: [0.0; STATES],
             past: History::default(),
-            looks_back,
+            looks_back: plant.numbers_of(StretchReflex).is_some(),
             started: false,
         }
     }

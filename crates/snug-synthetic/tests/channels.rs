@@ -50,7 +50,7 @@ fn same_plan_and_seed_same_bits_and_other_seed_other_bits() {
 #[test]
 fn strength_zero_is_the_base_model_bit_for_bit() {
     let plain = run(&silent(None, 0.0));
-    for effect in HiddenEffect::ALL {
+    for (effect, _) in HiddenEffect::ALL {
         assert_eq!(
             run(&silent(Some(effect), 0.0)).files,
             plain.files,

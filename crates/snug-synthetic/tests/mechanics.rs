@@ -3,7 +3,7 @@
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use snug_synthetic::{HandArm, HiddenEffect, Law, MeasurementLaw, Plant, Pulse, Trajectory};
+use snug_synthetic::{HandArm, HiddenEffect, Law, Plant, Pulse, Trajectory};
 
 fn plant(laws: Vec<Law>) -> Plant {
     Plant {
@@ -65,10 +65,10 @@ fn work_j(plant: &Plant, trajectory: &Trajectory, force_n: &[f64]) -> f64 {
 #[test]
 fn free_decay_is_the_closed_form_to_1e9() {
     let (theta0, omega0) = (0.004, -0.2);
-    let start = Law::Measurement(MeasurementLaw::InitialMotion {
-        theta0_rad: theta0,
-        omega0_rad_per_s: omega0,
-    });
+    let start = Law {
+        effect: HiddenEffect::InitialMotion,
+        numbers: vec![theta0, omega0],
+    };
     let mut plant = plant(vec![start]);
     plant.pulses.clear();
     let trajectory = run(&plant);
@@ -184,7 +184,7 @@ fn every_effect_fades_into_the_base_model() {
         let gaps = trajectory.theta_rad.iter().zip(&base.theta_rad);
         gaps.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
     };
-    for effect in HiddenEffect::ALL {
+    for (effect, _) in HiddenEffect::ALL {
         let (half, thousandth) = (difference(effect, 0.5), difference(effect, 0.0005));
         assert!(
             thousandth <= 2.1e-3 * half,

@@ -13,6 +13,15 @@ pub(super) enum Field {
     Skip,
 }
 
+/// Every field with its name in a template.
+const FIELDS: [(Field, &str); 5] = [
+    (Field::Participant, "participant"),
+    (Field::Strategy, "strategy"),
+    (Field::Joint, "joint"),
+    (Field::Pace, "pace"),
+    (Field::Skip, "skip"),
+];
+
 #[derive(Debug, Clone, PartialEq, Eq)]
 enum Part {
     Text(String),
@@ -37,24 +46,15 @@ impl TryFrom<String> for Template {
     type Error = IngestError;
 
     fn try_from(text: String) -> Result<Self, IngestError> {
-        let refused = || IngestError::Setting {
-            field: "conditions.template",
-            value: text.clone(),
-            allowed: "{participant}, {strategy}, {joint}, {pace} (each once) and {skip}, with text between them",
-        };
+        let allowed = "{participant}, {strategy}, {joint}, {pace} (each once) and {skip}, with text between them";
+        let refused = || IngestError::setting("conditions.template", &text, allowed);
         let mut parts: Vec<Part> = Vec::new();
         let mut rest = text.as_str();
         while !rest.is_empty() {
             if let Some(field) = rest.strip_prefix('{') {
                 let (name, behind) = field.split_once('}').ok_or_else(refused)?;
-                let field = match name {
-                    "participant" => Field::Participant,
-                    "strategy" => Field::Strategy,
-                    "joint" => Field::Joint,
-                    "pace" => Field::Pace,
-                    "skip" => Field::Skip,
-                    _ => return Err(refused()),
-                };
+                let known = FIELDS.into_iter().find(|(_, known)| *known == name);
+                let (field, _) = known.ok_or_else(refused)?;
                 let part = Part::Field(field);
                 let repeated = field != Field::Skip && parts.contains(&part);
                 // Two fields without text between them have no border.
@@ -78,18 +78,13 @@ impl TryFrom<String> for Template {
 
 impl From<Template> for String {
     fn from(template: Template) -> Self {
-        template
-            .parts
-            .iter()
-            .map(|part| match part {
-                Part::Text(text) => text.as_str(),
-                Part::Field(Field::Participant) => "{participant}",
-                Part::Field(Field::Strategy) => "{strategy}",
-                Part::Field(Field::Joint) => "{joint}",
-                Part::Field(Field::Pace) => "{pace}",
-                Part::Field(Field::Skip) => "{skip}",
-            })
-            .collect()
+        let text = |part: &Part| match part {
+            Part::Text(text) => text.clone(),
+            Part::Field(field) => (FIELDS.iter().filter(|(known, _)| known == field))
+                .map(|(_, name)| format!("{{{name}}}"))
+                .collect(),
+        };
+        template.parts.iter().map(text).collect()
     }
 }
 

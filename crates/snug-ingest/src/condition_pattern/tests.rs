@@ -55,7 +55,7 @@ fn labels_that_say_something_else_give_nothing() {
 
 #[test]
 fn a_misspelt_word_costs_its_own_field_only() {
-    let mut log = FindingLog::new("x.mat");
+    let mut log = FindingLog::new("x.mat".as_ref());
     let conditions = ConditionPattern::default().read(&["TP3_QS_Sofd_8"], &mut log);
     assert_eq!(
         words(&conditions),
@@ -68,7 +68,7 @@ fn a_misspelt_word_costs_its_own_field_only() {
 
 #[test]
 fn the_second_label_helps_out() {
-    let mut log = FindingLog::new("x.mat");
+    let mut log = FindingLog::new("x.mat".as_ref());
     let conditions = ConditionPattern::default().read(&["run 4", "TP3_TT_Hard_8"], &mut log);
     assert_eq!(
         words(&conditions),

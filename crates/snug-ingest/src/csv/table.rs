@@ -1,9 +1,9 @@
 //! Text to columns of numbers.
 
 use super::rows::Rows;
-use super::{Column, CsvLayout, report_gaps, report_open_quotes};
+use super::{Column, CsvLayout};
 use crate::IngestError;
-use crate::finding_log::FindingLog;
+use crate::finding_log::{About, FindingLog};
 use crate::memory::Budget;
 use csv::StringRecord;
 use serde::{Deserialize, Serialize};
@@ -101,24 +101,49 @@ pub(super) fn read(
         });
     }
     if let Some(line) = first_swallowed {
-        report_open_quotes(swallowed, line, log);
+        log.left_out(
+            "quoted_lines",
+            About::File,
+            format!(
+                "{swallowed} lines stand within quotes, as parts of the cell before them, and are no rows (first: the row \
+                 at line {line}); is a quote open?"
+            ),
+        );
     }
-    for (column, (channel, _)) in columns.iter().zip(wanted) {
-        if column.gaps == lines.len() {
-            return Err(IngestError::UnusableChannel {
-                channel: channel.clone(),
-                variable: column.name.clone(),
-                found: format!("without any number in {} rows", lines.len()),
-            });
-        }
-        if let Some((line, text)) = &column.first_gap {
-            report_gaps(&column.name, column.gaps, lines.len(), *line, text, log);
-        }
-    }
+    judge_gaps(&columns, wanted, lines.len(), log)?;
     Ok(Table {
         columns: columns.into_iter().map(|column| column.values).collect(),
         lines,
     })
+}
+
+/// Says how many cells of a column are no numbers, and refuses a column of nothing else.
+fn judge_gaps(
+    columns: &[Reading],
+    wanted: &[(String, &Column)],
+    rows: usize,
+    log: &mut FindingLog,
+) -> Result<(), IngestError> {
+    for (column, (channel, _)) in columns.iter().zip(wanted) {
+        if column.gaps == rows {
+            return Err(IngestError::UnusableChannel {
+                channel: channel.clone(),
+                variable: column.name.clone(),
+                found: format!("without any number in {rows} rows"),
+            });
+        }
+        if let Some((line, text)) = &column.first_gap {
+            log.note(
+                "not_a_number",
+                About::Channel(&column.name),
+                format!(
+                    "{} of {rows} cells are no numbers and are read as NaN (first: {text:?} in line {line})",
+                    column.gaps
+                ),
+            );
+        }
+    }
+    Ok(())
 }
 
 impl Reading {

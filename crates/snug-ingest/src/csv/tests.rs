@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use super::*;
-use snug_campaign::{Finding, Severity};
+use snug_campaign::{Finding, Recording, Severity};
 
 fn channel(column: Column, signal: Signal, unit: Unit) -> CsvChannel {
     CsvChannel {
@@ -29,9 +29,14 @@ fn layout() -> CsvLayout {
     }
 }
 
+fn ingested(layout: &CsvLayout, content: &[u8], path: &str) -> Result<Ingested, IngestError> {
+    let mut input = std::io::Cursor::new(content.to_vec());
+    layout.read(&mut input, Path::new(path), 0.5, &Budget::new(None))
+}
+
 fn read(layout: &CsvLayout, content: &[u8]) -> Result<(Recording, Vec<Finding>), IngestError> {
     layout.check()?;
-    let mut ingested = layout.recording(content, Path::new("a/run 1.csv"), 0.5)?;
+    let mut ingested = ingested(layout, content, "a/run 1.csv")?;
     Ok((ingested.recordings.remove(0), ingested.findings))
 }
 
@@ -255,9 +260,7 @@ fn conditions_from_the_name_only_where_a_pattern_is_declared() {
         ..layout()
     };
     let content = b"M,phi\n1,10\n";
-    let ingested = layout
-        .recording(content, Path::new("TP3_TT_Hard_8.csv"), 0.5)
-        .unwrap();
+    let ingested = ingested(&layout, content, "TP3_TT_Hard_8.csv").unwrap();
     assert_eq!(
         ingested.recordings[0].conditions.participant.as_deref(),
         Some("TP3")

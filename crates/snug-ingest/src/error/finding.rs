@@ -68,6 +68,20 @@ impl IngestError {
         matches!(self, Self::OverBudget { .. } | Self::Read(_))
     }
 
+    /// That a setting of the source cannot be `value`.
+    pub(crate) fn setting(
+        field: &'static str,
+        value: impl ToString,
+        allowed: &'static str,
+    ) -> Self {
+        let value = value.to_string();
+        Self::Setting {
+            field,
+            value,
+            allowed,
+        }
+    }
+
     /// Adds the file, unless it is already named.
     pub(crate) fn in_file(self, path: &Path) -> Self {
         match self {

@@ -19,6 +19,29 @@ impl ByteOrder {
     }
 }
 
+/// Makes sure that `needed` bytes are there.
+pub(crate) fn check_room(
+    what: &'static str,
+    offset: usize,
+    needed: usize,
+    available: usize,
+) -> Result<(), IngestError> {
+    if needed <= available {
+        return Ok(());
+    }
+    Err(IngestError::Truncated {
+        what,
+        offset,
+        needed,
+        available,
+    })
+}
+
+/// A name's bytes: all, or those before the first zero.
+pub(crate) fn until_zero(bytes: &[u8]) -> &[u8] {
+    bytes.split(|&byte| byte == 0).next().unwrap_or_default()
+}
+
 /// A place in a stretch of bytes that never reads past its end.
 #[derive(Debug, Clone)]
 pub(crate) struct Cursor<'a> {
@@ -62,14 +85,7 @@ impl<'a> Cursor<'a> {
         count: usize,
         what: &'static str,
     ) -> Result<&'a [u8], IngestError> {
-        if count > self.remaining() {
-            return Err(IngestError::Truncated {
-                what,
-                offset: self.offset(),
-                needed: count,
-                available: self.remaining(),
-            });
-        }
+        check_room(what, self.offset(), count, self.remaining())?;
         let taken = &self.bytes[self.position..self.position + count];
         self.position += count;
         Ok(taken)

@@ -2,7 +2,7 @@
 //!
 //! Source: MathWorks, *MAT-File Format*, chapter "Level 4 MAT-Files".
 
-use super::cursor::{ByteOrder, Cursor};
+use super::cursor::{ByteOrder, Cursor, until_zero};
 use super::numbers::NumberKind;
 use super::selection::{MatSelection, Wanted};
 use super::stream::Stream;
@@ -60,17 +60,13 @@ pub(super) fn select(
         let base = stream.offset();
         let data = stream.take(bytes, "level 4 matrix", budget)?;
         let read = value(&mut Cursor::new(&data, base, order, budget), &header);
-        match &read {
-            Ok(_) => budget.give_back(bytes as u64),
-            Err(_) => budget.back_to(before),
-        }
         let Header { name, .. } = header;
         let read = read.map(|value| Variable {
             name: name.clone(),
             global: false,
             value,
         });
-        selection.keep(name, read, budget)?;
+        selection.keep_stored(name, read, budget, before, bytes as u64)?;
     }
     Ok(selection)
 }
@@ -119,17 +115,16 @@ fn header(cursor: &mut Cursor<'_>, stream: &mut Stream<'_>) -> Result<Header, In
     }
     let name = stream.take(name_bytes, "level 4 variable name", cursor.budget)?;
     cursor.budget.give_back(name_bytes as u64);
-    let end = name
-        .iter()
-        .position(|&byte| byte == 0)
-        .unwrap_or(name.len());
     Ok(Header {
         number_kind,
         kind,
         rows,
         columns,
         complex: complex == 1,
-        name: name[..end].iter().map(|&byte| char::from(byte)).collect(),
+        name: until_zero(&name)
+            .iter()
+            .map(|&byte| char::from(byte))
+            .collect(),
     })
 }
 

@@ -12,10 +12,10 @@ mod inflater;
 mod structure;
 mod text;
 
+use super::MatFormat;
 use super::cursor::{ByteOrder, Cursor};
 use super::selection::{MatSelection, Wanted};
 use super::stream::Stream;
-use super::{MatFormat, Variable};
 use crate::IngestError;
 use crate::memory::Budget;
 use element::ElementType;
@@ -121,7 +121,7 @@ impl Framed<'_> {
             stream.extend(&mut data, rest, "variable", self.budget)?;
         }
         let read = array::variable(&mut self.cursor(&data, base));
-        self.keep(selection, name, read, before, data.len() as u64)
+        selection.keep_stored(name, read, self.budget, before, data.len() as u64)
     }
 
     /// A compressed element holds exactly one array.
@@ -146,23 +146,7 @@ impl Framed<'_> {
         let (data, room) = (inflater.data(), inflater.room());
         let read = whole.and_then(|()| array::variable(&mut self.cursor(data, element::TAG_BYTES)));
         let read = read.map_err(|error| in_compressed(self.offset, error));
-        self.keep(selection, name, read, before, room)
-    }
-
-    /// Puts a wanted variable into the selection, and gives back what only reading it took.
-    fn keep(
-        &self,
-        selection: &mut MatSelection,
-        name: String,
-        read: Result<Variable, IngestError>,
-        before: u64,
-        room: u64,
-    ) -> Result<(), IngestError> {
-        match &read {
-            Ok(_) => self.budget.give_back(room),
-            Err(_) => self.budget.back_to(before),
-        }
-        selection.keep(name, read, self.budget)
+        selection.keep_stored(name, read, self.budget, before, room)
     }
 
     fn cursor<'a>(&'a self, data: &'a [u8], base: usize) -> Cursor<'a> {

@@ -27,7 +27,7 @@ pub enum Numbers {
     U64(Vec<u64>),
 }
 
-/// The kinds of number a file stores.
+/// The kinds of number a file stores, in the order of MATLAB's numeric classes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum NumberKind {
     F64,
@@ -43,6 +43,20 @@ pub(crate) enum NumberKind {
 }
 
 impl NumberKind {
+    /// MATLAB's classes, in their order.
+    pub(crate) const CLASSES: [(Self, &str); 10] = [
+        (Self::F64, "double"),
+        (Self::F32, "single"),
+        (Self::I8, "int8"),
+        (Self::U8, "uint8"),
+        (Self::I16, "int16"),
+        (Self::U16, "uint16"),
+        (Self::I32, "int32"),
+        (Self::U32, "uint32"),
+        (Self::I64, "int64"),
+        (Self::U64, "uint64"),
+    ];
+
     pub(crate) fn bytes(self) -> usize {
         match self {
             Self::I8 | Self::U8 => 1,
@@ -190,18 +204,7 @@ impl Numbers {
 
     /// MATLAB's name of the class.
     pub fn class_name(&self) -> &'static str {
-        match self {
-            Self::F64(_) => "double",
-            Self::F32(_) => "single",
-            Self::I8(_) => "int8",
-            Self::U8(_) => "uint8",
-            Self::I16(_) => "int16",
-            Self::U16(_) => "uint16",
-            Self::I32(_) => "int32",
-            Self::U32(_) => "uint32",
-            Self::I64(_) => "int64",
-            Self::U64(_) => "uint64",
-        }
+        NumberKind::CLASSES[self.kind() as usize].1
     }
 }
 

@@ -77,6 +77,22 @@ impl MatSelection {
         }
     }
 
+    /// As [`MatSelection::keep`], and gives back what only reading took: the `stored` bytes, or all since `before`.
+    pub(super) fn keep_stored(
+        &mut self,
+        name: String,
+        read: Result<Variable, IngestError>,
+        budget: &Budget,
+        before: u64,
+        stored: u64,
+    ) -> Result<(), IngestError> {
+        match &read {
+            Ok(_) => budget.give_back(stored),
+            Err(_) => budget.back_to(before),
+        }
+        self.keep(name, read, budget)
+    }
+
     /// Takes the first variable with this exact name out, or why it could not be read.
     pub(crate) fn take(&mut self, name: &str) -> Option<Result<Value, IngestError>> {
         if let Some(index) = self.unreadable.iter().position(|v| v.name == name) {
@@ -94,17 +110,6 @@ impl MatSelection {
                 format: self.format,
                 variables: self.variables,
             }),
-        }
-    }
-}
-
-impl From<MatFile> for MatSelection {
-    fn from(file: MatFile) -> Self {
-        Self {
-            format: file.format,
-            present: file.variables.iter().map(|v| v.name.clone()).collect(),
-            variables: file.variables,
-            unreadable: Vec::new(),
         }
     }
 }

@@ -1,5 +1,6 @@
 //! A file that is read from start to end, and over most of which one skips.
 
+use super::cursor::check_room;
 use crate::IngestError;
 use crate::memory::Budget;
 use snug_files::Input;
@@ -49,15 +50,7 @@ impl<'a> Stream<'a> {
 
     /// Makes sure that `count` more bytes are there; `what` names them in the error.
     pub(super) fn expect(&self, count: usize, what: &'static str) -> Result<(), IngestError> {
-        if count > self.remaining() {
-            return Err(IngestError::Truncated {
-                what,
-                offset: self.offset(),
-                needed: count,
-                available: self.remaining(),
-            });
-        }
-        Ok(())
+        check_room(what, self.offset(), count, self.remaining())
     }
 
     /// Fills `bytes`.

@@ -1,14 +1,12 @@
 //! An MCAP file to recordings: whole measurements that Snug recorded, or declared channels on one time grid.
 
 use super::{McapChannel, McapLayout};
-use crate::csv::assemble;
 use crate::finding_log::{About, FindingLog};
-use crate::layout::Layout;
 use crate::memory::Budget;
 use crate::sampling::{self, Timed, Track};
-use crate::{IngestError, Ingested, range};
+use crate::{IngestError, Ingested, layout};
 use snug_campaign::excerpt;
-use snug_campaign::{Conditions, Recording, TimeBase};
+use snug_campaign::{Recording, TimeBase};
 use snug_record::RecordError;
 use snug_record::read::{
     Completeness, Extent, NumericChannel, numeric_channels_within, recordings_within,
@@ -29,25 +27,14 @@ pub(crate) fn read(
     lever_arm_m: f64,
     budget: &Budget,
 ) -> Result<Ingested, IngestError> {
-    let file = path
-        .file_name()
-        .unwrap_or_default()
-        .to_string_lossy()
-        .into_owned();
-    let mut log = FindingLog::new(&file);
+    let mut log = FindingLog::new(path);
     let recordings = if layout.channels.is_empty() {
         own(content, budget, &mut log)?
     } else {
-        let stem = path
-            .file_stem()
-            .unwrap_or_default()
-            .to_string_lossy()
-            .into_owned();
         vec![declared(
             layout,
             content,
-            file,
-            stem,
+            path,
             lever_arm_m,
             budget,
             &mut log,
@@ -129,10 +116,9 @@ fn own(
 
 /// One recording of the declared channels.
 fn declared(
-    layout: &McapLayout,
+    declared: &McapLayout,
     content: &[u8],
-    file: String,
-    stem: String,
+    path: &Path,
     lever_arm_m: f64,
     budget: &Budget,
     log: &mut FindingLog,
@@ -142,10 +128,10 @@ fn declared(
     for channel in &read.channels {
         budget.spend_on::<[f64; 2]>("a channel", channel.values.len())?;
     }
-    let tracks = (layout.channels.iter())
+    let tracks = (declared.channels.iter())
         .map(|wanted| track(wanted, &mut read.channels))
         .collect::<Result<Vec<Track>, IngestError>>()?;
-    let (time_base, channels) = match layout.rate_hz {
+    let (time_base, channels) = match declared.rate_hz {
         Some(hz) => {
             let time_base = TimeBase {
                 start_s: 0.0,
@@ -161,28 +147,18 @@ fn declared(
                 place: &|index| format!("sample {}", index + 1),
                 budget,
             };
-            let time_base = sampling::uniform(timed, layout.tolerance_ratio, log)?;
+            let time_base = sampling::uniform(timed, declared.tolerance_ratio, log)?;
             (time_base, channels)
         }
     };
-    let samples = channels.first().map_or(0, Vec::len);
-    let conditions = layout
-        .conditions
-        .as_ref()
-        .map_or_else(Conditions::default, |pattern| {
-            pattern.read(&[stem.as_str()], log)
-        });
-    Ok(Recording {
-        conditions,
-        segments: range::segments(&layout.ranges, samples, log),
-        ..assemble(
-            file,
-            stem,
-            time_base,
-            layout.declared().into_iter().zip(channels),
-            lever_arm_m,
-        )
-    })
+    Ok(layout::recording(
+        declared,
+        path,
+        time_base,
+        channels,
+        lever_arm_m,
+        log,
+    ))
 }
 
 /// The values of a declared channel, taken out of those that were read.
@@ -192,7 +168,7 @@ fn track(wanted: &McapChannel, channels: &mut [NumericChannel]) -> Result<Track,
     let Some(place) = channels.iter().position(is_it) else {
         let name = |channel: &NumericChannel| format!("{} {}", channel.topic, channel.field);
         return Err(IngestError::MissingChannel {
-            channel: format!("{:?}", wanted.signal).to_lowercase(),
+            channel: wanted.signal.in_words(),
             accepted: vec![format!("{} {}", wanted.topic, wanted.field)],
             present: channels.iter().map(name).collect(),
         });

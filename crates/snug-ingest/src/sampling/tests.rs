@@ -5,7 +5,7 @@ use super::*;
 use snug_campaign::Finding;
 
 fn run(times_s: &[f64], values: &[f64]) -> Result<(TimeBase, Vec<f64>, Vec<Finding>), IngestError> {
-    let mut log = FindingLog::new("x.csv");
+    let mut log = FindingLog::new("x.csv".as_ref());
     let mut channels = [values.to_vec()];
     let timed = Timed {
         times_s: times_s.to_vec(),

@@ -2,7 +2,7 @@
 
 use crate::IngestError;
 use snug_files::Disk;
-use std::fs::{FileType, Metadata};
+use std::fs::FileType;
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 
@@ -24,18 +24,14 @@ pub(super) enum Entry {
 impl Entry {
     pub(super) fn of(disk: &dyn Disk, path: &Path) -> Self {
         match disk.metadata(path) {
-            Ok(metadata) => Self::of_metadata(&metadata),
+            Ok(metadata) => match metadata.file_type() {
+                kind if kind.is_file() => Self::File,
+                kind if kind.is_dir() => Self::Folder,
+                kind => Self::Other(special(kind)),
+            },
             Err(error) if error.kind() == ErrorKind::NotFound => Self::Nothing,
             Err(error) if is_loop(&error) => Self::LinkLoop,
             Err(error) => Self::Refused(error),
-        }
-    }
-
-    fn of_metadata(metadata: &Metadata) -> Self {
-        match metadata.file_type() {
-            kind if kind.is_file() => Self::File,
-            kind if kind.is_dir() => Self::Folder,
-            kind => Self::Other(special(kind)),
         }
     }
 
@@ -62,14 +58,12 @@ impl Entry {
         }
     }
 
+    /// What it is called, where it is there and can be looked at.
     pub(super) fn name(&self) -> &'static str {
         match self {
-            Self::File => "a file",
             Self::Folder => "a folder",
             Self::Other(name) => name,
-            Self::DanglingLink | Self::Nothing => "a link that leads nowhere",
-            Self::LinkLoop => "a link that leads back to itself",
-            Self::Refused(_) => "not accessible",
+            _ => "a file",
         }
     }
 }

@@ -3,13 +3,14 @@
 use super::entry::Entry;
 use super::{Source, ending};
 use crate::IngestError;
+use crate::layout::name_and_stem;
 use snug_campaign::{Finding, Severity};
 use snug_files::{Disk, Host, Identity};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 /// The files that a source reads, and what else lies there.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Listing {
     /// Files in the order in which they are to be read.
     pub files: Vec<PathBuf>,
@@ -59,10 +60,7 @@ fn all(disk: &dyn Disk, source: &Source, folder: &Path) -> Result<Listing, Inges
         .entries(folder)
         .map_err(|error| IngestError::Read(error).in_file(folder))?;
     entries.sort();
-    let mut listing = Listing {
-        files: Vec::new(),
-        findings: Vec::new(),
-    };
+    let mut listing = Listing::default();
     for path in entries {
         match unread(disk, &path, endings) {
             Some(finding) => listing.findings.push(finding),
@@ -83,11 +81,11 @@ fn all(disk: &dyn Disk, source: &Source, folder: &Path) -> Result<Listing, Inges
 }
 
 fn named(disk: &dyn Disk, source: &Source, folder: &Path) -> Result<Listing, IngestError> {
-    let mut files = Vec::with_capacity(source.files.len());
+    let mut listing = Listing::default();
     for name in &source.files {
         let file = folder.join(name);
         match Entry::of_named(disk, &file) {
-            Entry::File => files.push(file),
+            Entry::File => listing.files.push(file),
             Entry::Nothing => {
                 return Err(IngestError::NoSuchFile {
                     folder: folder.to_owned(),
@@ -97,10 +95,6 @@ fn named(disk: &dyn Disk, source: &Source, folder: &Path) -> Result<Listing, Ing
             entry => return Err(entry.error(file, "a file, because the source names it")),
         }
     }
-    let mut listing = Listing {
-        files,
-        findings: Vec::new(),
-    };
     listing.without_second_names(disk);
     Ok(listing)
 }
@@ -137,7 +131,7 @@ impl Listing {
             };
             let message = format!(
                 "not read again: it is the same file as {}, which is read",
-                name_of(first)
+                name_and_stem(first).0
             );
             findings.push(finding(Severity::Note, "same_file", path, &message));
             false
@@ -149,7 +143,7 @@ impl Listing {
 fn unread(disk: &dyn Disk, path: &Path, endings: &[&str]) -> Option<Finding> {
     let ends_like_one = endings.contains(&ending(path).as_str());
     // `._x.mat` and the like are shadows that systems and programs leave behind.
-    let hidden = name_of(path).starts_with('.');
+    let hidden = name_and_stem(path).0.starts_with('.');
     let severity = if ends_like_one && !hidden {
         Severity::LeftOut
     } else {
@@ -200,7 +194,7 @@ fn finding(severity: Severity, code: &str, path: &Path, message: &str) -> Findin
     Finding {
         severity,
         code: code.to_owned(),
-        file: name_of(path),
+        file: name_and_stem(path).0,
         tightening: None,
         channel: None,
         message: message.to_owned(),
@@ -217,13 +211,6 @@ fn told(finding: &Finding) -> String {
         _ => "",
     };
     format!("{}{what}", finding.file)
-}
-
-fn name_of(path: &Path) -> String {
-    path.file_name()
-        .unwrap_or_default()
-        .to_string_lossy()
-        .into_owned()
 }
 
 fn dotted(endings: &[&str]) -> String {

@@ -130,8 +130,8 @@ fn triple(
     log: &mut FindingLog,
 ) -> Result<Triple, u32> {
     let first_row = 3 * number - 2;
-    for (offset, name) in [(0, "start"), (2, "stop")] {
-        if let Err(text) = &rows[offset as usize] {
+    let mut time = |offset: u32, name: &str| {
+        rows[offset as usize].as_ref().map_err(|text| {
             log.left_out(
                 "event_time_unreadable",
                 About::Tightening(number),
@@ -140,12 +140,10 @@ fn triple(
                     first_row + offset
                 ),
             );
-            return Err(number);
-        }
-    }
-    let (Ok(start), Ok(stop)) = (&rows[0], &rows[2]) else {
-        return Err(number);
+            number
+        })
     };
+    let (start, stop) = (time(0, "start")?, time(2, "stop")?);
     let length = ((stop - start) * rate_hz).round();
     if !(1.0..=LONGEST_SAMPLES).contains(&length) {
         log.left_out(

@@ -37,18 +37,22 @@ fn event_table(times: &[&str]) -> Value {
     }
 }
 
-fn mat(variables: Vec<(&str, Value)>) -> MatFile {
-    MatFile {
+fn mat(variables: Vec<(&str, Value)>) -> MatSelection {
+    let mut selection = MatSelection {
         format: MatFormat::Level5,
-        variables: variables
-            .into_iter()
-            .map(|(name, value)| Variable {
-                name: name.to_owned(),
-                global: false,
-                value,
-            })
-            .collect(),
+        variables: Vec::new(),
+        present: Vec::new(),
+        unreadable: Vec::new(),
+    };
+    for (name, value) in variables {
+        selection.present.push(name.to_owned());
+        selection.variables.push(Variable {
+            name: name.to_owned(),
+            global: false,
+            value,
+        });
     }
+    selection
 }
 
 /// 60 samples at 10 Hz, three tightenings of 2 s with gaps in the event clock.
@@ -73,7 +77,8 @@ fn layout() -> ThesisLayout {
 }
 
 fn read(variables: Vec<(&str, Value)>) -> Result<(Recording, Vec<Finding>), IngestError> {
-    let mut ingested = layout().recording(mat(variables), Path::new("folder/TP9_QS_Soft_5.mat"))?;
+    let (path, budget) = (Path::new("folder/TP9_QS_Soft_5.mat"), Budget::new(None));
+    let mut ingested = layout().within(mat(variables), path, &budget)?;
     Ok((ingested.recordings.remove(0), ingested.findings))
 }
 

@@ -68,7 +68,7 @@ pub(crate) fn prepare(
     complete(&mut signals.motion, context.interval_s);
     let mut tightening = context.tightening(remarks, signals, range.start, peak);
     tightening.onset = Some(located.onset.saturating_sub(range.start));
-    tightening.noise = measured.floor(source);
+    tightening.noise = (measured.source_noise).map(|noise| noise.floor(source));
     tightening.corrections = measured.corrections;
     Ok(Prepared {
         tightening,
@@ -143,7 +143,7 @@ fn quiet_part(
     let part = quiet::part(
         after_gap,
         window.start,
-        Some(located.onset),
+        located.onset,
         context.samples(settings.guard_s),
         context.samples(settings.minimum_s),
     );

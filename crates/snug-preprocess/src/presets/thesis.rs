@@ -17,7 +17,6 @@ use super::Context;
 use crate::autoregression::Autoregression;
 use crate::channel::Channel;
 use crate::integration::cumulative_trapezoid;
-use crate::noise::pre_roll_floor;
 use crate::offset::zero_index;
 use crate::remarks::Remarks;
 use crate::signals::Signals;
@@ -96,14 +95,14 @@ fn noise_before(
         return None;
     }
     let noise = Autoregression::fit(quiet, settings.maximum_order)?;
-    (noise.standard_deviation > 0.0).then(|| pre_roll_floor(&noise, Quantity::Acceleration))
+    (noise.standard_deviation > 0.0).then(|| noise.floor(Quantity::Acceleration))
 }
 
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
     use crate::Preset;
-    use crate::synthetic::{prepared, recording};
+    use crate::tests::synthetic::{prepared, recording};
     use snug_campaign::Severity;
 
     #[test]

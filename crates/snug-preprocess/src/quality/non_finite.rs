@@ -55,7 +55,8 @@ pub(crate) fn bridge(samples: &mut [f64], longest: usize) -> Missing {
     missing
 }
 
-fn fill(samples: &mut [f64], run: &Range<usize>) {
+/// Puts a straight line between its neighbours in the place of a run.
+pub(super) fn fill(samples: &mut [f64], run: &Range<usize>) {
     let before = run.start.checked_sub(1).map(|index| samples[index]);
     let after = samples.get(run.end).copied();
     let from = before.or(after).unwrap_or(0.0);

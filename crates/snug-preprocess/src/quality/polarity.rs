@@ -78,7 +78,7 @@ pub(crate) fn fall_at_release(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::synthetic::{ONSET, PEAK, SEGMENT, acceleration, pulse, white_noise};
+    use crate::tests::synthetic::{ONSET, PEAK, SEGMENT, acceleration, pulse, white_noise};
 
     #[test]
     fn a_torque_and_an_acceleration_are_told_apart() {

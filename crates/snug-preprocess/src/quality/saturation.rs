@@ -61,7 +61,7 @@ fn at_level(samples: &[f64], level: f64, sign: f64) -> Option<Saturation> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::synthetic::{SEGMENT, pulse, white_noise};
+    use crate::tests::synthetic::{SEGMENT, pulse, white_noise};
 
     fn noisy_pulse(seed: u64) -> Vec<f64> {
         let noise = white_noise(SEGMENT, 0.02, seed);

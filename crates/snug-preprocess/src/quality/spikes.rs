@@ -1,5 +1,6 @@
 //! Mends spikes of one to three samples, except those that the tool's own motion explains.
 
+use super::non_finite::fill;
 use crate::spread::median;
 use std::ops::Range;
 
@@ -51,16 +52,13 @@ pub(crate) fn repair(
             continue;
         };
         behind = end;
-        let (before, after) = (samples[start - 1], samples[end]);
+        let before = samples[start - 1];
         let is_explained = |index: usize| explains(index, before, samples[index], 0.5 * threshold);
         if (start..end).all(is_explained) {
             found.explained.push(start..end);
             continue;
         }
-        let steps = (end - start + 1) as f64;
-        for (step, sample) in samples[start..end].iter_mut().enumerate() {
-            *sample = before + (after - before) * (step + 1) as f64 / steps;
-        }
+        fill(samples, &(start..end));
         found.mended.push(start..end);
     }
     found
@@ -100,7 +98,9 @@ fn typical_difference(samples: &[f64], range: Range<usize>) -> f64 {
 mod tests {
     use super::*;
     use crate::quality::free_flight::FreeFlight;
-    use crate::synthetic::{ONSET, SEGMENT, acceleration, coloured_noise, pulse, white_noise};
+    use crate::tests::synthetic::{
+        ONSET, SEGMENT, acceleration, coloured_noise, pulse, white_noise,
+    };
     use snug_campaign::Rig;
 
     fn measured(seed: u64) -> [Vec<f64>; 2] {

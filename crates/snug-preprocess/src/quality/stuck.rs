@@ -51,7 +51,7 @@ fn runs_of_identical(samples: &[f64], shortest: usize) -> Vec<Range<usize>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::synthetic::{coloured_noise, white_noise};
+    use crate::tests::synthetic::{coloured_noise, white_noise};
 
     #[test]
     fn a_frozen_stretch_is_found() {

@@ -98,15 +98,12 @@ fn foreign(datatype: &Datatype) -> Elements {
 fn number(datatype: &Datatype) -> Option<(NumberKind, ByteOrder)> {
     let (kind, order) = match datatype {
         Datatype::FloatingPoint {
-            size: 8,
-            byte_order,
-            ..
-        } => (NumberKind::F64, byte_order),
-        Datatype::FloatingPoint {
-            size: 4,
-            byte_order,
-            ..
-        } => (NumberKind::F32, byte_order),
+            size, byte_order, ..
+        } => match size {
+            8 => (NumberKind::F64, byte_order),
+            4 => (NumberKind::F32, byte_order),
+            _ => return None,
+        },
         Datatype::FixedPoint {
             size,
             byte_order,
@@ -148,18 +145,11 @@ fn member(raw: &[u8], size: usize, offset: usize, kind: NumberKind, order: ByteO
 
 /// An empty vector of a numeric class.
 pub(super) fn no_numbers(class: Option<&str>) -> Numbers {
-    match class {
-        Some("single") => Numbers::F32(Vec::new()),
-        Some("int8") => Numbers::I8(Vec::new()),
-        Some("uint8") => Numbers::U8(Vec::new()),
-        Some("int16") => Numbers::I16(Vec::new()),
-        Some("uint16") => Numbers::U16(Vec::new()),
-        Some("int32") => Numbers::I32(Vec::new()),
-        Some("uint32") => Numbers::U32(Vec::new()),
-        Some("int64") => Numbers::I64(Vec::new()),
-        Some("uint64") => Numbers::U64(Vec::new()),
-        _ => Numbers::F64(Vec::new()),
-    }
+    let known = NumberKind::CLASSES
+        .iter()
+        .find(|(_, name)| class == Some(name));
+    let kind = known.map_or(NumberKind::F64, |&(kind, _)| kind);
+    Numbers::decode(kind, &[], ByteOrder::Little)
 }
 
 /// A natural number in an attribute.

@@ -18,6 +18,8 @@ mod class {
     pub(super) const OBJECT: u32 = 3;
     pub(super) const CHAR: u32 = 4;
     pub(super) const SPARSE: u32 = 5;
+    /// Of [`NumberKind::CLASSES`](super::NumberKind::CLASSES).
+    pub(super) const FIRST_NUMERIC: u32 = 6;
     pub(super) const FUNCTION: u32 = 16;
     pub(super) const OPAQUE: u32 = 17;
 }
@@ -96,12 +98,7 @@ pub(super) fn array(cursor: &mut Cursor<'_>, depth: usize) -> Result<(Header, Va
 fn flags(cursor: &mut Cursor<'_>) -> Result<u32, IngestError> {
     let element = Element::read(cursor, "array flags")?;
     let ElementType::Number(NumberKind::U32) = element.kind else {
-        return Err(IngestError::ElementType {
-            what: "array flags",
-            offset: element.offset,
-            expected: "6 (uint32)",
-            found: element.kind.number(),
-        });
+        return Err(element.of_wrong_type("array flags", "6 (uint32)"));
     };
     cursor
         .within(element.data, element.offset)
@@ -113,20 +110,10 @@ fn dimensions(cursor: &mut Cursor<'_>) -> Result<(Vec<usize>, usize), IngestErro
     let (kind, rank) = element.number_kind("dimensions")?;
     // Some writers mark dimensions as unsigned, which does no harm as long as they fit the signed type.
     if !matches!(kind, NumberKind::I32 | NumberKind::U32) {
-        return Err(IngestError::ElementType {
-            what: "dimensions",
-            offset: element.offset,
-            expected: "5 (int32)",
-            found: element.kind.number(),
-        });
+        return Err(element.of_wrong_type("dimensions", "5 (int32)"));
     }
     if rank > MOST_DIMENSIONS {
-        return Err(IngestError::ElementSize {
-            what: "dimensions",
-            offset: element.offset,
-            expected: "at most 128",
-            found: element.data.len(),
-        });
+        return Err(element.of_wrong_size("dimensions", "at most 128"));
     }
     let bytes = rank * size_of::<usize>();
     cursor
@@ -192,19 +179,9 @@ fn content(cursor: &mut Cursor<'_>, header: &Header, depth: usize) -> Result<Con
 }
 
 fn number_kind(class: u32) -> Option<NumberKind> {
-    Some(match class {
-        6 => NumberKind::F64,
-        7 => NumberKind::F32,
-        8 => NumberKind::I8,
-        9 => NumberKind::U8,
-        10 => NumberKind::I16,
-        11 => NumberKind::U16,
-        12 => NumberKind::I32,
-        13 => NumberKind::U32,
-        14 => NumberKind::I64,
-        15 => NumberKind::U64,
-        _ => return None,
-    })
+    let place = class.checked_sub(class::FIRST_NUMERIC)?;
+    let (kind, _) = NumberKind::CLASSES.get(place as usize)?;
+    Some(*kind)
 }
 
 fn numeric(

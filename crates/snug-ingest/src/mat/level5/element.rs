@@ -1,7 +1,7 @@
 //! The tagged element of level 5: type, size and data, checked against the bytes that are there.
 
 use crate::IngestError;
-use crate::mat::cursor::{ByteOrder, Cursor};
+use crate::mat::cursor::{ByteOrder, Cursor, until_zero};
 use crate::mat::numbers::{NumberKind, Numbers};
 use crate::mat::stream::Stream;
 
@@ -21,25 +21,30 @@ pub(super) enum ElementType {
 }
 
 impl ElementType {
+    /// Every type with its number in the file.
+    const NUMBERED: [(u32, Self); 15] = [
+        (1, Self::Number(NumberKind::I8)),
+        (2, Self::Number(NumberKind::U8)),
+        (3, Self::Number(NumberKind::I16)),
+        (4, Self::Number(NumberKind::U16)),
+        (5, Self::Number(NumberKind::I32)),
+        (6, Self::Number(NumberKind::U32)),
+        (7, Self::Number(NumberKind::F32)),
+        (9, Self::Number(NumberKind::F64)),
+        (12, Self::Number(NumberKind::I64)),
+        (13, Self::Number(NumberKind::U64)),
+        (14, Self::Array),
+        (15, Self::Compressed),
+        (16, Self::Utf8),
+        (17, Self::Utf16),
+        (18, Self::Utf32),
+    ];
+
     fn from_number(number: u32) -> Self {
-        match number {
-            1 => Self::Number(NumberKind::I8),
-            2 => Self::Number(NumberKind::U8),
-            3 => Self::Number(NumberKind::I16),
-            4 => Self::Number(NumberKind::U16),
-            5 => Self::Number(NumberKind::I32),
-            6 => Self::Number(NumberKind::U32),
-            7 => Self::Number(NumberKind::F32),
-            9 => Self::Number(NumberKind::F64),
-            12 => Self::Number(NumberKind::I64),
-            13 => Self::Number(NumberKind::U64),
-            14 => Self::Array,
-            15 => Self::Compressed,
-            16 => Self::Utf8,
-            17 => Self::Utf16,
-            18 => Self::Utf32,
-            other => Self::Unknown(other),
-        }
+        let known = Self::NUMBERED
+            .into_iter()
+            .find(|(known, _)| *known == number);
+        known.map_or(Self::Unknown(number), |(_, kind)| kind)
     }
 
     /// What the tag of a top-level element says: its type, and the length of its data.
@@ -50,24 +55,11 @@ impl ElementType {
 
     /// The number in the file.
     pub(super) fn number(self) -> u32 {
-        match self {
-            Self::Number(NumberKind::I8) => 1,
-            Self::Number(NumberKind::U8) => 2,
-            Self::Number(NumberKind::I16) => 3,
-            Self::Number(NumberKind::U16) => 4,
-            Self::Number(NumberKind::I32) => 5,
-            Self::Number(NumberKind::U32) => 6,
-            Self::Number(NumberKind::F32) => 7,
-            Self::Number(NumberKind::F64) => 9,
-            Self::Number(NumberKind::I64) => 12,
-            Self::Number(NumberKind::U64) => 13,
-            Self::Array => 14,
-            Self::Compressed => 15,
-            Self::Utf8 => 16,
-            Self::Utf16 => 17,
-            Self::Utf32 => 18,
-            Self::Unknown(number) => number,
+        if let Self::Unknown(number) = self {
+            return number;
         }
+        let known = Self::NUMBERED.into_iter().find(|(_, kind)| *kind == self);
+        known.map_or(0, |(number, _)| number)
     }
 }
 
@@ -134,26 +126,36 @@ impl<'a> Element<'a> {
         })
     }
 
+    /// That its type cannot stand in its place.
+    pub(super) fn of_wrong_type(&self, what: &'static str, expected: &'static str) -> IngestError {
+        IngestError::ElementType {
+            what,
+            offset: self.offset,
+            expected,
+            found: self.kind.number(),
+        }
+    }
+
+    /// That its size cannot be right.
+    pub(super) fn of_wrong_size(&self, what: &'static str, expected: &'static str) -> IngestError {
+        IngestError::ElementSize {
+            what,
+            offset: self.offset,
+            expected,
+            found: self.data.len(),
+        }
+    }
+
     /// The kind of the numbers inside, and how many there are.
     pub(super) fn number_kind(
         &self,
         what: &'static str,
     ) -> Result<(NumberKind, usize), IngestError> {
         let ElementType::Number(kind) = self.kind else {
-            return Err(IngestError::ElementType {
-                what,
-                offset: self.offset,
-                expected: "a number type",
-                found: self.kind.number(),
-            });
+            return Err(self.of_wrong_type(what, "a number type"));
         };
         if !self.data.len().is_multiple_of(kind.bytes()) {
-            return Err(IngestError::ElementSize {
-                what,
-                offset: self.offset,
-                expected: "a whole number of numbers",
-                found: self.data.len(),
-            });
+            return Err(self.of_wrong_size(what, "a whole number of numbers"));
         }
         Ok((kind, self.data.len() / kind.bytes()))
     }
@@ -187,19 +189,9 @@ impl<'a> Element<'a> {
             self.kind,
             ElementType::Number(NumberKind::I8 | NumberKind::U8) | ElementType::Utf8
         ) {
-            return Err(IngestError::ElementType {
-                what,
-                offset: self.offset,
-                expected: "8-bit text",
-                found: self.kind.number(),
-            });
+            return Err(self.of_wrong_type(what, "8-bit text"));
         }
-        let end = self
-            .data
-            .iter()
-            .position(|&byte| byte == 0)
-            .unwrap_or(self.data.len());
-        let name = &self.data[..end];
+        let name = until_zero(self.data);
         if !name.is_ascii() {
             return Err(IngestError::NameNotAscii {
                 what,

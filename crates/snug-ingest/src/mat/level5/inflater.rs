@@ -2,7 +2,7 @@
 
 use super::element::{ElementType, TAG_BYTES};
 use crate::IngestError;
-use crate::mat::cursor::ByteOrder;
+use crate::mat::cursor::{ByteOrder, check_room};
 use crate::mat::stream::Stream;
 use crate::memory::Budget;
 use flate2::{Decompress, FlushDecompress, Status};
@@ -128,15 +128,7 @@ impl Inflating<'_, '_, '_> {
         if found > size {
             return Err(self.fault("more comes out than the array inside announces"));
         }
-        if found < size {
-            return Err(IngestError::Truncated {
-                what: "variable",
-                offset: TAG_BYTES,
-                needed: size,
-                available: found,
-            });
-        }
-        Ok(())
+        check_room("variable", TAG_BYTES, size, found)
     }
 
     /// Passes over what was not inflated.

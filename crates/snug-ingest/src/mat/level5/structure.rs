@@ -3,7 +3,7 @@
 use super::array;
 use super::element::{Element, ElementType};
 use crate::IngestError;
-use crate::mat::cursor::Cursor;
+use crate::mat::cursor::{Cursor, check_room, until_zero};
 use crate::mat::{Content, Field, Value};
 use crate::memory::ALLOCATION_BYTES;
 use std::collections::{HashMap, HashSet};
@@ -54,26 +54,15 @@ pub(super) fn structure(
 /// Each element takes at least its tag of 8 bytes, so a count that the file cannot hold is refused before memory is
 /// asked for.
 fn check_count(cursor: &Cursor<'_>, count: usize) -> Result<(), IngestError> {
-    if count > cursor.remaining() / 8 {
-        return Err(IngestError::Truncated {
-            what: "elements of a cell or struct",
-            offset: cursor.offset(),
-            needed: count.saturating_mul(8),
-            available: cursor.remaining(),
-        });
-    }
-    Ok(())
+    let needed = count.saturating_mul(8);
+    let what = "elements of a cell or struct";
+    check_room(what, cursor.offset(), needed, cursor.remaining())
 }
 
 fn value(cursor: &mut Cursor<'_>, depth: usize) -> Result<Value, IngestError> {
     let element = Element::read(cursor, "element of a cell or struct")?;
     if element.kind != ElementType::Array {
-        return Err(IngestError::ElementType {
-            what: "element of a cell or struct",
-            offset: element.offset,
-            expected: "14 (array)",
-            found: element.kind.number(),
-        });
+        return Err(element.of_wrong_type("element of a cell or struct", "14 (array)"));
     }
     if element.data.is_empty() {
         let value = Value::empty();
@@ -92,24 +81,19 @@ fn field_names(cursor: &mut Cursor<'_>) -> Result<Vec<String>, IngestError> {
         _ => -1.0,
     };
     if length.is_nan() || length < 0.0 {
-        return Err(IngestError::ElementSize {
-            what: "field name length",
-            offset: element.offset,
-            expected: "one number, not negative",
-            found: element.data.len(),
-        });
+        return Err(element.of_wrong_size("field name length", "one number, not negative"));
     }
     // Zero is right where there is no field.
     let length = (length as usize).max(1);
     let stored = Element::read(cursor, "field names")?.data;
     let mut names = cursor.budget.list("field names", stored.len() / length)?;
     for name in stored.chunks_exact(length) {
-        let end = name.iter().position(|&byte| byte == 0).unwrap_or(length);
+        let name = until_zero(name);
         // A byte that is no text becomes a character of three.
         cursor
             .budget
-            .spend("field names", 3 * end as u64 + ALLOCATION_BYTES)?;
-        names.push(String::from_utf8_lossy(&name[..end]).into_owned());
+            .spend("field names", 3 * name.len() as u64 + ALLOCATION_BYTES)?;
+        names.push(String::from_utf8_lossy(name).into_owned());
     }
     // Renaming looks every name up among the others.
     let lookup = (names.len() * 2 * size_of::<(String, usize)>()) as u64 + 2 * stored.len() as u64;

@@ -43,14 +43,7 @@ pub(super) fn characters(
                 _ => Vec::new(),
             }
         }
-        other => {
-            return Err(IngestError::ElementType {
-                what: "characters",
-                offset: element.offset,
-                expected: "a text type",
-                found: other.number(),
-            });
-        }
+        _ => return Err(element.of_wrong_type("characters", "a text type")),
     };
     characters.shrink_to_fit();
     within.budget.give_back(room);
