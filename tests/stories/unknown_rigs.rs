@@ -1,6 +1,6 @@
 //! Rigs of which nobody says where mass, damping and stiffness begin, nor in which unit anything was measured.
 
-use snug_campaign::Diagnosis;
+use snug_campaign::{Diagnosis, Verdict};
 use snug_study::{RunSettings, Study, Verb, diagnose};
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
@@ -52,6 +52,87 @@ fn a_robot_arm_of_unknown_rate_is_fitted_by_its_resonance() {
         assert!((62.0..67.0).contains(&fit), "{fits:?}");
         assert!((fit - fits[0]).abs() < 0.01, "{fits:?}");
     }
+}
+
+/// Whoever swaps the columns, or takes an acceleration for a velocity, is told so, whatever was asked; nothing is called adequate
+/// or missing.
+#[test]
+fn a_robot_arm_declared_wrongly_is_no_model() {
+    let Some(data) = snug_tests::data("DaISy") else {
+        return;
+    };
+    let arm = data.join("daisy/robot-arm.csv");
+    let acceleration = "signal: Acceleration, unit: RadianPerSecondSquared";
+    let velocity = "signal: Velocity, unit: RadianPerSecond";
+    for (columns, signals, fitted, expected) in [
+        (
+            ["y", "u"],
+            acceleration,
+            "Acceleration",
+            "which column is which",
+        ),
+        (
+            ["u", "y"],
+            velocity,
+            "Velocity",
+            "were what is declared as velocity the acceleration",
+        ),
+    ] {
+        for verb in [Verb::Compare, Verb::Diagnose, Verb::Improve] {
+            let (diagnosis, _) = told(&study(&arm, columns, signals, 1.0, fitted), &verb);
+            let reasons: Vec<String> = diagnosis.reasons.iter().map(ToString::to_string).collect();
+            let is_named = reasons.iter().any(|reason| reason.contains(expected));
+            assert_eq!(
+                diagnosis.verdict,
+                Verdict::NotFitted,
+                "{verb:?}: {reasons:#?}"
+            );
+            assert!(is_named, "{verb:?}: {reasons:#?}");
+        }
+    }
+}
+
+/// A drive is braked by dry friction; in one direction of turning that is a constant torque, and nothing tells them apart.
+#[test]
+fn a_drive_lacks_dry_friction() {
+    let Some(data) = snug_tests::data("HSM150 two-motor rig") else {
+        return;
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let table = folder.path().join("drive.csv");
+    std::fs::write(
+        &table,
+        drive(&data.join("hsm150-two-motor/idf_pos_0.06_1.mat")),
+    )
+    .unwrap();
+    let signals = "signal: Velocity, unit: RadianPerSecond";
+    let study = study(&table, ["torque", "velocity"], signals, 1000.0, "Velocity");
+    let (diagnosis, _) = told(&study, &Verb::Diagnose);
+    assert_eq!(
+        diagnosis.verdict,
+        Verdict::MissingEffect,
+        "{}",
+        diagnosis.headline
+    );
+    let first = &diagnosis.ranking[0];
+    let named: Vec<&String> = first.twins.iter().chain([&first.effect]).collect();
+    assert!(
+        named.iter().any(|name| *name == "coulomb_friction"),
+        "{named:?}"
+    );
+}
+
+/// Its torque and speed as a table.
+fn drive(file: &Path) -> String {
+    let read = snug_ingest::mat::MatFile::read(file).unwrap();
+    let data = read.variable("data").unwrap().to_f64().unwrap();
+    let columns: Vec<&[f64]> = data.chunks(data.len() / 7).collect();
+    let (velocity, torque) = (columns[3], columns[4]);
+    let rows = velocity.iter().zip(torque);
+    let rows = rows.map(|(velocity, torque)| format!("{velocity},{torque}\n"));
+    std::iter::once("velocity,torque\n".to_owned())
+        .chain(rows)
+        .collect()
 }
 
 /// Two tanks are no oscillator: candidates run away, and are not believed.

@@ -123,7 +123,7 @@ fn not_yet_added(diagnosis: &Diagnosis) -> Option<&RankedEffect> {
             let is_it = |one: &&RankedEffect| one.expression.as_ref() == Some(&law.expression);
             diagnosis.ranking.iter().find(is_it)
         }
-        Verdict::Adequate | Verdict::Undecided => None,
+        Verdict::Adequate | Verdict::Undecided | Verdict::NotFitted => None,
     }
 }
 
@@ -228,11 +228,12 @@ fn next(page: &mut Page, diagnosis: &Diagnosis, following: &Following<'_>) {
         ));
         return;
     }
-    if diagnosis.verb == "compare" {
+    let is_fitted = diagnosis.verdict != Verdict::NotFitted;
+    if diagnosis.verb == "compare" && is_fitted {
         page.paragraph("  ", "Ask which effect is missing; it changes nothing:");
         return command(page, "diagnose");
     }
-    let climbed = matches!(diagnosis.verb.as_str(), "add" | "improve");
+    let climbed = is_fitted && matches!(diagnosis.verb.as_str(), "add" | "improve");
     match diagnosis.verdict {
         Verdict::MissingEffect => {
             if let Some(best) = diagnosis.ranking.first() {
@@ -260,6 +261,10 @@ fn next(page: &mut Page, diagnosis: &Diagnosis, following: &Following<'_>) {
             page.paragraph("  ", "Record more tightenings; the reasons above say what is lacking.");
         }
         Verdict::Undecided => {}
+        Verdict::NotFitted => {
+            page.paragraph("  ", "Check what the reasons above name, in their order; then look again:");
+            command(page, "compare");
+        }
         Verdict::Adequate => page.paragraph(
             "  ",
             "Nothing needs to be added. report.html shows what was checked and how small a missing effect would have been seen.",

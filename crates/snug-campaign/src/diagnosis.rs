@@ -18,6 +18,8 @@ pub enum Verdict {
     UnlistedEffect,
     /// Too little data to say.
     Undecided,
+    /// No model was found that deserves the question.
+    NotFitted,
 }
 
 impl Verdict {
@@ -28,6 +30,7 @@ impl Verdict {
             Self::MissingEffect => "missing_effect",
             Self::UnlistedEffect => "unlisted_effect",
             Self::Undecided => "undecided",
+            Self::NotFitted => "not_fitted",
         }
     }
 }

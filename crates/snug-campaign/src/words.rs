@@ -5,6 +5,7 @@ mod said;
 
 pub mod chance;
 pub mod effect_name;
+pub mod explained;
 pub mod headline;
 pub mod number;
 pub mod reason;
@@ -12,6 +13,7 @@ pub mod remark;
 pub mod size;
 pub mod statement;
 pub mod stopped;
+pub mod suspicion;
 
 /// `a`, `a and b`, `a, b and c`.
 pub fn joined(names: &[String]) -> String {

@@ -12,7 +12,7 @@ const FIRST: usize = 3;
 
 /// The best candidates, and what their columns mean.
 pub fn ranking(page: &mut Page, diagnosis: &Diagnosis) {
-    if diagnosis.ranking.is_empty() {
+    if diagnosis.ranking.is_empty() || diagnosis.verdict == Verdict::NotFitted {
         return;
     }
     let candidates: Vec<(usize, &RankedEffect)> = diagnosis

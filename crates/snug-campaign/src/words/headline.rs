@@ -1,6 +1,7 @@
 //! The verdict in one sentence.
 
 use super::effect_name::Named;
+use super::explained::Explained;
 use super::number::significant;
 use super::said::written_as_said;
 use super::{counted, joined};
@@ -82,7 +83,11 @@ pub enum Headline {
         added: Vec<Named>,
         /// How the error fell.
         fall: Fall,
+        /// How much is explained, where no noise says what is enough.
+        explained: Option<Explained>,
     },
+    /// No model was found that deserves the question.
+    NotFitted(Explained),
     /// Compared only; nothing was looked for.
     Compared(Left),
     /// Too little to say.
@@ -112,17 +117,7 @@ fn describe(well: bool, laws: usize) -> &'static str {
 impl Display for Headline {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Stopped { added, fall } if added.is_empty() => write!(
-                f,
-                "Stopped by you before an effect was added: the model leaves {}, and what it lacks is not decided.",
-                fall.after
-            ),
-            Self::Stopped { added, fall } => write!(
-                f,
-                "Stopped by you after {}: with {} the error fell {fall}; nothing more was tried.",
-                counted(added.len(), "effect"),
-                named(added)
-            ),
+            Self::Stopped { added, fall } => stopped(f, added, *fall),
             Self::Lacks { effect, fall } => {
                 let what = match effect.is_unlisted() {
                     true => "A law that is not in the catalogue is missing, best described as",
@@ -150,16 +145,15 @@ impl Display for Headline {
                 f,
                 "Misfit that repeats from tightening to tightening remains ({left}), and no effect of the catalogue explains it."
             ),
-            Self::Adequate { added, fall } if added.is_empty() => write!(
+            Self::NotFitted(explained) => write!(
                 f,
-                "The model is adequate: it leaves {}, and nothing more is justified.",
-                fall.after
+                "No model was found that deserves the question what is missing: the best explains {explained}."
             ),
-            Self::Adequate { added, fall } => write!(
-                f,
-                "With {} the model is complete: the error fell {fall}, and nothing more is justified.",
-                named(added)
-            ),
+            Self::Adequate {
+                added,
+                fall,
+                explained,
+            } => adequate(f, added, *fall, *explained),
             Self::Compared(left) => {
                 write!(
                     f,
@@ -178,6 +172,47 @@ impl Display for Headline {
             }
         }
     }
+}
+
+fn stopped(f: &mut Formatter<'_>, added: &[Named], fall: Fall) -> fmt::Result {
+    match added {
+        [] => write!(
+            f,
+            "Stopped by you before an effect was added: the model leaves {}, and what it lacks is not decided.",
+            fall.after
+        ),
+        added => write!(
+            f,
+            "Stopped by you after {}: with {} the error fell {fall}; nothing more was tried.",
+            counted(added.len(), "effect"),
+            named(added)
+        ),
+    }
+}
+
+fn adequate(
+    f: &mut Formatter<'_>,
+    added: &[Named],
+    fall: Fall,
+    explained: Option<Explained>,
+) -> fmt::Result {
+    let (with, after) = (named(added), fall.after);
+    match (added.is_empty(), explained) {
+        (true, None) => write!(f, "The model is adequate: it leaves {after}"),
+        (false, None) => write!(
+            f,
+            "With {with} the model is complete: the error fell {fall}"
+        ),
+        (true, Some(all)) => write!(f, "The model explains {all}: it leaves {after}"),
+        (false, Some(all)) => {
+            write!(
+                f,
+                "With {with} the model explains {all}: the error fell {fall}"
+            )
+        }
+    }?;
+    write!(f, ", and nothing more is justified.")?;
+    explained.map_or(Ok(()), |all| write!(f, " {}", all.left()))
 }
 
 impl Diagnosis {
@@ -199,6 +234,7 @@ impl Diagnosis {
                 "the model leaves an error, and the noise is not known"
             }
             Verdict::Undecided => "too little data to say",
+            Verdict::NotFitted => "no model was found that fits",
         }
     }
 }

@@ -6,6 +6,7 @@ use super::headline::Left;
 use super::number::whole_percent;
 use super::said::written_as_said;
 use super::size::{amount, sizes};
+use super::suspicion::Suspicion;
 use super::{capitalised, joined};
 use crate::{CorrectedEffect, EffectParameter};
 use std::fmt::{self, Display, Formatter};
@@ -67,6 +68,8 @@ pub enum Reason {
         /// Whether the misfit is counted beyond a known noise.
         is_beyond_noise: bool,
     },
+    /// What to check where no model fits.
+    Check(Suspicion),
     /// How large the missing effect is.
     Size(Vec<EffectParameter>),
     /// What these data cannot tell from the missing effect.
@@ -147,6 +150,7 @@ impl Display for Reason {
                 is_at_floor,
                 is_adequate,
             } => error_over_noise(f, *tightenings, *error, *is_at_floor, *is_adequate),
+            Self::Check(suspicion) => suspicion.fmt(f),
             Self::Removes {
                 effect,
                 heldout_gain,
@@ -173,12 +177,7 @@ impl Display for Reason {
                 "These data cannot tell it from {}; they are named together.",
                 joined(&spoken(twins))
             ),
-            Self::Drifts { trend, parameters } => write!(
-                f,
-                "Beside the misfit, mass, damping or stiffness drift with the tightening's number ({}): {}.",
-                effect_name(trend),
-                sizes(parameters)
-            ),
+            Self::Drifts { trend, parameters } => drifts(f, trend, parameters),
             Self::TakenOut { corrected, check } => taken_out(f, corrected, *check),
             Self::NotSimulated(effects) => write!(
                 f,
@@ -233,6 +232,15 @@ fn error_over_noise(
         ),
         false => Ok(()),
     }
+}
+
+fn drifts(f: &mut Formatter<'_>, trend: &str, parameters: &[EffectParameter]) -> fmt::Result {
+    write!(
+        f,
+        "Beside the misfit, mass, damping or stiffness drift with the tightening's number ({}): {}.",
+        effect_name(trend),
+        sizes(parameters)
+    )
 }
 
 fn would_decide(

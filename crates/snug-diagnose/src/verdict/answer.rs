@@ -8,10 +8,11 @@ use crate::locate::{compare, drifts, locate};
 use crate::pooled::fitted::Fitted;
 use crate::pooled::sizes::parameters;
 use crate::pooled::thresholds::AT_FLOOR;
-use crate::question::Question;
+use crate::question::{Goal, Question};
 use crate::ranking::rank::{Candidate, Ranking};
 use crate::selection::path::{Addition, SelectionPath, misfit, misfits, twins};
 use crate::settings::DiagnoseSettings;
+use crate::verdict::earned;
 use crate::verdict::experiment::separating_experiment;
 use crate::verdict::reasons::{Situation, explanation, headline, paste, reasons, removal, stopped};
 use crate::verdict::thresholds::{BESIDE_EFFECTS, REPEATS};
@@ -19,7 +20,9 @@ use crate::verdict::tightening_fits::TighteningFits;
 use crate::verdict::trend::trends;
 use crate::verdict::{detectability, ladder, preparation};
 use crate::watch::Watch;
+use snug_campaign::words::explained::Explained;
 use snug_campaign::words::statement;
+use snug_campaign::words::suspicion::Suspicion;
 use snug_campaign::{
     AddedEffect, Comparison, CorrectedEffect, Diagnosis, Drift, EffectParameter, Experiment,
     Location, NegativeControl, RankedEffect, UnlistedTerm, Verdict,
@@ -65,6 +68,8 @@ struct Places {
     /// `None` where the last model is the first.
     final_location: Option<Location>,
     drift: Vec<Drift>,
+    /// How much the last model explains, where no noise says what is enough.
+    explained: Option<Explained>,
 }
 
 impl Places {
@@ -80,10 +85,14 @@ impl Examination<'_> {
         let cases = self.question.cases;
         let last = self.path.last();
         let places = self.places()?;
-        let verdict = self.verdict(places.last().repeatable_share);
+        let (verdict, suspicions) = self.verdict_and_suspicions(&places);
         let ranking = self.ranking(&places.drift);
         let corrected = preparation::corrected(cases);
-        let situation = self.situation(verdict, &ranking, &corrected);
+        let situation = Situation {
+            explained: places.explained,
+            suspicions: &suspicions,
+            ..self.situation(verdict, &ranking, &corrected)
+        };
         let experiment = self.experiment(&situation)?;
         let (headline, reasons, stopped) = (
             headline(&situation),
@@ -130,15 +139,21 @@ impl Examination<'_> {
         let (cases, seed) = (self.question.cases, self.settings.seed);
         let sight = TighteningFits::of(cases, first)?;
         let base = sight.seen();
-        let final_location = match last.effects == first.effects {
-            true => None,
-            false => Some(locate(&TighteningFits::of(cases, last)?.seen(), seed)),
+        let (final_location, explained) = match last.effects == first.effects {
+            true => (None, earned::explained(cases, last, &base)),
+            false => {
+                let sight = TighteningFits::of(cases, last)?;
+                let seen = sight.seen();
+                let explained = earned::explained(cases, last, &seen);
+                (Some(locate(&seen, seed)), explained)
+            }
         };
         Ok(Places {
             comparison: compare(&base),
             location: locate(&base, seed),
             final_location,
             drift: drifts(&base),
+            explained,
         })
     }
 
@@ -167,6 +182,8 @@ impl Examination<'_> {
             impossible: &path.ranking.impossible,
             corrected,
             settings: self.settings,
+            explained: None,
+            suspicions: &[],
         }
     }
 
@@ -183,8 +200,22 @@ impl Examination<'_> {
         Ok(separating_experiment(self.cases, first, second))
     }
 
+    /// The verdict, and what to check where no model fits. A comparison leaves it at that only where there is something to check:
+    /// an effect that does most of the work is for `diagnose` to find.
+    fn verdict_and_suspicions(&self, places: &Places) -> (Verdict, Vec<Suspicion>) {
+        let verdict = self.verdict(places.last().repeatable_share);
+        let (Verdict::NotFitted, Some(explained)) = (verdict, places.explained) else {
+            return (verdict, Vec::new());
+        };
+        let suspicions = earned::suspicions(self.question.cases, explained);
+        match (&self.question.goal, suspicions.as_slice()) {
+            (Goal::Compare, [Suspicion::NoOscillator]) => (Verdict::Undecided, Vec::new()),
+            _ => (verdict, suspicions),
+        }
+    }
+
     fn verdict(&self, repeatable: Option<f64>) -> Verdict {
-        let last = self.path.last();
+        let (last, candidates) = (self.path.last(), &self.path.ranking.candidates);
         let added_unlisted = self
             .path
             .additions
@@ -192,6 +223,11 @@ impl Examination<'_> {
             .any(|one| is_unlisted(one.effect));
         if self.path.is_interrupted() {
             return Verdict::Undecided;
+        }
+        let best = (self.path.chosen).map_or(last, |index| &candidates[index].fitted);
+        let share = earned::share(self.question.cases, best);
+        if !earned::is_a_model(share) {
+            return Verdict::NotFitted;
         }
         if self.path.ranking.candidates.is_empty() {
             return match last.is_at_floor() {
@@ -221,7 +257,8 @@ impl Examination<'_> {
         }
         match self.path.is_promising(self.settings) {
             Some(_) => Verdict::Undecided,
-            None => Verdict::Adequate,
+            None if earned::keeps_the_promise(share, self.question.cases) => Verdict::Adequate,
+            None => Verdict::NotFitted,
         }
     }
 

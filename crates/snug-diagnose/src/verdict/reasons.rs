@@ -7,10 +7,12 @@ use crate::ranking::rank::Candidate;
 use crate::selection::path::{Addition, Attempt, Stop};
 use crate::settings::DiagnoseSettings;
 use snug_campaign::words::effect_name::Named;
+use snug_campaign::words::explained::Explained;
 use snug_campaign::words::headline::{Fall, Headline, Left};
 use snug_campaign::words::reason::{MoreData, Reason};
 use snug_campaign::words::statement;
 use snug_campaign::words::stopped::Stopped;
+use snug_campaign::words::suspicion::Suspicion;
 use snug_campaign::{CorrectedEffect, EffectParameter, RankedEffect, Removal, Verdict};
 use snug_model::{CustomEffectSettings, Description, Effect, Law, TRENDS};
 
@@ -35,6 +37,10 @@ pub(crate) struct Situation<'a> {
     /// What preparation took out.
     pub corrected: &'a [CorrectedEffect],
     pub settings: &'a DiagnoseSettings,
+    /// How much the last model explains, where no noise says what is enough.
+    pub explained: Option<Explained>,
+    /// What to check where no model fits.
+    pub suspicions: &'a [Suspicion],
 }
 
 impl Situation<'_> {
@@ -111,7 +117,14 @@ pub(crate) fn headline(situation: &Situation<'_>) -> Headline {
             fall: fell,
         },
         (Verdict::UnlistedEffect, None) => Headline::Unexplained(fell.after),
-        (Verdict::Adequate, _) => Headline::Adequate { added, fall: fell },
+        (Verdict::Adequate, _) => Headline::Adequate {
+            added,
+            fall: fell,
+            explained: situation.explained,
+        },
+        (Verdict::NotFitted, _) => {
+            (situation.explained).map_or(Headline::Compared(fell.after), Headline::NotFitted)
+        }
         (Verdict::Undecided, _) if situation.verb == "compare" => Headline::Compared(fell.after),
         (Verdict::Undecided | Verdict::MissingEffect, _) => Headline::TooLittle {
             tightenings: situation
@@ -126,6 +139,7 @@ pub(crate) fn headline(situation: &Situation<'_>) -> Headline {
 /// Why.
 pub(crate) fn reasons(situation: &Situation<'_>) -> Vec<Reason> {
     let mut reasons = vec![what_is_left(situation)];
+    reasons.extend(situation.suspicions.iter().copied().map(Reason::Check));
     let additions = situation.additions.iter();
     reasons.extend(
         additions.map(|one| removes(one.effect, one.heldout_gain, one.p_family, situation)),

@@ -17,3 +17,11 @@ pub(crate) const TELLING: f64 = 52.0;
 
 /// More tightenings than anybody makes to tell two effects apart; chosen, not measured.
 pub(crate) const MOST_TIGHTENINGS: usize = 10_000;
+/// Least share of the fitted output's power about its mean that a model must explain before anything is said of effects \[–\]:
+/// less than half, and most of what happens is something else. Chosen.
+pub(crate) const LEAST_EXPLAINED: f64 = 0.5;
+/// By how much less than m, c, k alone, where the spectra put them, a model may explain and still be called adequate \[–\].
+/// Chosen.
+pub(crate) const SHORTFALL: f64 = 0.05;
+/// By how much more m, c, k must explain with a sign, a column or a derivative changed before that is suspected \[–\]. Chosen.
+pub(crate) const FAR_BETTER: f64 = 0.2;

@@ -14,6 +14,10 @@ impl Restarts {
         Self { apart, motions }
     }
 
+    pub(crate) fn apart(&self) -> usize {
+        self.apart
+    }
+
     pub(crate) fn is_empty(&self) -> bool {
         self.apart == 0
     }

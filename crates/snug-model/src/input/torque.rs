@@ -148,6 +148,12 @@ impl Input {
         !self.restarts.is_empty()
     }
 
+    /// Samples from one restart to the next; `None` where the simulation runs freely.
+    pub fn samples_between_restarts(&self) -> Option<usize> {
+        self.is_restarted()
+            .then(|| self.restarts.apart() / self.substeps)
+    }
+
     /// Angle \[rad\] and velocity \[rad/s\] from which the simulation goes on at a grid point.
     #[inline(always)]
     pub(crate) fn restart_at(&self, point: usize) -> Option<[f64; 2]> {

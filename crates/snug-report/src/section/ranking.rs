@@ -42,6 +42,9 @@ fn render(diagnosis: &Diagnosis, result: &CampaignResult) -> Option<Markup> {
         p { "Every candidate was added to " (model) " in turn and judged on data that its size was not fitted to. \
             The bar is the share of the misfit that it takes away there; the thin line is one standard error to either side. \
             Below zero, it does harm." }
+        @if diagnosis.verdict == Verdict::NotFitted {
+            p { strong { "No model was found that fits" } ": shares of what such a one leaves say nothing of what is missing." }
+        }
         @if diagnosis.verdict == Verdict::Adequate {
             p { strong { "Nothing more is justified" } ": the misfit that is left to share out is little or does not repeat, and large shares \
                 of it say little." }

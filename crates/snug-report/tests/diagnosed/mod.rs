@@ -37,6 +37,7 @@ pub fn improve() -> CampaignResult {
         headline: Headline::Adequate {
             added: vec![named("cubic_stiffness"), named("torque_delay")],
             fall: fall(6.42, 1.018),
+            explained: None,
         },
         reasons: vec![Reason::Error {
             tightenings: 24,

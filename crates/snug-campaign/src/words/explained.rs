@@ -1,0 +1,74 @@
+//! How much of a measured output a model explains, where its noise is not known.
+
+use super::number::{fixed, whole_percent};
+use std::fmt::{self, Display, Formatter};
+
+/// What a model explains of the fitted output.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Explained {
+    /// Name of the output.
+    pub output: &'static str,
+    /// Share of its power about the mean \[–\]; below 0 where the mean alone would do better.
+    pub share: f64,
+    /// Correlation of neighbouring samples of what is left \[–\]: 0 of white noise, near 1 of a motion.
+    pub neighbours: f64,
+}
+
+impl Display for Explained {
+    /// `98 % of the measured velocity's power`.
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self.share > 0.0 {
+            true => write!(f, "{}", at_most_all(self.share))?,
+            false => write!(f, "nothing")?,
+        }
+        write!(f, " of the measured {}'s power", self.output)
+    }
+}
+
+impl Explained {
+    /// How far what is left is from noise, as a sentence.
+    pub fn left(&self) -> String {
+        format!(
+            "Neighbouring samples of what is left correlate by {} (0 is white noise, 1 a smooth motion).",
+            fixed(self.neighbours, 2)
+        )
+    }
+}
+
+/// A share as it is said: only what leaves nothing is 100 %.
+pub(super) fn at_most_all(share: f64) -> String {
+    match share {
+        share if share < 0.005 => "less than 1\u{a0}%".into(),
+        share if share < 0.995 => whole_percent(share),
+        share if share < 0.999_95 => format!("{}\u{a0}%", fixed(100.0 * share, 2)),
+        _ => "more than 99.99\u{a0}%".into(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_good_model_is_not_said_to_be_perfect_nor_a_bad_one_less_than_nothing() {
+        let said = |share: f64| {
+            let one = Explained {
+                output: "velocity",
+                share,
+                neighbours: 0.0,
+            };
+            one.to_string().replace('\u{a0}', " ")
+        };
+        assert_eq!(
+            said(0.001),
+            "less than 1 % of the measured velocity's power"
+        );
+        assert_eq!(said(0.871), "87 % of the measured velocity's power");
+        assert_eq!(said(0.9996), "99.96 % of the measured velocity's power");
+        assert_eq!(
+            said(1.0),
+            "more than 99.99 % of the measured velocity's power"
+        );
+        assert_eq!(said(-3.0), "nothing of the measured velocity's power");
+    }
+}

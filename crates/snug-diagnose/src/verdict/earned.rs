@@ -1,0 +1,166 @@
+//! Whether there is a model at all that a verdict could be about, and what to check where there is none.
+
+use crate::locate::Seen;
+use crate::pooled::fitted::Fitted;
+use crate::verdict::thresholds::{FAR_BETTER, LEAST_EXPLAINED, SHORTFALL};
+use snug_campaign::Quantity;
+use snug_campaign::words::explained::Explained;
+use snug_campaign::words::suspicion::Suspicion;
+use snug_identify::{FitTask, spectral_start};
+use std::borrow::Cow;
+
+/// Share of the fitted output's power that `fitted` explains, all tightenings together \[–\]; `None` where the noise is known and
+/// says more.
+pub(crate) fn share(cases: &[FitTask<'_>], fitted: &Fitted) -> Option<f64> {
+    (!fitted.is_weighted).then(|| 1.0 - fitted.squares() / power(cases))
+}
+
+/// Of the fitted output about its mean; about the mean between two restarts where the model is restarted, since what it takes up
+/// it need not explain.
+fn power(cases: &[FitTask<'_>]) -> f64 {
+    let about_mean = |values: &[f64]| -> f64 {
+        let mean = values.iter().sum::<f64>() / values.len() as f64;
+        values.iter().map(|y| (y - mean).powi(2)).sum()
+    };
+    let of_case = |case: &FitTask<'_>| -> f64 {
+        let scored = &case.measured()[case.unscored()..];
+        let apart = case.input.samples_between_restarts();
+        (scored
+            .chunks(apart.unwrap_or(scored.len()).max(1))
+            .map(about_mean))
+        .sum()
+    };
+    cases.iter().map(of_case).sum()
+}
+
+/// The same in words, with how far from noise is what is left.
+pub(crate) fn explained(
+    cases: &[FitTask<'_>],
+    fitted: &Fitted,
+    seen: &[Seen<'_>],
+) -> Option<Explained> {
+    let quantity = cases.first()?.quantity();
+    Some(Explained {
+        output: quantity.name(),
+        share: share(cases, fitted)?,
+        neighbours: neighbours(quantity, seen),
+    })
+}
+
+/// Correlation of neighbouring samples of what is left \[–\]; 0 where nothing is.
+fn neighbours(quantity: Quantity, seen: &[Seen<'_>]) -> f64 {
+    let (mut products, mut squares) = (0.0, 0.0);
+    for one in seen {
+        let motion = |motion: &snug_campaign::Motion| {
+            motion
+                .get(quantity)
+                .map(|values| values[one.unscored..].to_vec())
+        };
+        let pair = motion(&one.tightening.motion).zip(motion(one.simulated));
+        let Some((measured, simulated)) = pair else {
+            continue;
+        };
+        let left: Vec<f64> = measured
+            .iter()
+            .zip(&simulated)
+            .map(|(y, s)| y - s)
+            .collect();
+        products += left.windows(2).map(|pair| pair[0] * pair[1]).sum::<f64>();
+        squares += left.iter().map(|r| r * r).sum::<f64>();
+    }
+    let correlation = products / squares;
+    if correlation.is_finite() {
+        correlation
+    } else {
+        0.0
+    }
+}
+
+/// Whether a model that explains so much deserves a question about effects.
+pub(crate) fn is_a_model(share: Option<f64>) -> bool {
+    share.is_none_or(|share| share >= LEAST_EXPLAINED)
+}
+
+/// Whether it may be called adequate: m, c, k alone do no better from where the spectra put them.
+pub(crate) fn keeps_the_promise(share: Option<f64>, cases: &[FitTask<'_>]) -> bool {
+    let is_kept = |share| from_the_spectra(cases).is_none_or(|other| share >= other - SHORTFALL);
+    share.is_none_or(is_kept)
+}
+
+/// Share that m, c, k alone explain where the spectra put them, as the fit simulates them.
+fn from_the_spectra(cases: &[FitTask<'_>]) -> Option<f64> {
+    let start = spectral_start(cases)?;
+    let mut left = 0.0;
+    for case in cases {
+        let base = case.model.with_effects(&[]).ok()?;
+        let mut simulated = vec![0.0; case.measured().len()];
+        base.output(&start.values, &case.input, case.quantity(), &mut simulated);
+        let pairs = simulated.iter().zip(case.measured()).skip(case.unscored());
+        left += pairs.map(|(s, y)| (y - s).powi(2)).sum::<f64>();
+    }
+    Some(1.0 - left / power(cases)).filter(|share| share.is_finite())
+}
+
+/// Share of the output's power that m, c, k explain where they are fitted to the spectra.
+fn promised(cases: &[FitTask<'_>]) -> Option<f64> {
+    spectral_start(cases).map(|start| 1.0 - start.unexplained)
+}
+
+/// What to check, the likeliest first.
+pub(crate) fn suspicions(cases: &[FitTask<'_>], explained: Explained) -> Vec<Suspicion> {
+    let as_it_is = promised(cases).unwrap_or(0.0);
+    let share_of = |change: &dyn Fn(&mut FitTask<'_>)| -> f64 {
+        let changed: Vec<FitTask<'_>> = (cases.iter())
+            .map(|case| {
+                let mut case = case.lent();
+                change(&mut case);
+                case
+            })
+            .collect();
+        promised(&changed).unwrap_or(0.0)
+    };
+    let is_better = |share: &f64| *share >= LEAST_EXPLAINED && *share > as_it_is + FAR_BETTER;
+    let mut found = Vec::new();
+    let elsewhere = from_the_spectra(cases).unwrap_or(0.0);
+    if elsewhere >= LEAST_EXPLAINED.max(explained.share + SHORTFALL) {
+        found.push(Suspicion::PoorMinimum(elsewhere));
+    }
+    let sign = share_of(&|case| {
+        let torques = &mut case.tightening.to_mut().torque_nm;
+        torques.iter_mut().for_each(|torque| *torque = -*torque);
+    });
+    found.extend(Some(sign).filter(is_better).map(Suspicion::Sign));
+    let swapped = share_of(&|case| {
+        let quantity = case.quantity();
+        let output = case.measured().to_vec();
+        let tightening = case.tightening.to_mut();
+        let input = std::mem::replace(&mut tightening.torque_nm, output);
+        tightening.motion.set(quantity, input);
+    });
+    found.extend(Some(swapped).filter(is_better).map(Suspicion::Swapped));
+    let declared = explained.output;
+    for other in Quantity::ALL {
+        let share = share_of(&|case| {
+            let output = case.measured().to_vec();
+            case.tightening.to_mut().motion.set(other, output);
+            let mut settings = case.settings.clone().into_owned();
+            settings.fitted_output = other;
+            case.settings = Cow::Owned(settings);
+        });
+        let other = other.name();
+        if other != declared && is_better(&share) {
+            found.push(Suspicion::Derivative {
+                declared,
+                other,
+                share,
+            });
+        }
+    }
+    if found.is_empty() {
+        found.push(Suspicion::NoOscillator);
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,110 @@
+//! What is suspected of records that were made wrong on purpose.
+#![allow(clippy::unwrap_used)]
+
+use super::*;
+use rand::{Rng, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use snug_campaign::{Intersample, Rig, Tightening};
+use snug_identify::IdentifySettings;
+use snug_model::{Input, Model};
+
+const RIG: Rig = Rig {
+    lever_arm_m: 1.0,
+    known_inertia_kg_m2: 0.0,
+};
+const INTERVAL_S: f64 = 0.01;
+const SAMPLES: usize = 4_000;
+
+fn random(seed: u64) -> Vec<f64> {
+    let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    (0..SAMPLES).map(|_| rng.random_range(-1.0..1.0)).collect()
+}
+
+/// A torque that nobody repeats, and the angle of 1 kg on 4 kg/s and 50 N/m.
+fn oscillator() -> (Vec<f64>, Vec<f64>) {
+    let torque_nm = random(1);
+    let input = Input::new(&torque_nm, INTERVAL_S, Intersample::Linear);
+    let mut angle_rad = vec![0.0; SAMPLES];
+    let model = Model::new(RIG, &[]).unwrap();
+    let quantity = Quantity::Displacement;
+    model.output(&[1.0, 4.0, 50.0], &input, quantity, &mut angle_rad);
+    (torque_nm, angle_rad)
+}
+
+/// As a study declares it.
+fn declared(torque_nm: Vec<f64>, output: Vec<f64>, quantity: Quantity) -> FitTask<'static> {
+    let input = Input::new(&torque_nm, INTERVAL_S, Intersample::Linear);
+    let tightening = Tightening::from_torque(RIG, INTERVAL_S, torque_nm).with(quantity, output);
+    FitTask {
+        tightening: Cow::Owned(tightening),
+        input: Cow::Owned(input),
+        model: Cow::Owned(Model::new(RIG, &[]).unwrap()),
+        settings: Cow::Owned(IdentifySettings {
+            fitted_output: quantity,
+            ..IdentifySettings::default()
+        }),
+    }
+}
+
+/// Of a model that explains nothing.
+fn suspected(task: FitTask<'_>) -> Vec<Suspicion> {
+    let explained = Explained {
+        output: task.quantity().name(),
+        share: 0.0,
+        neighbours: 0.0,
+    };
+    suspicions(&[task], explained)
+}
+
+#[test]
+fn right_columns_and_no_fit_are_a_poor_minimum() {
+    let (torque_nm, angle_rad) = oscillator();
+    let found = suspected(declared(torque_nm, angle_rad, Quantity::Displacement));
+    assert!(
+        matches!(found[..], [Suspicion::PoorMinimum(share)] if share > 0.99),
+        "{found:?}"
+    );
+}
+
+#[test]
+fn another_sign_is_suspected() {
+    let (torque_nm, angle_rad) = oscillator();
+    let pulled = torque_nm.iter().map(|torque| -torque).collect();
+    let found = suspected(declared(pulled, angle_rad, Quantity::Displacement));
+    assert!(
+        matches!(found[0], Suspicion::Sign(share) if share > 0.99),
+        "{found:?}"
+    );
+}
+
+#[test]
+fn swapped_columns_are_suspected() {
+    let (torque_nm, angle_rad) = oscillator();
+    let found = suspected(declared(angle_rad, torque_nm, Quantity::Displacement));
+    let is_it = |one: &Suspicion| matches!(one, Suspicion::Swapped(share) if *share > 0.99);
+    assert!(found.iter().any(is_it), "{found:?}");
+}
+
+#[test]
+fn another_derivative_is_suspected() {
+    let (torque_nm, angle_rad) = oscillator();
+    let found = suspected(declared(torque_nm, angle_rad, Quantity::Acceleration));
+    let is_it = |one: &Suspicion| {
+        let Suspicion::Derivative {
+            declared,
+            other,
+            share,
+        } = *one
+        else {
+            return false;
+        };
+        (declared, other) == ("acceleration", "displacement") && share > 0.99
+    };
+    assert!(found.iter().any(is_it), "{found:?}");
+}
+
+#[test]
+fn two_signals_that_know_nothing_of_each_other_are_no_oscillator() {
+    let found = suspected(declared(random(1), random(2), Quantity::Velocity));
+    assert_eq!(found, [Suspicion::NoOscillator]);
+}
