@@ -22,7 +22,12 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("snug-model", &["snug-campaign", "snug-signal"]),
     (
         "snug-identify",
-        &["snug-campaign", "snug-least-squares", "snug-model"],
+        &[
+            "snug-campaign",
+            "snug-least-squares",
+            "snug-model",
+            "snug-signal",
+        ],
     ),
     ("snug-least-squares", &[]),
     (

@@ -166,17 +166,13 @@ impl Layout for CsvLayout {
     fn check(&self) -> Result<(), IngestError> {
         signal::check(&self.declared())?;
         range::check(&self.ranges)?;
-        let (field, value, fits) = match &self.sampling {
-            Sampling::Rate { hz } => ("sampling.hz", *hz, hz.is_finite() && *hz > 0.0),
+        let (field, value) = match &self.sampling {
+            Sampling::Rate { hz } => ("sampling.hz", *hz),
             Sampling::TimeColumn {
                 tolerance_ratio, ..
-            } => (
-                "sampling.tolerance_ratio",
-                *tolerance_ratio,
-                *tolerance_ratio > 0.0,
-            ),
+            } => ("sampling.tolerance_ratio", *tolerance_ratio),
         };
-        if !fits {
+        if !(value.is_finite() && value > 0.0) {
             return Err(IngestError::setting(field, value, "a positive number"));
         }
         if let Some(comment) = self.comment.filter(|comment| !comment.is_ascii()) {

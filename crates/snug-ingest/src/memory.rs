@@ -92,6 +92,7 @@ impl Budget {
     }
 
     /// What may still be taken.
+    #[cfg(feature = "mcap")]
     pub(crate) fn left_bytes(&self) -> u64 {
         self.budget_bytes.saturating_sub(self.used_bytes.get())
     }

@@ -217,6 +217,26 @@ fn times_at_the_end_of_all_numbers_give_no_samples() {
     assert_eq!(error.code(), "unusable_time");
 }
 
+/// Any clock at all would be even by such a measure.
+#[test]
+fn an_infinite_tolerance_is_refused() {
+    for tolerance_ratio in [f64::INFINITY, f64::NAN, 0.0] {
+        let layout = CsvLayout {
+            sampling: Sampling::TimeColumn {
+                column: named("t"),
+                unit: TimeUnit::Second,
+                tolerance_ratio,
+            },
+            ..layout()
+        };
+        let error = read(&layout, b"t;M;phi\n0;1;2\n1;1;2\n").unwrap_err();
+        assert!(
+            error.to_string().contains("sampling.tolerance_ratio"),
+            "{error}"
+        );
+    }
+}
+
 #[test]
 fn times_in_milliseconds_with_a_gap() {
     let layout = CsvLayout {
