@@ -17,6 +17,7 @@ mod one_pass;
 mod other_rigs;
 mod practice;
 mod recording;
+mod round_trip;
 mod thesis_preset;
 mod threads;
 mod unknown_rigs;

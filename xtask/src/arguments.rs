@@ -91,6 +91,17 @@ pub struct RunOptions {
     pub seed: Option<u64>,
 }
 
+/// Options of the verbs that change the model: a study file stays as it is unless somebody says otherwise.
+#[derive(Debug, Args)]
+pub struct ChangeOptions {
+    /// Also writes the changed list of effects into the file given by --study.
+    #[arg(long, requires = "study")]
+    pub write: bool,
+    /// What every evaluation takes.
+    #[command(flatten)]
+    pub run: RunOptions,
+}
+
 /// How recordings become tightenings.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum PresetName {

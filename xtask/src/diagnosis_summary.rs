@@ -20,9 +20,7 @@ const WIDTH: usize = 108;
 pub struct Following<'a> {
     /// The options of the command that was run (`--data DIR`), to be repeated.
     pub options: &'a str,
-    /// The study file that holds the model found.
-    pub study: &'a str,
-    /// The one among the results, which always holds it.
+    /// The study file among the results, which holds the model found.
     pub written: &'a str,
 }
 
@@ -271,7 +269,14 @@ fn next(page: &mut Page, diagnosis: &Diagnosis, following: &Following<'_>) {
         ),
     }
     if climbed && !diagnosis.added.is_empty() {
-        page.paragraph("  ", "Use the model found for this and further recordings:");
-        page.line(&format!("    cargo xtask run --study {}", following.study));
+        let where_it_is = format!(
+            "The study with the model found is {}. Use it for this and further recordings:",
+            following.written
+        );
+        page.paragraph("  ", &where_it_is);
+        page.line(&format!(
+            "    cargo xtask run --study {}",
+            following.written
+        ));
     }
 }

@@ -10,7 +10,7 @@ mod run;
 mod test;
 mod tidy;
 
-use crate::arguments::RunOptions;
+use crate::arguments::{ChangeOptions, RunOptions};
 use clap::Subcommand;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -36,26 +36,29 @@ pub enum Verb {
     Diagnose(RunOptions),
     /// Adds effects to the model, refits, and shows the error before and after.
     ///
-    /// With --study, the effects are written into that file's model; always into the results' study.ron, with their sizes.
+    /// The study with them and their sizes is the results' study.ron; the file given by --study changes with --write only.
     Add {
         /// Names of effects, from the catalogue or the study's own.
         #[arg(required = true, value_name = "EFFECT")]
         effects: Vec<String>,
         #[command(flatten)]
-        options: RunOptions,
+        options: ChangeOptions,
     },
-    /// Takes an effect out of a study file's model.
+    /// Takes effects out of the study's model and compares what is left with the measurement.
+    ///
+    /// The study without them is the results' study.ron; the file given by --study changes with --write only.
     Remove {
-        /// Its name.
-        effect: String,
-        /// The study file (RON).
-        #[arg(long, value_name = "FILE.ron")]
-        study: PathBuf,
+        /// Names of effects in the study's model.
+        #[arg(required = true, value_name = "EFFECT")]
+        effects: Vec<String>,
+        #[command(flatten)]
+        options: ChangeOptions,
     },
     /// Diagnoses, adds, refits, again and again until nothing more is justified.
     ///
-    /// Writes the whole ladder: how the error fell, what was tried and why it stopped.
-    Improve(RunOptions),
+    /// Writes the whole ladder: how the error fell, what was tried and why it stopped. The study with the model found is the
+    /// results' study.ron; the file given by --study changes with --write only.
+    Improve(ChangeOptions),
     /// The catalogue of physical effects, or one of them in full.
     Effects {
         /// Name of one effect, for example coulomb_friction.
@@ -120,10 +123,10 @@ impl Verb {
             Self::Compare(options) => diagnose::diagnose(&options, &snug_study::Verb::Compare),
             Self::Diagnose(options) => diagnose::diagnose(&options, &snug_study::Verb::Diagnose),
             Self::Add { effects, options } => {
-                diagnose::diagnose(&options, &snug_study::Verb::Add(effects))
+                diagnose::change(&options, &snug_study::Verb::Add(effects))
             }
-            Self::Remove { effect, study } => diagnose::remove(&study, &effect),
-            Self::Improve(options) => diagnose::diagnose(&options, &snug_study::Verb::Improve),
+            Self::Remove { effects, options } => diagnose::remove(&options, &effects),
+            Self::Improve(options) => diagnose::change(&options, &snug_study::Verb::Improve),
             Self::Effects { name } => effects::effects(name.as_deref()),
             Self::Recover { file } => recover::recover(&file),
             Self::Fixtures => fixtures::fixtures(),

@@ -201,9 +201,9 @@ pub fn diagnose(
         false => interrupted,
     };
     let task = Task {
-        study: &last,
         ladder: Some(ladder),
         kept,
+        ..Task::of(&last)
     };
     run_with(task, workplace, settings, progress, interrupted)
 }

@@ -1,13 +1,16 @@
 //! The order of work: list, evaluate file by file, record, and at the end tables and report.
 
+use crate::cases::chosen;
 use crate::evaluation::Evaluated;
 use crate::examples::Examples;
 use crate::file_evaluation::{FileEvaluation, evaluate_file, other, outcomes};
 use crate::output::{Output, Workplace};
 use crate::prepared_file::KeptFiles;
 use crate::rungs::{Ladder, RungShare};
+use crate::settling::{leaves_open, settle};
 use crate::{ProgressEvent, Study, StudyError, statistics};
 use rayon::prelude::*;
+use snug_campaign::words::reason::Reason;
 use snug_campaign::{
     CampaignResult, Finding, ParameterMeaning, PresetSummary, Rejection, RejectionCount, Severity,
     TighteningId, TighteningResult,
@@ -109,6 +112,8 @@ struct Collected {
 
 /// Runs a study: ingest → preprocess → identify → statistics → report and MCAP.
 ///
+/// What the study leaves open of the model is settled first, as a diagnosis of it does.
+///
 /// Files are evaluated in groups of as many as there are threads, and recorded in order, so that memory does not grow
 /// with their number and the results do not depend on the threads. When `interrupted` becomes true, the group at hand is
 /// finished and everything is written for what was evaluated; the files that were not reached are findings.
@@ -126,8 +131,44 @@ pub fn run(
 ) -> Result<Outcome, StudyError> {
     study.check()?;
     let workplace = Workplace::new(study, settings, interrupted)?;
-    let task = Task::of(study);
+    if !leaves_open(study) {
+        return run_with(Task::of(study), workplace, settings, progress, interrupted);
+    }
+    progress(ProgressEvent::Stage {
+        what: "reading recordings",
+    });
+    let (disk, files) = (&*settings.disk, &workplace.listing.files);
+    let (settled, kept) = pool(settings.threads)?.install(|| {
+        let (comparable, kept) = chosen(study, disk, files, study.diagnosis.most_tightenings)?;
+        Ok::<_, StudyError>((settle(study, &comparable.cases), kept))
+    })?;
+    let (study, notes) = match &settled {
+        Some(settled) => (&settled.study, settled.reasons.as_slice()),
+        None => (study, [].as_slice()),
+    };
+    let task = Task {
+        notes: notes
+            .iter()
+            .map(|reason| settled_note(study, reason))
+            .collect(),
+        kept,
+        ..Task::of(study)
+    };
     run_with(task, workplace, settings, progress, interrupted)
+}
+
+/// What was settled on the way, as a finding: a run has no verdict that would say it.
+fn settled_note(study: &Study, reason: &Reason) -> Finding {
+    let path = &study.source.path;
+    let name = path.file_name().unwrap_or(path.as_os_str());
+    Finding {
+        severity: Severity::Note,
+        code: "settled".to_owned(),
+        file: name.to_string_lossy().into_owned(),
+        tightening: None,
+        channel: None,
+        message: reason.to_string(),
+    }
 }
 
 /// What is run.
@@ -137,6 +178,8 @@ pub(crate) struct Task<'a> {
     pub ladder: Option<Ladder>,
     /// Files that are read and prepared already.
     pub kept: KeptFiles,
+    /// What is to be said of the study itself.
+    pub notes: Vec<Finding>,
 }
 
 impl<'a> Task<'a> {
@@ -146,6 +189,7 @@ impl<'a> Task<'a> {
             study,
             ladder: None,
             kept: KeptFiles::default(),
+            notes: Vec::new(),
         }
     }
 }
@@ -193,6 +237,7 @@ impl Run<'_> {
         let progress = self.progress;
         let mut collected = Collected::default();
         collected.note(listing.findings, &mut output)?;
+        collected.note(std::mem::take(&mut self.task.notes), &mut output)?;
         let left = self.evaluate(&listing.files, &mut collected, &mut output)?;
         collected.note(not_reached(left), &mut output)?;
 
@@ -238,6 +283,7 @@ impl Run<'_> {
                 study,
                 ladder,
                 kept,
+                ..
             } = &mut self.task;
             let (ladder, disk) = (ladder.as_ref(), &*self.settings.disk);
             let group: Vec<_> = (group.iter()).map(|path| (path, kept.take(path))).collect();

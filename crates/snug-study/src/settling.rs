@@ -18,9 +18,17 @@ pub(crate) struct Settled {
     pub reasons: Vec<Reason>,
 }
 
-/// Makes the choices that the study leaves open, where its window is a whole record; `None` where there are none.
+/// Whether a study leaves anything to be settled: how large things are on its rig, where m, c, k begin, how it is simulated.
+pub(crate) fn leaves_open(study: &Study) -> bool {
+    let is_open = study.model.scale == Scale::Automatic
+        || study.identify.simulation == Simulation::Automatic
+        || !states_a_start(study);
+    study.preprocess.window == Window::Whole && is_open
+}
+
+/// Makes the choices that the study [leaves open](leaves_open); `None` where there are none.
 pub(crate) fn settle(study: &Study, cases: &[FitTask<'_>]) -> Option<Settled> {
-    if study.preprocess.window != Window::Whole {
+    if !leaves_open(study) {
         return None;
     }
     let start = spectral_start(cases);

@@ -10,7 +10,6 @@ use snug_campaign::*;
 
 const FOLLOWING: Following = Following {
     options: "--study rig.ron",
-    study: "rig.ron",
     written: "out/study.ron",
 };
 

@@ -1,70 +1,82 @@
-//! `cargo xtask compare`, `diagnose`, `add`, `improve` and `remove`; the last three may rewrite the study file.
+//! `cargo xtask compare`, `diagnose`, `add`, `improve` and `remove`; the last three rewrite a study file where they are told to.
 
 use super::run::{carry_out, refused, study};
-use crate::arguments::RunOptions;
-use crate::exit;
-use crate::terminal::say;
-use snug_study::{StudyError, Verb};
-use std::path::Path;
+use crate::arguments::{ChangeOptions, RunOptions};
+use snug_study::{Outcome, Study, StudyError, Verb};
 use std::process::ExitCode;
 
-/// Model against measurement: `compare`, `diagnose`, `add`, `improve`.
+/// Model against measurement: `compare`, `diagnose`.
 pub fn diagnose(options: &RunOptions, verb: &Verb) -> ExitCode {
-    let study = match study(options).and_then(|study| {
-        study.check_effects(verb.effects())?;
-        Ok(study)
-    }) {
-        Ok(study) => study,
-        Err(error) => return refused(&error),
-    };
-    carry_out(
-        options,
-        &repeated(options),
-        |settings, progress, interrupted| {
-            let outcome = snug_study::diagnose(&study, verb, settings, progress, interrupted)?;
-            let diagnosis = outcome.result.diagnosis.as_ref();
-            // A study file gets a model that is complete, or none.
-            let is_complete = diagnosis.is_some_and(|one| !one.interrupted);
-            if let (Some(path), Verb::Add(_) | Verb::Improve, true) =
-                (&options.study, verb, is_complete)
-            {
-                let laws = snug_study::Study::parse(&outcome.result.study_ron, path)?
-                    .model
-                    .custom;
-                snug_study::rewrite_effects(path, &outcome.result.effects, &laws)?;
-            }
-            Ok(outcome)
-        },
-    )
+    match study(options) {
+        Ok(study) => evaluate(&study, options, verb, &repeated(options), false),
+        Err(error) => refused(&error),
+    }
 }
 
-/// Takes an effect out of a study file's model.
-pub fn remove(study: &Path, effect: &str) -> ExitCode {
-    let taken_out = snug_study::Study::read(study).and_then(|known| {
-        let mut effects = known.model.effects;
-        if !effects.iter().any(|name| name == effect) {
-            return Err(StudyError::NotInModel {
-                effect: effect.to_owned(),
-                present: effects,
-            });
-        }
-        effects.retain(|name| name != effect);
-        snug_study::rewrite_effects(study, &effects, &[])?;
-        Ok(effects)
+/// A model that changes: `add`, `improve`.
+pub fn change(options: &ChangeOptions, verb: &Verb) -> ExitCode {
+    let study = study(&options.run).and_then(|study| {
+        study.check_effects(verb.effects())?;
+        Ok(study)
     });
-    match taken_out {
-        Ok(effects) => {
-            let left = match effects.as_slice() {
-                [] => "the base model".to_owned(),
-                some => some.join(" + "),
-            };
-            let told = format!(
-                "{}: {effect} is taken out; the model is {left}\n",
-                study.display()
-            );
-            say(&told, exit::DONE)
+    match study {
+        Ok(study) => {
+            let again = repeated(&options.run);
+            evaluate(&study, &options.run, verb, &again, options.write)
         }
         Err(error) => refused(&error),
+    }
+}
+
+/// Takes effects out of the study's model and compares what is left with the measurement.
+pub fn remove(options: &ChangeOptions, effects: &[String]) -> ExitCode {
+    let study = study(&options.run).and_then(|mut study| {
+        let present = &mut study.model.effects;
+        if let Some(effect) = effects.iter().find(|effect| !present.contains(effect)) {
+            return Err(StudyError::NotInModel {
+                effect: effect.clone(),
+                present: present.clone(),
+            });
+        }
+        present.retain(|effect| !effects.contains(effect));
+        Ok(study)
+    });
+    match study {
+        Ok(study) => {
+            let again = format!("--study {}", options.run.out.join("study.ron").display());
+            evaluate(&study, &options.run, &Verb::Compare, &again, options.write)
+        }
+        Err(error) => refused(&error),
+    }
+}
+
+/// Evaluates, and puts the model's effects into the study file where it is to be written; `again` are the options with which
+/// the next command goes on.
+fn evaluate(
+    study: &Study,
+    options: &RunOptions,
+    verb: &Verb,
+    again: &str,
+    write: bool,
+) -> ExitCode {
+    carry_out(options, again, |settings, progress, interrupted| {
+        let outcome = snug_study::diagnose(study, verb, settings, progress, interrupted)?;
+        if write {
+            write_back(options, &outcome)?;
+        }
+        Ok(outcome)
+    })
+}
+
+/// A study file gets a model that is complete, or none.
+fn write_back(options: &RunOptions, outcome: &Outcome) -> Result<(), StudyError> {
+    let is_complete = |one: &snug_campaign::Diagnosis| !one.interrupted;
+    match &options.study {
+        Some(path) if outcome.result.diagnosis.as_ref().is_some_and(is_complete) => {
+            let laws = Study::parse(&outcome.result.study_ron, path)?.model.custom;
+            snug_study::rewrite_effects(path, &outcome.result.effects, &laws)
+        }
+        _ => Ok(()),
     }
 }
 

@@ -69,7 +69,6 @@ fn told(outcome: &Outcome, options: &RunOptions, next: &str) -> String {
     let written = options.out.join("study.ron");
     let following = Following {
         options: next,
-        study: &options.study.as_ref().unwrap_or(&written).to_string_lossy(),
         written: &written.to_string_lossy(),
     };
     let mut text = match &outcome.result.diagnosis {

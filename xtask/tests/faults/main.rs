@@ -12,4 +12,5 @@ mod memory;
 mod program;
 mod signals;
 mod streams;
+mod study_file;
 mod two_at_once;
