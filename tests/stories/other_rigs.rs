@@ -2,6 +2,7 @@
 
 use crate::campaign::{run_study, study_file};
 use snug_campaign::{Rejection, Verdict};
+use snug_identify::Simulation;
 use snug_study::{Outcome, RunSettings, Study, Verb, diagnose};
 use std::sync::atomic::AtomicBool;
 use tempfile::TempDir;
@@ -59,7 +60,8 @@ fn volts_are_no_torques(outcome: &Outcome, out: &TempDir) {
     }
 }
 
-/// The plant is a pendulum of known inertia and damping; a linear spring cannot be right, but the run must say so calmly.
+/// The plant is a pendulum of known inertia and damping; a linear spring cannot be right, but the run must say so calmly: run
+/// freely it is rejected; restarted, as the study that says nothing of it settles, the run tells how much the free one misses.
 #[test]
 fn a_pendulum_runs_and_is_told_apart_from_a_spring() {
     let Some(data) = snug_tests::data("pendulum") else {
@@ -67,6 +69,16 @@ fn a_pendulum_runs_and_is_told_apart_from_a_spring() {
     };
     let mut study = Study::read(&study_file("pendulum.ron")).unwrap();
     study.set_data(&data.join("pendulum-torque/pd_sysid_measured.csv"));
+    let (outcome, _out) = run_study(&study).unwrap();
+    assert!(outcome.result.tightenings[0].estimate.is_some());
+    let notes = outcome.result.findings.iter();
+    let settled: Vec<_> = notes.filter(|note| note.code == "settled").collect();
+    let [note] = settled.as_slice() else {
+        panic!("{settled:?}")
+    };
+    assert!(note.message.starts_with("Run freely"), "{}", note.message);
+
+    study.identify.simulation = Simulation::FreeRun;
     let (outcome, _out) = run_study(&study).unwrap();
     let tightening = &outcome.result.tightenings[0];
     assert!(tightening.estimate.is_some());

@@ -16,7 +16,7 @@ use snug_model::Input;
 #[non_exhaustive]
 pub enum Simulation {
     /// Restarted where the window is `Whole` and a free run of the study's own model misses the measurement by far;
-    /// decided by `compare`, `diagnose`, `add` and `improve`. Otherwise free.
+    /// every verb decides it alike and says so. Otherwise free.
     #[default]
     Automatic,
     /// From the first sample to the last.
