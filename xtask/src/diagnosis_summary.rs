@@ -256,7 +256,7 @@ fn next(page: &mut Page, diagnosis: &Diagnosis, following: &Following<'_>) {
             }
         }
         Verdict::Undecided if diagnosis.experiment.is_none() => {
-            page.paragraph("  ", "Record more tightenings; the reasons above say what is lacking.");
+            page.paragraph("  ", "The reasons above say what is lacking and how much more would decide.");
         }
         Verdict::Undecided => {}
         Verdict::NotFitted => {

@@ -9,8 +9,12 @@ use std::time::{Duration, Instant};
 
 /// Between two plain progress lines where there is no terminal.
 const PLAIN_EVERY: Duration = Duration::from_secs(5);
+/// What is shown while nobody knows how much there is to do.
+const UNCOUNTED: &str = "{spinner} {msg}  {elapsed}";
+/// What is shown where it is known.
+const COUNTED: &str = "{spinner} {msg}  {pos} of {len}  {wide_bar}  {elapsed}, {eta} left";
 
-/// Shows a run's progress: a bar with rate and time left on a terminal, a line now and then elsewhere.
+/// Shows a run's progress: a bar with count and time left on a terminal, a line now and then elsewhere.
 pub struct Progress {
     bar: Option<ProgressBar>,
     plain: Option<Mutex<Plain>>,
@@ -19,12 +23,36 @@ pub struct Progress {
 /// What the plain lines need to know.
 struct Plain {
     started: Instant,
-    /// Since when files are evaluated.
-    evaluating: Instant,
     last: Instant,
-    files_done: usize,
-    files: usize,
-    tightenings: usize,
+    /// What is counted at present.
+    count: Count,
+}
+
+/// So many of so many pieces of the work at hand.
+struct Count {
+    since: Instant,
+    what: &'static str,
+    done: usize,
+    of: usize,
+}
+
+impl Count {
+    fn of(of: usize, what: &'static str) -> Self {
+        Self {
+            since: Instant::now(),
+            what,
+            done: 0,
+            of,
+        }
+    }
+
+    /// `12 of 60 candidates, about 20 s left`.
+    fn said(&self) -> String {
+        let Self { what, done, of, .. } = self;
+        let each_s = self.since.elapsed().as_secs_f64() / (*done).max(1) as f64;
+        let left_s = each_s * of.saturating_sub(*done) as f64;
+        format!("{done} of {of} {what}, about {left_s:.0} s left")
+    }
 }
 
 impl Progress {
@@ -32,12 +60,8 @@ impl Progress {
     pub fn new(quiet: bool) -> Self {
         let terminal = std::io::stderr().is_terminal();
         let bar = (!quiet && terminal).then(|| {
-            let bar = ProgressBar::new(0);
-            let style = ProgressStyle::with_template(
-                "{spinner} {pos}/{len} files  {msg}  {wide_bar}  {elapsed} elapsed, {eta} left",
-            )
-            .expect("the template is well-formed");
-            bar.set_style(style);
+            let bar = ProgressBar::no_length();
+            bar.set_style(style(UNCOUNTED));
             bar.enable_steady_tick(Duration::from_millis(100));
             bar
         });
@@ -45,11 +69,8 @@ impl Progress {
         let plain = (!quiet && !terminal).then(|| {
             Mutex::new(Plain {
                 started: now,
-                evaluating: now,
                 last: now,
-                files_done: 0,
-                files: 0,
-                tightenings: 0,
+                count: Count::of(0, "files"),
             })
         });
         Self { bar, plain }
@@ -58,16 +79,7 @@ impl Progress {
     /// Takes what a run reports.
     pub fn report(&self, event: ProgressEvent<'_>) {
         if let Some(bar) = &self.bar {
-            match event {
-                ProgressEvent::Started { files } => bar.set_length(files as u64),
-                ProgressEvent::FileDone { tightenings } => {
-                    bar.inc(1);
-                    let rate = tightenings as f64 / bar.elapsed().as_secs_f64().max(1e-3);
-                    bar.set_message(format!("{tightenings} tightenings, {rate:.0} a second"));
-                }
-                ProgressEvent::Stage { what } => bar.set_message(what.to_owned()),
-                ProgressEvent::Writing { what } => bar.set_message(format!("writing {what}")),
-            }
+            on_bar(bar, event);
         }
         if let Some(plain) = &self.plain {
             plain
@@ -85,37 +97,55 @@ impl Progress {
     }
 }
 
+fn style(template: &str) -> ProgressStyle {
+    ProgressStyle::with_template(template).expect("the template is well-formed")
+}
+
+fn on_bar(bar: &ProgressBar, event: ProgressEvent<'_>) {
+    let uncounted = |what: String| {
+        bar.set_style(style(UNCOUNTED));
+        bar.set_message(what);
+    };
+    let counted = |of: usize| {
+        bar.set_style(style(COUNTED));
+        bar.set_length(of as u64);
+        bar.set_position(0);
+        bar.reset_eta();
+    };
+    match event {
+        ProgressEvent::Started { files } => {
+            counted(files);
+            bar.set_message("files");
+        }
+        ProgressEvent::FileDone { tightenings } => {
+            bar.inc(1);
+            bar.set_message(format!("files, {tightenings} evaluated"));
+        }
+        ProgressEvent::Stage { what } => uncounted(what.to_owned()),
+        ProgressEvent::Candidates { of } => counted(of),
+        ProgressEvent::CandidateDone => bar.inc(1),
+        ProgressEvent::Writing { what } => uncounted(format!("writing {what}")),
+    }
+}
+
 impl Plain {
     fn report(&mut self, event: ProgressEvent<'_>) {
         match event {
-            ProgressEvent::Started { files } => {
-                self.files = files;
-                self.files_done = 0;
-                self.evaluating = Instant::now();
-            }
-            ProgressEvent::FileDone { tightenings } => {
-                self.files_done += 1;
-                self.tightenings = tightenings;
+            ProgressEvent::Started { files } => self.count = Count::of(files, "files"),
+            ProgressEvent::Candidates { of } => self.count = Count::of(of, "candidates"),
+            ProgressEvent::FileDone { .. } | ProgressEvent::CandidateDone => {
+                self.count.done += 1;
                 if self.last.elapsed() >= PLAIN_EVERY {
                     self.last = Instant::now();
-                    self.line();
+                    complain(&format!("{}: {}", self.elapsed(), self.count.said()));
                 }
             }
-            ProgressEvent::Stage { what } => {
-                let elapsed = self.started.elapsed().as_secs_f64();
-                complain(&format!("{elapsed:.0} s: {what}"));
-            }
+            ProgressEvent::Stage { what } => complain(&format!("{}: {what}", self.elapsed())),
             ProgressEvent::Writing { .. } => {}
         }
     }
 
-    fn line(&self) {
-        let elapsed = self.evaluating.elapsed().as_secs_f64();
-        let rate = self.tightenings as f64 / elapsed;
-        let left = elapsed / self.files_done as f64 * (self.files - self.files_done) as f64;
-        complain(&format!(
-            "{} of {} files, {} tightenings, {rate:.0} a second, about {left:.0} s left",
-            self.files_done, self.files, self.tightenings
-        ));
+    fn elapsed(&self) -> String {
+        format!("{:.0} s", self.started.elapsed().as_secs_f64())
     }
 }

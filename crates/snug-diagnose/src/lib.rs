@@ -22,4 +22,4 @@ pub use pooled::together::{Together, fit_together};
 pub use question::{Goal, Question};
 pub use settings::DiagnoseSettings;
 pub use verdict::answer::{Answer, RungModel};
-pub use watch::Watch;
+pub use watch::{Pieces, Watch};

@@ -3,9 +3,19 @@
 use crate::error::DiagnoseError;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+/// What is counted of a stage that takes long.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Pieces {
+    /// So many candidates are going to be fitted.
+    Of(usize),
+    /// One more of them is.
+    Done,
+}
+
 /// Who watches a diagnosis: hears of each stage as it begins, and may end it.
 pub struct Watch<'a> {
     tell: &'a (dyn Fn(&str) + Sync),
+    count: Option<&'a (dyn Fn(Pieces) + Sync)>,
     interrupted: Option<&'a AtomicBool>,
 }
 
@@ -14,7 +24,16 @@ impl<'a> Watch<'a> {
     pub fn new(tell: &'a (dyn Fn(&str) + Sync)) -> Self {
         Self {
             tell,
+            count: None,
             interrupted: None,
+        }
+    }
+
+    /// `count` hears how many candidates a stage has, and of each that is done.
+    pub fn counting(self, count: &'a (dyn Fn(Pieces) + Sync)) -> Self {
+        Self {
+            count: Some(count),
+            ..self
         }
     }
 
@@ -30,6 +49,7 @@ impl<'a> Watch<'a> {
     pub(crate) fn to_the_end(&self) -> Self {
         Self {
             tell: self.tell,
+            count: self.count,
             interrupted: None,
         }
     }
@@ -39,6 +59,13 @@ impl<'a> Watch<'a> {
         self.go_on()?;
         (self.tell)(stage);
         Ok(())
+    }
+
+    /// Counts within the stage at hand.
+    pub(crate) fn pieces(&self, pieces: Pieces) {
+        if let Some(count) = self.count {
+            count(pieces);
+        }
     }
 
     /// Asked between pieces of work that take a while.

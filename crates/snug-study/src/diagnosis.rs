@@ -8,7 +8,7 @@ use crate::rungs::Ladder;
 use crate::settling::{Settled, settle};
 use crate::{ProgressEvent, Study, StudyError};
 use serde::{Deserialize, Serialize};
-use snug_diagnose::{Answer, DiagnoseError, Goal, Question, RungModel, Watch, examine};
+use snug_diagnose::{Answer, DiagnoseError, Goal, Pieces, Question, RungModel, Watch, examine};
 use snug_identify::FitTask;
 use snug_model::{Effect, ParameterSettings};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -188,7 +188,11 @@ pub fn diagnose(
         },
     };
     let tell = |what: &str| progress(ProgressEvent::Stage { what });
-    let watch = Watch::new(&tell).until(interrupted);
+    let count = |pieces: Pieces| match pieces {
+        Pieces::Of(of) => progress(ProgressEvent::Candidates { of }),
+        Pieces::Done => progress(ProgressEvent::CandidateDone),
+    };
+    let watch = Watch::new(&tell).counting(&count).until(interrupted);
     let mut answer = pool.install(|| examine(&question, &search, &watch))?;
     answer.diagnosis.reasons.extend_from_slice(reasons);
     answer.diagnosis.reasons.extend(left_out);

@@ -18,6 +18,13 @@ pub enum ProgressEvent<'a> {
         /// Which.
         what: &'a str,
     },
+    /// The stage at hand fits candidates.
+    Candidates {
+        /// How many.
+        of: usize,
+    },
+    /// One more candidate is fitted.
+    CandidateDone,
     /// Results are being written.
     Writing {
         /// Which.

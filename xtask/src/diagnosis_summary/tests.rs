@@ -280,7 +280,7 @@ fn every_verdict_says_what_to_do() {
     diagnosis.verdict = Verdict::Adequate;
     assert!(text(&diagnosis, &FOLLOWING, false).contains("Nothing needs to be added"));
     diagnosis.verdict = Verdict::Undecided;
-    assert!(text(&diagnosis, &FOLLOWING, false).contains("Record more tightenings"));
+    assert!(text(&diagnosis, &FOLLOWING, false).contains("how much more would decide"));
     diagnosis.verdict = Verdict::UnlistedEffect;
     diagnosis.unlisted = Some(damping_with_x2());
     let found = text(&diagnosis, &FOLLOWING, false);

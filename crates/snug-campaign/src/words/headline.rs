@@ -70,6 +70,8 @@ pub enum Headline {
     Unlisted {
         /// What was added.
         added: Vec<Named>,
+        /// What was added and is small beside it.
+        further: Vec<Named>,
         /// Whether nothing but noise is left.
         describes: bool,
         /// How the error fell.
@@ -81,6 +83,8 @@ pub enum Headline {
     Adequate {
         /// What was added.
         added: Vec<Named>,
+        /// What was added and is small beside it.
+        further: Vec<Named>,
         /// How the error fell.
         fall: Fall,
         /// How much is explained, where no noise says what is enough.
@@ -94,8 +98,10 @@ pub enum Headline {
     TooLittle {
         /// How many tightenings there are; `None` where stretches of few long records are compared.
         tightenings: Option<usize>,
-        /// What the model leaves.
-        left: Left,
+        /// What was added all the same.
+        added: Vec<Named>,
+        /// How the error fell with it.
+        fall: Fall,
     },
 }
 
@@ -131,6 +137,7 @@ impl Display for Headline {
             }
             Self::Unlisted {
                 added,
+                further,
                 describes,
                 fall,
             } => {
@@ -139,7 +146,8 @@ impl Display for Headline {
                     "Something that is not in the catalogue acts here; {} {} it, and the error falls {fall}.",
                     named(added),
                     describe(*describes, added.len())
-                )
+                )?;
+                aside(f, further)
             }
             Self::Unexplained(left) => write!(
                 f,
@@ -151,25 +159,24 @@ impl Display for Headline {
             ),
             Self::Adequate {
                 added,
+                further,
                 fall,
                 explained,
-            } => adequate(f, added, *fall, *explained),
+            } => {
+                adequate(f, added, *fall, *explained)?;
+                aside(f, further)
+            }
             Self::Compared(left) => {
                 write!(
                     f,
                     "The model leaves {left}; `diagnose` says what could be missing."
                 )
             }
-            Self::TooLittle { tightenings, left } => {
-                match tightenings {
-                    Some(some) => write!(f, "These {some} tightenings are too few")?,
-                    None => write!(f, "This measurement is too short")?,
-                }
-                write!(
-                    f,
-                    " to say: the model leaves {left}, and the best candidate could still be chance."
-                )
-            }
+            Self::TooLittle {
+                tightenings,
+                added,
+                fall,
+            } => too_little(f, *tightenings, added, *fall),
         }
     }
 }
@@ -187,6 +194,38 @@ fn stopped(f: &mut Formatter<'_>, added: &[Named], fall: Fall) -> fmt::Result {
             counted(added.len(), "effect"),
             named(added)
         ),
+    }
+}
+
+fn too_little(
+    f: &mut Formatter<'_>,
+    tightenings: Option<usize>,
+    added: &[Named],
+    fall: Fall,
+) -> fmt::Result {
+    let of_these = match tightenings {
+        Some(some) => format!("these {some} tightenings are too few to say"),
+        None => "these data cannot decide".to_owned(),
+    };
+    match added {
+        [] => write!(
+            f,
+            "What is missing, {of_these}: the model leaves {}, and the best candidate could still be chance.",
+            fall.after
+        ),
+        added => write!(
+            f,
+            "With {} the error fell {fall}; whether more is missing, {of_these}: the best of the other candidates could still be chance.",
+            named(added)
+        ),
+    }
+}
+
+/// What is small beside what the verdict is about.
+fn aside(f: &mut Formatter<'_>, further: &[Named]) -> fmt::Result {
+    match further {
+        [] => Ok(()),
+        some => write!(f, " Further, small: {}.", named(some)),
     }
 }
 

@@ -181,7 +181,7 @@ impl Display for Reason {
             Self::TakenOut { corrected, check } => taken_out(f, corrected, *check),
             Self::NotSimulated(effects) => write!(
                 f,
-                "Not tried, because this rig cannot be simulated with sizes meant for a hand on a tool: {}.",
+                "Not tried, because this rig cannot be simulated with any size that was begun with: {}.",
                 joined(&spoken(effects))
             ),
             Self::WouldDecide {

@@ -3,7 +3,7 @@
 use super::chance::by_chance;
 use super::counted;
 use super::effect_name::Named;
-use super::number::{fixed, short};
+use super::number::{fixed, short, significant};
 use super::said::written_as_said;
 use std::fmt::{self, Display, Formatter};
 
@@ -27,6 +27,15 @@ pub enum Stopped {
         smallest: f64,
         /// Whether only noise is left.
         is_at_floor: bool,
+    },
+    /// What the best of the rest takes away is a trifle beside what the study's own model left.
+    Trifle {
+        /// The candidate.
+        effect: Named,
+        /// Share of the first model's squared error that it removes.
+        share: f64,
+        /// Share that matters.
+        smallest: f64,
     },
     /// The model cannot carry more.
     Full,
@@ -54,6 +63,17 @@ impl Display for Stopped {
                 match is_at_floor {
                     true => "that much is within reach of noise in the torque signal and of the timing between samples",
                     false => "that much may be a piece of what else is missing",
+                }
+            ),
+            Self::Trifle { effect, share, smallest } => write!(
+                f,
+                "Further, small: {} takes {}\u{a0}% of the squared error with which this began, less than the {}\u{a0}% from which {} told. To have it all the same, add it.",
+                effect.spoken(),
+                significant(100.0 * share, 2),
+                short(100.0 * smallest),
+                match effect.is_unlisted() {
+                    true => "a law that is in no catalogue is",
+                    false => "an effect is",
                 }
             ),
             Self::Full => f.write_str(

@@ -19,7 +19,7 @@ pub(crate) struct Block {
     /// Number of residuals.
     pub count: usize,
     /// Jᵀr; over the shared parameters where the cluster is a whole tightening, else over own and shared.
-    gradient: Vec<f64>,
+    pub(super) gradient: Vec<f64>,
     /// JᵀJ likewise.
     curvature: SymmetricMatrix,
 }
@@ -46,7 +46,7 @@ pub(crate) struct Fitted {
     /// Whether residuals are in units of a measured noise.
     pub is_weighted: bool,
     /// Per tightening curvature over own and shared (only where clusters are stretches).
-    member_curvature: Vec<SymmetricMatrix>,
+    pub(super) member_curvature: Vec<SymmetricMatrix>,
     /// Per tightening projected curvature and gradient over the shared parameters.
     profiles: Vec<(SymmetricMatrix, Vec<f64>)>,
     /// Parameters that every tightening has of its own, beyond the base model's.

@@ -2,13 +2,15 @@
 
 use crate::error::DiagnoseError;
 use crate::pooled::model::{PooledModel, Start};
-use crate::pooled::thresholds::{BEGINNING, SHORTEST_BEGINNING, SOON, TRIAL_OF_A_START};
+use crate::pooled::thresholds::{
+    A_FEW_STEPS, BEGINNING, SHORTEST_BEGINNING, SIEVE, SIEVED, SOON, TRIAL_OF_A_START,
+};
 use snug_identify::{FitTask, TighteningResidual, convex_set};
 use snug_least_squares::{DenseResidual, PooledFit, PooledSettings, Settings, solve};
 
 /// Fits from each of `starts`, and with their sizes from where the study's own mass, damping and stiffness begin; the
-/// lowest cost goes on to the end. Where the records take long to simulate, all but the last of that is done on their
-/// beginnings.
+/// lowest cost goes on to the end. Where the records [take long](take_long) to simulate, that is done on their beginnings, few
+/// of the starts are followed far, and from where the best of them leads a few steps are taken on the whole.
 ///
 /// A model without the effect may have been led far off by what it lacks, to where no step leads back.
 pub(crate) fn best_of(
@@ -16,16 +18,26 @@ pub(crate) fn best_of(
     starts: &[Start],
     settings: &PooledSettings,
 ) -> Result<PooledFit, DiagnoseError> {
-    let samples: usize = (pooled.cases.iter())
-        .map(|case| case.measured().len())
-        .sum();
-    if samples <= SOON {
-        return lowest(pooled, starts, settings);
+    let starts = with_own_afresh(pooled, starts);
+    if !take_long(&pooled.cases) {
+        return lowest(pooled, &starts, settings);
     }
     let beginnings: Vec<FitTask<'_>> = pooled.cases.iter().map(beginning).collect();
     let mut there = PooledModel::new(pooled.cases.others(&beginnings), &pooled.effects)?;
-    let start = Start::at(&lowest(&mut there, starts, settings)?);
-    pooled.fit(&start, settings)
+    let mut sieved = ends(&mut there, &starts, &SIEVE)?;
+    sieved.truncate(SIEVED);
+    let sieved: Vec<Start> = sieved.iter().map(Start::at).collect();
+    let start = Start::at(&lowest(&mut there, &sieved, settings)?);
+    pooled.fit(&start, &A_FEW_STEPS)
+}
+
+/// Whether the records together take so long to simulate that not every candidate is followed to its end.
+pub(crate) fn take_long(records: &[FitTask<'_>]) -> bool {
+    records
+        .iter()
+        .map(|case| case.measured().len())
+        .sum::<usize>()
+        > SOON
 }
 
 /// What comes first and holds enough of the motion.
@@ -41,33 +53,47 @@ fn beginning(record: &FitTask<'_>) -> FitTask<'static> {
     record.beginning(record.unscored() + more.count().max(SHORTEST_BEGINNING))
 }
 
-fn lowest(
-    pooled: &mut PooledModel<'_>,
-    starts: &[Start],
-    settings: &PooledSettings,
-) -> Result<PooledFit, DiagnoseError> {
+/// Each start, and the same sizes from where the study's own mass, damping and stiffness begin.
+fn with_own_afresh(pooled: &PooledModel<'_>, starts: &[Start]) -> Vec<Start> {
     let own = pooled.usual_start().own;
     let afresh = |start: &Start| Start {
         own: own.clone(),
         shared: start.shared.clone(),
     };
-    let mut best: Option<PooledFit> = None;
-    let mut refused = None;
-    for start in starts
-        .iter()
+    (starts.iter())
         .flat_map(|start| [start.clone(), afresh(start)])
-    {
-        match pooled.fit(&start, &TRIAL_OF_A_START) {
-            Ok(end) if best.as_ref().is_none_or(|b| end.cost() < b.cost()) => best = Some(end),
-            Ok(_) => {}
+        .collect()
+}
+
+/// Tries each start and goes on to the end from where the lowest led.
+fn lowest(
+    pooled: &mut PooledModel<'_>,
+    starts: &[Start],
+    settings: &PooledSettings,
+) -> Result<PooledFit, DiagnoseError> {
+    let best = &ends(pooled, starts, &TRIAL_OF_A_START)?[0];
+    pooled.fit(&Start::at(best), settings)
+}
+
+/// Where fits from the starts end, the lowest first; an error where none has an end.
+fn ends(
+    pooled: &mut PooledModel<'_>,
+    starts: &[Start],
+    settings: &PooledSettings,
+) -> Result<Vec<PooledFit>, DiagnoseError> {
+    let (mut ends, mut refused) = (Vec::new(), None);
+    for start in starts {
+        match pooled.fit(start, settings) {
+            Ok(end) => ends.push(end),
             Err(error) => refused = Some(error),
         }
     }
-    let Some(best) = best else {
+    if ends.is_empty() {
         let none = || snug_least_squares::SolveError::NoStart.into();
         return Err(refused.unwrap_or_else(none));
-    };
-    pooled.fit(&Start::at(&best), settings)
+    }
+    ends.sort_by(|a, b| a.cost().total_cmp(&b.cost()));
+    Ok(ends)
 }
 
 /// Fits from one start until nothing more is to be had: with little noise the way along a valley is long. One record

@@ -4,18 +4,20 @@
 //! the S⁻¹ of unit noise; Student's t with U − 1. That of one tightening's samples is snug-identify's (M of known noise or of
 //! scores over time), that of regressions on what was fitted snug-statistics' (CR2).
 
+use crate::library::is_unlisted;
 use crate::pooled::fitted::Fitted;
 use crate::pooled::model::first_parameter;
 use snug_campaign::EffectParameter;
 use snug_identify::FitTask;
-use snug_least_squares::matrix::inner_product as dot;
+use snug_least_squares::matrix::{SymmetricMatrix, inner_product as dot};
 use snug_model::{Effect, Law, Model, ParameterSpec, Scope};
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
 /// Every parameter of one of the model's effects.
 ///
 /// Shared: variance S⁻¹ of unit noise, or, where larger, S⁻¹ (Σ g gᵀ) S⁻¹ over clusters (sandwich), Student's t over clusters.
-/// Of each tightening's own: mean, its interval over tightenings, and the spread between them.
+/// Of each tightening's own: mean, its interval over tightenings, and the spread between them; of one record alone as if it were
+/// shared.
 pub(crate) fn parameters(
     cases: &[FitTask<'_>],
     fitted: &Fitted,
@@ -25,6 +27,7 @@ pub(crate) fn parameters(
         return Vec::new();
     };
     let errors = fitted.shared_errors();
+    let of_one_record = fitted.errors_of_one_record();
     let first = first_parameter(&fitted.effects, effect);
     let specs = effect.description().parameters.iter();
     (specs.zip(model.ranges(effect)).enumerate())
@@ -43,16 +46,61 @@ pub(crate) fn parameters(
             if let Some(column) = column(fitted.shared_indices()) {
                 size.value = fitted.shared[column];
                 let inside = size.value > limits.0 && size.value < limits.1;
-                size.standard_error = errors.as_ref().map(|e| e[column]).filter(|_| inside);
+                let error = errors.as_ref().map(|e| e[column]);
+                size.standard_error = error.filter(|&error| inside && is_known(error));
                 let quantile = student(fitted.blocks.len());
                 size.widen(quantile, limits);
             } else if let Some(column) = column(fitted.own_indices()) {
                 let values: Vec<f64> = fitted.own.iter().map(|own| own[column]).collect();
                 size.summarise(&values, limits);
+                if let Some(errors) = &of_one_record {
+                    size.standard_error = Some(errors[column]).filter(|&error| is_known(error));
+                    size.widen(student(fitted.blocks.len()), limits);
+                }
             }
             size
         })
         .collect()
+}
+
+/// Whether the data know an effect's size well enough to tell it from nothing: an interval that excludes the value at which the
+/// effect is not there. Where that lies beyond all it may be, the interval must lie within what it may be; a law of the study's
+/// own says nowhere where it vanishes and is believed.
+pub(crate) fn is_told_from_nothing(cases: &[FitTask<'_>], fitted: &Fitted, effect: Effect) -> bool {
+    let Ok(model) = cases[0].model_with(&fitted.effects) else {
+        return false;
+    };
+    let first = first_parameter(&fitted.effects, effect);
+    let specs = effect.description().parameters;
+    let nothing = |offset: usize| match (specs[offset].vanishes_at, offset) {
+        (None, 0) if is_unlisted(effect) => Some(0.0),
+        (told, _) => told,
+    };
+    let sizes = parameters(cases, fitted, effect);
+    let excludes = |(offset, size): (usize, &EffectParameter)| {
+        let nothing = nothing(offset)?;
+        // What scatters between tightenings is there, whatever its mean.
+        if size.per_tightening && fitted.own.len() > 1 {
+            return Some(true);
+        }
+        let parameter = &model.parameters()[first + offset];
+        let (Some(low), Some(high)) = (size.low, size.high) else {
+            return Some(false);
+        };
+        Some(
+            match nothing >= parameter.minimum && nothing <= parameter.maximum {
+                true => low > nothing || high < nothing,
+                false => low > parameter.minimum && high < parameter.maximum,
+            },
+        )
+    };
+    let told: Vec<bool> = sizes.iter().enumerate().filter_map(excludes).collect();
+    told.is_empty() || told.contains(&true)
+}
+
+/// Whether a standard error is one: of a direction of which the data know nothing it comes out as 0.
+fn is_known(standard_error: f64) -> bool {
+    standard_error > 0.0 && standard_error.is_finite()
 }
 
 /// A parameter as its effect describes it, at its usual start and without an interval.
@@ -108,15 +156,33 @@ impl Summary for EffectParameter {
 impl Fitted {
     /// Standard errors of the shared parameters.
     pub fn shared_errors(&self) -> Option<Vec<f64>> {
-        let p = self.shared.len();
         let (curvature, gradients) = self.shared_evidence();
+        let skipped = curvature.size() - self.shared.len();
+        let errors = self.errors(&curvature, &gradients)?;
+        Some(errors[skipped..].to_vec())
+    }
+
+    /// Standard errors of a single long record's own parameters; `None` of whole tightenings and of several records, where the
+    /// scatter between them says it.
+    fn errors_of_one_record(&self) -> Option<Vec<f64>> {
+        let ([_], [curvature]) = (self.own.as_slice(), self.member_curvature.as_slice()) else {
+            return None;
+        };
+        let gradients: Vec<Vec<f64>> = (self.blocks.iter())
+            .map(|block| block.gradient.clone())
+            .collect();
+        self.errors(curvature, &gradients)
+    }
+
+    /// Of every parameter of `curvature`, by the sandwich over clusters.
+    fn errors(&self, curvature: &SymmetricMatrix, gradients: &[Vec<f64>]) -> Option<Vec<f64>> {
+        let p = self.shared.len();
         let inverse = curvature.inverse()?;
         let clusters = gradients.len() as f64;
         let correction = clusters / (clusters - p as f64).max(1.0);
         let floor = if self.is_weighted { 1.0 } else { 0.0 };
-        let skipped = curvature.size() - p;
         Some(
-            (skipped..curvature.size())
+            (0..curvature.size())
                 .map(|column| {
                     let row: Vec<f64> = (0..curvature.size())
                         .map(|j| inverse.at(column, j))

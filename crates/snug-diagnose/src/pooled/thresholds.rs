@@ -19,3 +19,15 @@ pub(crate) const TRIAL_OF_A_START: PooledSettings = PooledSettings {
     max_iterations: 15,
     cost_tolerance: 1e-3,
 };
+/// When starts are sieved on the beginnings of records that take long. Chosen.
+pub(crate) const SIEVE: PooledSettings = PooledSettings {
+    max_iterations: 4,
+    cost_tolerance: 1e-2,
+};
+/// Starts that pass the sieve. Chosen.
+pub(crate) const SIEVED: usize = 3;
+/// When a candidate that comes from beginnings stops on whole records that take long: enough to rank it. Chosen.
+pub(crate) const A_FEW_STEPS: PooledSettings = PooledSettings {
+    max_iterations: 4,
+    cost_tolerance: 1e-4,
+};

@@ -5,15 +5,17 @@ use crate::data::clusters::Clusters;
 use crate::error::DiagnoseError;
 use crate::pooled::fit::fit_effects;
 use crate::pooled::fitted::Fitted;
+use crate::pooled::long_record;
 use crate::pooled::model::PooledModel;
+use crate::pooled::sizes::is_told_from_nothing;
 use crate::ranking::max_t::Family;
 use crate::ranking::paired_gain::{chance, clearness, spread_of_sum};
-use crate::ranking::refit::refit;
+use crate::ranking::refit::{followed, refit};
 use crate::ranking::score_test::{Control, Scored, Scorer};
 use crate::ranking::sensitivity::Column;
-use crate::ranking::thresholds::{BEST, CONTROL_FLIPS, STRICTER};
+use crate::ranking::thresholds::{BEST, BEST_OF_LONG, CONTROL_FLIPS, STRICTER};
 use crate::settings::DiagnoseSettings;
-use crate::watch::Watch;
+use crate::watch::{Pieces, Watch};
 use rayon::prelude::*;
 use snug_model::Effect;
 
@@ -27,6 +29,8 @@ pub(crate) struct Candidate {
     pub fitted: Fitted,
     /// Decrease of the squared residual of each cluster with sizes that were fixed without it.
     pub gains: Vec<f64>,
+    /// Whether its size has an interval that excludes nothing.
+    pub is_told_from_nothing: bool,
 }
 
 impl Candidate {
@@ -43,8 +47,12 @@ impl Candidate {
         heldout: &[f64],
     ) -> Result<(), DiagnoseError> {
         let from = Some(&self.fitted);
-        self.fitted = fit_effects(cases, &self.fitted.effects, from, clusters)?;
+        self.fitted = match clusters.are_whole() {
+            true => fit_effects(cases, &self.fitted.effects, from, clusters)?,
+            false => followed(cases, &self.fitted, clusters)?,
+        };
         self.gains = gains(heldout, &self.fitted);
+        self.is_told_from_nothing = is_told_from_nothing(&cases, &self.fitted, self.effect);
         Ok(())
     }
 
@@ -103,6 +111,7 @@ pub(crate) fn rank(
     watch: &Watch<'_>,
 ) -> Result<Ranking, DiagnoseError> {
     cases.tally().ranking();
+    watch.pieces(Pieces::Of(candidates.len()));
     let pooled = PooledModel::new(cases, &current.effects)?;
     let control = Control {
         campaigns: control_campaigns,
@@ -120,6 +129,7 @@ pub(crate) fn rank(
         .map(|&effect| {
             watch.go_on()?;
             let fitted = refit(cases, current, effect, &columns, clusters, settings);
+            watch.pieces(Pieces::Done);
             let Some(fitted) = possible(fitted)? else {
                 return Ok(None);
             };
@@ -129,6 +139,7 @@ pub(crate) fn rank(
                 effect,
                 score: own.map(Column::statistic).fold(0.0, f64::max),
                 p_family: family.p(&columns, effect),
+                is_told_from_nothing: is_told_from_nothing(&cases, &fitted, effect),
                 fitted,
                 gains,
             }))
@@ -140,10 +151,16 @@ pub(crate) fn rank(
     let impossible = impossible.map(|(&effect, _)| effect).collect();
     let mut candidates: Vec<Candidate> = refitted.into_iter().flatten().collect();
     sort(&mut candidates);
-    if clusters.are_whole() && !current.is_at_floor() {
-        let best = candidates.par_iter_mut().take(BEST);
-        best.try_for_each(|candidate| candidate.settle(cases, clusters, &heldout))?;
-    }
+    let followed = match clusters.are_whole() {
+        true if !current.is_at_floor() => BEST,
+        false if long_record::take_long(&cases) => BEST_OF_LONG,
+        _ => 0,
+    };
+    let best = candidates.par_iter_mut().take(followed);
+    best.try_for_each(|candidate| {
+        watch.go_on()?;
+        candidate.settle(cases, clusters, &heldout)
+    })?;
     let family_size = candidates.len() * STRICTER;
     for candidate in &mut candidates {
         candidate.p_family = candidate.p_family.min(candidate.p_of_gain(family_size));

@@ -15,7 +15,7 @@ use crate::ranking::thresholds::{
 use crate::settings::DiagnoseSettings;
 use snug_identify::{FitTask, HALF_WIDTHS, SIDE_BY_SIDE};
 use snug_least_squares::{PooledFit, PooledSettings, SolveError};
-use snug_model::{BASE_PARAMETERS, Effect, Law, Scope};
+use snug_model::{BASE_PARAMETERS, Effect, Law, ParameterSpec, Scope};
 use snug_statistics::descriptive::median;
 
 /// Refits one effect from its most promising starts, first roughly on a few tightenings; the lowest cost wins.
@@ -42,7 +42,10 @@ pub(crate) fn refit(
         .collect();
     let end = match starts.as_slice() {
         [] => return fit_effects(cases, &effects, Some(current), clusters),
-        starts if !clusters.are_whole() => long_record::best_of(&mut pooled, starts, &CANDIDATE)?,
+        starts if !clusters.are_whole() => {
+            let end = long_record::best_of(&mut pooled, starts, &CANDIDATE)?;
+            no_worse(&mut pooled, current, effect, end)?
+        }
         // Beside an effect that lets go, what another one changes moves every instant of contact.
         [only]
             if !current.is_at_floor()
@@ -62,6 +65,43 @@ pub(crate) fn refit(
         }
     };
     Ok(Fitted::new(&pooled, end, &clusters))
+}
+
+/// A candidate of records that take long, from where a few steps led.
+pub(crate) fn followed(
+    cases: Cases<'_>,
+    fitted: &Fitted,
+    clusters: Clusters,
+) -> Result<Fitted, DiagnoseError> {
+    let mut pooled = PooledModel::new(cases, &fitted.effects)?;
+    let end = pooled.fit(&fitted.start(&pooled), &CANDIDATE)?;
+    Ok(Fitted::new(&pooled, end, &clusters))
+}
+
+/// The fit that ended at `end`, or where that is worse than without the effect, one from where nothing of it is there: a larger
+/// model that fits worse was led astray.
+fn no_worse(
+    pooled: &mut PooledModel<'_>,
+    current: &Fitted,
+    effect: Effect,
+    end: PooledFit,
+) -> Result<PooledFit, DiagnoseError> {
+    if 2.0 * end.cost() <= current.squares() {
+        return Ok(end);
+    }
+    let nothing = |spec: &ParameterSpec| {
+        let (minimum, maximum) = spec.limits;
+        let value = spec.vanishes_at.unwrap_or(spec.starts[0]);
+        value.clamp(minimum, maximum)
+    };
+    let values: Vec<f64> = (effect.description().parameters.iter())
+        .map(nothing)
+        .collect();
+    let nested = with_effect(pooled, current, effect, &values);
+    match pooled.fit(&nested, &CANDIDATE) {
+        Ok(other) if other.cost() < end.cost() => Ok(other),
+        _ => Ok(end),
+    }
 }
 
 /// At most `most` different starts of an effect, those whose columns promise most.

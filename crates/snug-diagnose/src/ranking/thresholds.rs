@@ -11,6 +11,8 @@ pub(crate) const CHANCE: f64 = 4.0;
 pub(crate) const STRICTER: usize = 10;
 /// Candidates that are followed to the end: one of them is what is missing, if anything is. Chosen.
 pub(crate) const BEST: usize = 3;
+/// The same of records that take long to simulate, where the others have taken a few steps only. Chosen.
+pub(crate) const BEST_OF_LONG: usize = 6;
 /// Sign flips behind a p in the negative control: a p of 0.05 is then the tenth of 200. Chosen.
 pub(crate) const CONTROL_FLIPS: usize = 199;
 /// Samples on either side over which the torque is averaged for the signatures. Chosen.

@@ -48,7 +48,7 @@ pub(crate) fn try_removals(
         }
     }
     if path.attempts.iter().any(|attempt| attempt.removed) {
-        path.ranking = selection.rank(path.last(), selection.settings.control_campaigns)?;
+        selection.rank_last(path)?;
     }
     Ok(())
 }
@@ -135,6 +135,7 @@ mod tests {
                 effect,
                 p_family: 0.01,
                 heldout_gain: 0.1,
+                share_of_first: 0.1,
                 twins: twins.to_vec(),
             })
             .collect();

@@ -17,12 +17,12 @@ impl ModelSelection<'_> {
     /// Rung by rung; `path` holds those that were reached also where this fails.
     fn add_justified(&self, path: &mut SelectionPath) -> Result<(), DiagnoseError> {
         loop {
-            path.ranking = self.rank(path.last(), self.settings.control_campaigns)?;
+            self.rank_last(path)?;
             if path.additions.len() >= MOST_EFFECTS {
                 path.stopped = Some(Stop::Full);
                 break;
             }
-            let best = match justified(&path.ranking, path.last(), self.settings) {
+            let best = match justified(&path.ranking, path.last(), &path.rungs[0], self.settings) {
                 Ok(best) => best,
                 Err(stop) => {
                     path.stopped = Some(stop);

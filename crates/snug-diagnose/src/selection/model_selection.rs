@@ -10,7 +10,8 @@ use crate::ranking::applicability::candidates;
 use crate::ranking::rank::{Candidate, Ranking, gains, rank};
 use crate::selection::path::{Addition, SelectionPath, justified, misfit, twins};
 use crate::selection::thresholds::{
-    ENOUGH_AHEAD, EQUAL, LITTLE_LEFT, MOST_EFFECTS, MUCH_LEFT, NOISE_AND_A_LITTLE, SEEDS,
+    ENOUGH_AHEAD, EQUAL, ESCAPED, LITTLE_LEFT, MOST_EFFECTS, MOST_ESCAPES, MUCH_LEFT,
+    NOISE_AND_A_LITTLE, SEEDS,
 };
 use crate::settings::DiagnoseSettings;
 use crate::watch::Watch;
@@ -43,8 +44,8 @@ impl ModelSelection<'_> {
     }
 
     fn name_the_first(&self, path: &mut SelectionPath) -> Result<(), DiagnoseError> {
-        path.ranking = self.rank(path.last(), self.settings.control_campaigns)?;
-        match justified(&path.ranking, path.last(), self.settings) {
+        self.rank_last(path)?;
+        match justified(&path.ranking, path.last(), &path.rungs[0], self.settings) {
             Ok(best) => {
                 let steps = self.choose(path.last(), &path.ranking, best, MOST_EFFECTS)?;
                 let first = steps.first().map(|(addition, _)| addition.effect);
@@ -74,8 +75,8 @@ impl ModelSelection<'_> {
             let (addition, fitted) = self.step(&ranking, index, path.last());
             path.add(addition, self.settled(&fitted)?);
         }
-        path.ranking = self.rank(path.last(), self.settings.control_campaigns)?;
-        match justified(&path.ranking, path.last(), self.settings) {
+        self.rank_last(path)?;
+        match justified(&path.ranking, path.last(), &path.rungs[0], self.settings) {
             Ok(best) => path.chosen = Some(self.single(&path.ranking, best)),
             Err(stop) => path.stopped = Some(stop),
         }
@@ -101,6 +102,46 @@ impl ModelSelection<'_> {
             control_campaigns,
             self.watch,
         )
+    }
+
+    /// Ranks what is missing beside the last model. Where a candidate's end leads that model itself to a better place, the place
+    /// is the model's, and all are judged by it: credit belongs to what an effect adds, not to the way out of a poor minimum.
+    pub fn rank_last(&self, path: &mut SelectionPath) -> Result<(), DiagnoseError> {
+        let campaigns = self.settings.control_campaigns;
+        path.ranking = self.rank(path.last(), campaigns)?;
+        for _ in 0..MOST_ESCAPES {
+            let Some(better) = self.elsewhere(path.last(), &path.ranking)? else {
+                break;
+            };
+            path.replace_last(better);
+            path.ranking = self.rank(path.last(), campaigns)?;
+        }
+        Ok(())
+    }
+
+    /// The model of `current` from where its best extensions ended, if that is plainly a better place. Many tightenings lead each
+    /// other; a few long records do not.
+    fn elsewhere(
+        &self,
+        current: &Fitted,
+        ranking: &Ranking,
+    ) -> Result<Option<Fitted>, DiagnoseError> {
+        if self.clusters.are_whole() {
+            return Ok(None);
+        }
+        let mut best: Option<Fitted> = None;
+        for candidate in ranking.candidates.iter().take(SEEDS) {
+            self.watch.go_on()?;
+            let from = Some(&candidate.fitted);
+            let Ok(fitted) = fit_effects(self.cases, &current.effects, from, self.clusters) else {
+                continue;
+            };
+            let known = best.as_ref().unwrap_or(current).squares();
+            if fitted.squares() < ESCAPED * known {
+                best = Some(fitted);
+            }
+        }
+        Ok(best)
     }
 
     /// The same effects, fitted from there to the end.
@@ -287,7 +328,7 @@ impl ModelSelection<'_> {
     ) -> Result<Option<(Candidate, Step)>, DiagnoseError> {
         let (clusters, settings) = (self.clusters, self.settings);
         let next = rank(cases, first, seconds, clusters, settings, 0, self.watch)?;
-        let second = justified(&next, first, settings).ok();
+        let second = justified(&next, first, first, settings).ok();
         Ok(second.map(|index| {
             let together = next.candidates[index].clone();
             (together, self.step(&next, index, first))
@@ -321,6 +362,7 @@ impl ModelSelection<'_> {
             effect: candidate.effect,
             p_family: candidate.p_family,
             heldout_gain: candidate.gain() / misfit(current),
+            share_of_first: candidate.gain() / misfit(current),
             twins: twins(ranking, index, &self.clusters),
         };
         (addition, candidate.fitted.clone())

@@ -6,7 +6,9 @@ use crate::library::is_unlisted;
 use crate::pooled::fitted::Fitted;
 use crate::ranking::paired_gain::agreement;
 use crate::ranking::rank::{Candidate, Ranking};
-use crate::selection::thresholds::{AS_MUCH, EQUAL, GOOD_PART, PLAINLY_MORE, PROMISING_P};
+use crate::selection::thresholds::{
+    AS_MUCH, EQUAL, GOOD_PART, PLAINLY_MORE, PROMISING_P, SMALL, TRIFLE,
+};
 use crate::settings::DiagnoseSettings;
 use snug_model::Effect;
 
@@ -17,6 +19,8 @@ pub(crate) struct Addition {
     pub p_family: f64,
     /// Share of the misfit at that rung.
     pub heldout_gain: f64,
+    /// Share of the misfit of the study's own model.
+    pub share_of_first: f64,
     pub twins: Vec<Effect>,
 }
 
@@ -60,7 +64,17 @@ impl SelectionPath {
 
     /// One rung up.
     pub fn add(&mut self, addition: Addition, fitted: Fitted) {
-        self.additions.push(addition);
+        let before = misfit(self.last()) / misfit(&self.rungs[0]);
+        self.additions.push(Addition {
+            share_of_first: addition.heldout_gain * before,
+            ..addition
+        });
+        self.stand_on(fitted);
+    }
+
+    /// The last model as it fits from another place, against which nothing is ranked yet.
+    pub fn replace_last(&mut self, fitted: Fitted) {
+        self.rungs.pop();
         self.stand_on(fitted);
     }
 
@@ -114,6 +128,8 @@ pub(crate) enum Stop {
     NothingSupported { best_p: f64 },
     /// The best supported candidate lowers the error by too little to matter.
     TooSmall { effect: Effect, share: f64 },
+    /// What the best of the rest takes away is a trifle beside what the study's own model leaves.
+    Trifle { effect: Effect, share: f64 },
     /// The model cannot carry more.
     Full,
     /// Whoever watches ended it; what it reached by then holds, what it would have reached is not known.
@@ -121,9 +137,10 @@ pub(crate) enum Stop {
 }
 
 impl Candidate {
-    /// Whether the data support it: beyond chance over the family, and a gain in held-out tightenings.
+    /// Whether the data support it: beyond chance over the family, a gain in held-out tightenings, and a size that is told from
+    /// nothing.
     pub fn is_supported(&self, settings: &DiagnoseSettings) -> bool {
-        self.p_family <= settings.level && self.gains_clearly()
+        self.p_family <= settings.level && self.gains_clearly() && self.is_told_from_nothing
     }
 
     /// Whether of a long record it plainly leaves more than `other`.
@@ -144,24 +161,35 @@ impl Candidate {
     }
 }
 
-/// The first supported candidate that removes enough to matter, or why there is none.
+/// The first supported candidate that removes enough to matter, beside what `current` leaves and what the study's own model
+/// `first` left, or why there is none.
 pub(crate) fn justified(
     ranking: &Ranking,
     current: &Fitted,
+    first: &Fitted,
     settings: &DiagnoseSettings,
 ) -> Result<usize, Stop> {
+    let all = &ranking.candidates;
     let supported = |candidate: &Candidate| candidate.is_supported(settings);
-    match ranking.candidates.iter().position(supported) {
-        Some(index) => {
-            let candidate = &ranking.candidates[index];
-            let share = candidate.gain() / current.squares();
-            match share >= current.smallest_gain(settings) {
-                true => Ok(index),
-                false => Err(Stop::TooSmall {
-                    effect: candidate.effect,
-                    share,
-                }),
-            }
+    let share = |index: usize, of: &Fitted| all[index].gain() / of.squares();
+    match all.iter().position(supported) {
+        Some(best) if share(best, current) < current.smallest_gain(settings) => {
+            Err(Stop::TooSmall {
+                effect: all[best].effect,
+                share: share(best, current),
+            })
+        }
+        Some(best) => {
+            let is_enough = |index: &usize| {
+                supported(&all[*index])
+                    && share(*index, current) >= current.smallest_gain(settings)
+                    && (current.is_weighted
+                        || share(*index, first) >= least_share(all[*index].effect))
+            };
+            (best..all.len()).find(is_enough).ok_or(Stop::Trifle {
+                effect: all[best].effect,
+                share: share(best, first),
+            })
         }
         None => {
             let all = ranking.candidates.iter();
@@ -170,6 +198,14 @@ pub(crate) fn justified(
                 best_p: gaining.map(|one| one.p_family).fold(1.0, f64::min),
             })
         }
+    }
+}
+
+/// Share of what the study's own model left that an effect must take away where the noise is not known.
+pub(crate) fn least_share(effect: Effect) -> f64 {
+    match is_unlisted(effect) {
+        true => SMALL,
+        false => TRIFLE,
     }
 }
 

@@ -85,6 +85,7 @@ pub(crate) fn noisy(number: usize, effects: &[Effect], sizes: &[f64]) -> FitTask
 /// A candidate that leaves nothing but noise, in as many tightenings as it has `gains`.
 pub(crate) fn candidate(effect: Effect, p_family: f64, gains: &[f64]) -> Candidate {
     Candidate {
+        is_told_from_nothing: true,
         effect,
         score: 0.0,
         p_family,

@@ -187,12 +187,13 @@ impl Examination<'_> {
         }
     }
 
-    /// The experiment that tells the effect last named from its twin; who ended the selection does not wait for it.
+    /// The experiment that tells the effect last named from its twin; who ended the selection does not wait for it. It is made of
+    /// tightenings, so that a few long records of a machine have none.
     fn experiment(&self, situation: &Situation<'_>) -> Result<Option<Experiment>, DiagnoseError> {
         let Some((first, second)) = situation.twin_pair() else {
             return Ok(None);
         };
-        if self.path.is_interrupted() {
+        if self.path.is_interrupted() || !situation.clusters.are_whole() {
             return Ok(None);
         }
         self.watch

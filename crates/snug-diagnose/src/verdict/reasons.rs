@@ -4,7 +4,8 @@ use crate::data::clusters::Clusters;
 use crate::library::{declaration, in_words};
 use crate::pooled::fitted::Fitted;
 use crate::ranking::rank::Candidate;
-use crate::selection::path::{Addition, Attempt, Stop};
+use crate::selection::path::{Addition, Attempt, Stop, least_share};
+use crate::selection::thresholds::SMALL;
 use crate::settings::DiagnoseSettings;
 use snug_campaign::words::effect_name::Named;
 use snug_campaign::words::explained::Explained;
@@ -59,8 +60,16 @@ impl Situation<'_> {
         self.stopped == Some(Stop::Interrupted)
     }
 
-    fn added(&self) -> Vec<Named> {
-        (self.additions.iter())
+    /// What was added, that first which explains most; what is small beside it only where `is_small`.
+    fn added(&self, is_small: bool) -> Vec<Named> {
+        let small = |one: &&Addition| !self.after.is_weighted && one.share_of_first < SMALL;
+        let mut added: Vec<&Addition> = (self.additions.iter())
+            .filter(|one| small(one) == is_small)
+            .collect();
+        if !self.after.is_weighted {
+            added.sort_by(|a, b| b.share_of_first.total_cmp(&a.share_of_first));
+        }
+        (added.into_iter())
             .map(|one| with_twins(one.effect, &one.twins, self.after))
             .collect()
     }
@@ -102,8 +111,9 @@ fn fall(before: &Fitted, after: &Fitted) -> Fall {
 /// The verdict with what it rests on.
 pub(crate) fn headline(situation: &Situation<'_>) -> Headline {
     let fell = fall(situation.before, situation.after);
-    let added = situation.added();
+    let (added, further) = (situation.added(false), situation.added(true));
     if situation.is_interrupted() {
+        let added = [added, further].concat();
         return Headline::Stopped { added, fall: fell };
     }
     match (situation.verdict, situation.chosen) {
@@ -113,12 +123,14 @@ pub(crate) fn headline(situation: &Situation<'_>) -> Headline {
         },
         (Verdict::UnlistedEffect, None) if !added.is_empty() => Headline::Unlisted {
             added,
+            further,
             describes: !situation.after.is_beyond_noise(),
             fall: fell,
         },
         (Verdict::UnlistedEffect, None) => Headline::Unexplained(fell.after),
         (Verdict::Adequate, _) => Headline::Adequate {
             added,
+            further,
             fall: fell,
             explained: situation.explained,
         },
@@ -131,7 +143,8 @@ pub(crate) fn headline(situation: &Situation<'_>) -> Headline {
                 .clusters
                 .are_whole()
                 .then_some(situation.tightenings),
-            left: fell.after,
+            added: [added, further].concat(),
+            fall: fell,
         },
     }
 }
@@ -240,6 +253,11 @@ pub(crate) fn stopped(situation: &Situation<'_>) -> Option<Stopped> {
             share,
             smallest: situation.after.smallest_gain(situation.settings),
             is_at_floor: situation.after.is_at_floor(),
+        },
+        Stop::Trifle { effect, share } => Stopped::Trifle {
+            effect: named(effect),
+            share,
+            smallest: least_share(effect),
         },
         Stop::Full => Stopped::Full,
         Stop::Interrupted => Stopped::Interrupted(situation.additions.len()),

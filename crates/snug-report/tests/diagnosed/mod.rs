@@ -36,6 +36,7 @@ pub fn improve() -> CampaignResult {
         verdict: Verdict::Adequate,
         headline: Headline::Adequate {
             added: vec![named("cubic_stiffness"), named("torque_delay")],
+            further: Vec::new(),
             fall: fall(6.42, 1.018),
             explained: None,
         },

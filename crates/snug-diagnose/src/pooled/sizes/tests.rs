@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::tests::made_up::{close, exact};
-use snug_model::Effect::{AccelerationBias, Backlash, CubicStiffness};
+use snug_model::Effect::{AccelerationBias, Backlash, CubicStiffness, SecondMass};
 
 /// 97.5 % quantiles of Student's t with 3 and 2 degrees of freedom, SciPy 1.17.1.
 const OF_FOUR_UNITS: f64 = 3.182_446_305_283_708;
@@ -80,6 +80,28 @@ fn an_interval_ends_where_the_parameter_does_and_a_size_on_its_limit_has_none() 
         (none.standard_error, none.low, none.high),
         (None, None, None)
     );
+}
+
+/// Four units of curvature c each: a standard error of 1/√(4 c), and 3.18 of them to either side.
+#[test]
+fn a_size_is_told_from_nothing_where_its_interval_excludes_it() {
+    let cases = [exact(0, &[], &[])];
+    let cubic = |value: f64, curvature: f64| {
+        let fitted = Fitted::made_up(&[CubicStiffness], &[100.0; 4], 100)
+            .with_shared(("k3_n_per_m3", 3, value), &[(curvature, 0.0); 4]);
+        is_told_from_nothing(&cases, &fitted, CubicStiffness)
+    };
+    assert!(cubic(1.6, 1.0) && cubic(-1.6, 1.0));
+    assert!(!cubic(1.58, 1.0) && !cubic(-1.58, 1.0));
+    assert!(!cubic(1e6, 0.0), "of which the data know nothing");
+    // A rigid forearm is out of reach of a second mass' limits (0.05 to 100 kg): the interval must lie within them.
+    let second = |value: f64, error: f64| {
+        let fitted = Fitted::made_up(&[SecondMass], &[100.0; 4], 100)
+            .with_shared(("m2_kg", 3, value), &[(0.25 / (error * error), 0.0); 4]);
+        is_told_from_nothing(&cases, &fitted, SecondMass)
+    };
+    assert!(second(9.0, 1.0));
+    assert!(!second(9.0, 4.0) && !second(90.0, 4.0));
 }
 
 /// 1, 2, 6: mean 3, standard deviation √7.

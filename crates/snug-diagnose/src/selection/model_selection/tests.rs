@@ -133,6 +133,7 @@ fn of_a_pair_the_one_that_explains_more_by_itself_comes_first() {
             effect,
             p_family: 0.01,
             heldout_gain: 0.5,
+            share_of_first: 0.5,
             twins: Vec::new(),
         };
         (
@@ -198,7 +199,8 @@ fn two_effects_that_are_both_in_the_data_are_added_as_a_pair() {
             selection.watch,
         );
         let ranking = ranking.expect("it can be ranked");
-        let best = justified(&ranking, &base, selection.settings).expect("something is missing");
+        let best =
+            justified(&ranking, &base, &base, selection.settings).expect("something is missing");
         let steps = selection
             .choose(&base, &ranking, best, 5)
             .expect("it can be fitted");

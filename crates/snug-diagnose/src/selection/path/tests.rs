@@ -31,7 +31,10 @@ fn the_first_candidate_that_is_beyond_chance_is_justified() {
         candidate(QuadraticStiffness, 0.05, &clear(20.0)),
         candidate(Backlash, 0.001, &clear(10.0)),
     ]);
-    assert_eq!(justified(&ranking, &model(300.0), &settings()), Ok(2));
+    assert_eq!(
+        justified(&ranking, &model(300.0), &model(300.0), &settings()),
+        Ok(2)
+    );
 }
 
 /// 1 % of 1200 is 12; at the noise 0.3 % of 400 is 1.2.
@@ -40,6 +43,7 @@ fn a_supported_candidate_that_removes_too_little_is_named_with_its_share() {
     let of = |mean: f64, current: &Fitted| {
         justified(
             &ranking(vec![candidate(CubicStiffness, 0.01, &clear(mean))]),
+            current,
             current,
             &settings(),
         )
@@ -55,6 +59,49 @@ fn a_supported_candidate_that_removes_too_little_is_named_with_its_share() {
     }
 }
 
+/// Where the noise is not known everything that a record of thousands of samples shows is beyond chance. What counts then is the
+/// share of what the first model left: 0.5 % is little for a law that is in no catalogue, 0.05 % for an effect that is.
+#[test]
+fn what_is_a_trifle_of_what_the_first_model_left_ends_the_selection() {
+    let [first, current] = [10_000.0, 100.0].map(|squares| model(squares).unweighted());
+    let law = term("x_v_law");
+    let of = |effect: Effect, mean: f64, first: &Fitted| {
+        let ranking = ranking(vec![candidate(effect, 0.001, &clear(mean))]);
+        justified(&ranking, &current, first, &settings())
+    };
+    for (effect, mean, share) in [(law, 50.0, 0.005), (CubicStiffness, 5.0, 0.0005)] {
+        let Err(Stop::Trifle {
+            effect: named,
+            share: told,
+        }) = of(effect, mean, &first)
+        else {
+            panic!("{mean} is a trifle")
+        };
+        assert_eq!(named, effect);
+        close(told, share, 1e-12);
+        assert_eq!(
+            of(effect, mean, &current),
+            Ok(0),
+            "of what is left it is much"
+        );
+    }
+    assert_eq!(of(CubicStiffness, 50.0, &first), Ok(0));
+    // An effect of the catalogue behind the law is enough.
+    let both = ranking(vec![
+        candidate(law, 0.001, &clear(50.0)),
+        candidate(CubicStiffness, 0.001, &clear(20.0)),
+    ]);
+    assert_eq!(justified(&both, &current, &first, &settings()), Ok(1));
+}
+
+#[test]
+fn a_size_that_may_be_nothing_supports_nothing() {
+    let mut inert = candidate(CubicStiffness, 0.001, &clear(50.0));
+    assert!(inert.is_supported(&settings()));
+    inert.is_told_from_nothing = false;
+    assert!(!inert.is_supported(&settings()));
+}
+
 #[test]
 fn where_nothing_is_supported_the_smallest_p_of_those_that_gain_is_told() {
     let ranking = ranking(vec![
@@ -62,9 +109,14 @@ fn where_nothing_is_supported_the_smallest_p_of_those_that_gain_is_told() {
         candidate(QuadraticStiffness, 0.2, &clear(10.0)),
         candidate(TorqueDelay, 0.001, &clear(-10.0)),
     ]);
-    let stop = justified(&ranking, &model(300.0), &settings());
+    let stop = justified(&ranking, &model(300.0), &model(300.0), &settings());
     assert_eq!(stop, Err(Stop::NothingSupported { best_p: 0.2 }));
-    let none = justified(&Ranking::default(), &model(300.0), &settings());
+    let none = justified(
+        &Ranking::default(),
+        &model(300.0),
+        &model(300.0),
+        &settings(),
+    );
     assert_eq!(none, Err(Stop::NothingSupported { best_p: 1.0 }));
 }
 
@@ -197,6 +249,7 @@ fn a_new_rung_has_nothing_ranked_against_it() {
         effect: CubicStiffness,
         p_family: 0.01,
         heldout_gain: 0.5,
+        share_of_first: 0.5,
         twins: Vec::new(),
     };
     path.add(addition, model(150.0));
