@@ -4,6 +4,7 @@ pub(crate) mod applicability;
 pub(crate) mod max_t;
 pub(crate) mod nuisance;
 pub(crate) mod paired_gain;
+pub(crate) mod pairs;
 pub(crate) mod rank;
 pub(crate) mod refit;
 pub(crate) mod score_test;

@@ -5,3 +5,4 @@ pub(crate) mod forward_selection;
 pub(crate) mod model_selection;
 pub(crate) mod path;
 pub(crate) mod thresholds;
+pub(crate) mod two_at_once;

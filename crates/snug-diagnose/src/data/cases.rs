@@ -1,9 +1,11 @@
 //! The tightenings of a question together with the count of what is done with them.
 
+use crate::data::clusters::Clusters;
 use crate::error::DiagnoseError;
 use snug_campaign::{Estimate, WorkDone};
 use snug_identify::{FitTask, IdentifyError};
 use snug_least_squares::Work;
+use snug_model::Scale;
 use std::ops::Deref;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -12,11 +14,29 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 pub(crate) struct Cases<'a> {
     all: &'a [FitTask<'a>],
     tally: &'a Tally,
+    is_one_machine: bool,
+}
+
+/// Whether nobody holds the rig.
+pub(crate) fn is_machine(case: &FitTask<'_>) -> bool {
+    matches!(case.model.scale(), Scale::Rig { .. })
 }
 
 impl<'a> Cases<'a> {
     pub fn new(all: &'a [FitTask<'a>], tally: &'a Tally) -> Self {
-        Self { all, tally }
+        let is_one_machine =
+            all.len() > 1 && all.iter().all(is_machine) && !Clusters::of(all).are_whole();
+        Self {
+            all,
+            tally,
+            is_one_machine,
+        }
+    }
+
+    /// Whether these are a few recordings of one machine, whose mass, damping and stiffness are the same in all of them. A hand's
+    /// are not.
+    pub fn are_of_one_machine(self) -> bool {
+        self.is_one_machine
     }
 
     /// The same, where there are any (else for this `reason` none) and each was measured.
@@ -54,8 +74,16 @@ impl<'a> Cases<'a> {
     where
         'a: 'b,
     {
-        let tally = self.tally;
-        Cases { all, tally }
+        let Self {
+            tally,
+            is_one_machine,
+            ..
+        } = self;
+        Cases {
+            all,
+            tally,
+            is_one_machine,
+        }
     }
 
     /// Some of them.

@@ -1,6 +1,6 @@
 //! What counts as one independent piece of evidence: a tightening, or, where there are few, a stretch of one.
 
-use crate::data::thresholds::{FEWEST_WHOLE, SHORTEST_STRETCH, STRETCHES_WANTED};
+use crate::data::thresholds::{FEWEST_WHOLE, LONG_RECORD, SHORTEST_STRETCH, STRETCHES_WANTED};
 use snug_campaign::words::reason::Cluster;
 use snug_identify::FitTask;
 use std::ops::Range;
@@ -14,17 +14,19 @@ pub(crate) struct Clusters {
 
 impl Clusters {
     pub fn of(cases: &[FitTask<'_>]) -> Self {
-        if cases.len() >= FEWEST_WHOLE {
-            return Self { per_case: 1 };
-        }
-        let shortest = cases
+        let lengths = cases
             .iter()
             .map(|case| case.measured().len() - case.unscored());
-        let room = shortest.min().unwrap_or(0) / SHORTEST_STRETCH;
+        let shortest = lengths.min().unwrap_or(0);
+        if cases.len() >= FEWEST_WHOLE && shortest < LONG_RECORD {
+            return Self { per_case: 1 };
+        }
+        let room = shortest / SHORTEST_STRETCH;
         Self {
             per_case: STRETCHES_WANTED
                 .div_ceil(cases.len().max(1))
                 .min(room)
+                .max(2.min(room))
                 .max(1),
         }
     }

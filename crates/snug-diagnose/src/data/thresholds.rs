@@ -3,6 +3,9 @@
 
 /// Fewer tightenings than this are cut into stretches. Chosen.
 pub(crate) const FEWEST_WHOLE: usize = 8;
+/// Samples from which on a window is no tightening but a long record \[samples\], which is cut however many there are: a tightening has
+/// some hundred. Chosen.
+pub(crate) const LONG_RECORD: usize = 5000;
 /// Stretches wanted where tightenings are cut. Chosen.
 pub(crate) const STRETCHES_WANTED: usize = 24;
 /// Shortest stretch \[samples\]. Chosen.

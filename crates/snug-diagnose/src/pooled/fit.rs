@@ -17,13 +17,14 @@ pub(crate) fn fit_effects(
     clusters: Clusters,
 ) -> Result<Fitted, DiagnoseError> {
     let mut pooled = PooledModel::new(cases, effects)?;
-    let start = match from {
-        Some(fitted) => fitted.start(&pooled),
-        None => pooled.usual_start(),
-    };
-    let end = match clusters.are_whole() {
-        true => pooled.fit(&start, &PooledSettings::default())?,
-        false => long_record::to_the_end(&mut pooled, &start)?,
+    let start = from.map(|fitted| fitted.start(&pooled));
+    let end = match (clusters.are_whole(), start) {
+        (true, start) => {
+            let start = start.unwrap_or_else(|| pooled.usual_start());
+            pooled.fit(&start, &PooledSettings::default())?
+        }
+        (false, Some(start)) => long_record::to_the_end(&mut pooled, &start)?,
+        (false, None) => long_record::from_the_records(&mut pooled)?,
     };
     Ok(Fitted::new(&pooled, end, &clusters))
 }

@@ -241,15 +241,31 @@ impl Fitted {
     /// How many parameters of the base model have hardly anything left to do beside this fit's effects, where beside those
     /// of one of `others` they have.
     pub fn makes_superfluous(&self, others: &[&Self]) -> usize {
-        let size = |fitted: &Self, column: usize| {
-            let sizes: Vec<f64> = fitted.own.iter().map(|own| own[column].abs()).collect();
+        let others: Vec<Vec<f64>> = others.iter().map(|other| other.base_sizes()).collect();
+        let is_superfluous = |(column, size): &(usize, f64)| {
+            let sizes = others.iter().map(|other| other[*column]);
+            *size < HARDLY * sizes.fold(0.0, f64::max)
+        };
+        let sizes = self.base_sizes().into_iter().enumerate();
+        sizes.filter(is_superfluous).count()
+    }
+
+    /// Size of each free parameter of the base model: the median over tightenings, or what all share.
+    fn base_sizes(&self) -> Vec<f64> {
+        let of = |column: usize| {
+            let sizes: Vec<f64> = self.own.iter().map(|own| own[column].abs()).collect();
             median(&sizes).unwrap_or(0.0)
         };
-        let is_superfluous = |&column: &usize| {
-            let sizes = others.iter().map(|other| size(other, column));
-            size(self, column) < HARDLY * sizes.fold(0.0, f64::max)
-        };
-        (0..self.free_base_count()).filter(is_superfluous).count()
+        let shared = self.shared_base().map(|(_, value)| value.abs());
+        (0..self.free_base_count()).map(of).chain(shared).collect()
+    }
+
+    /// Names and values of what all share of the base model.
+    fn shared_base(&self) -> impl Iterator<Item = (&String, f64)> {
+        let shared = self.shared_names.iter().zip(&self.shared);
+        (shared.zip(&self.shared_indices))
+            .filter(|(_, index)| **index < BASE_PARAMETERS.len())
+            .map(|((name, value), _)| (name, *value))
     }
 
     /// How many of each tightening's own parameters, the first of them, are the base model's.
@@ -267,6 +283,10 @@ impl Fitted {
         let names = self.own_names[..self.free_base_count()].iter().enumerate();
         names
             .map(|(column, name)| (name.clone(), mean(column)))
+            .chain(
+                self.shared_base()
+                    .map(|(name, value)| (name.clone(), value)),
+            )
             .collect()
     }
 
@@ -308,7 +328,9 @@ impl Fitted {
         };
         match self.member_curvature.first() {
             Some(whole) if self.own.len() == 1 => (whole.clone(), gradients(&|_| true)),
-            _ if self.clusters.are_whole() => (self.shared_curvature(), gradients(&|_| true)),
+            _ if self.clusters.are_whole() || self.shares_all() => {
+                (self.shared_curvature(), gradients(&|_| true))
+            }
             _ => {
                 let profiles = self.profiles.iter().map(|(_, gradient)| gradient.clone());
                 (self.shared_curvature(), profiles.collect())
@@ -316,9 +338,9 @@ impl Fitted {
         }
     }
 
-    /// Projected curvature and gradient of each tightening over the shared parameters.
-    pub fn profiles(&self) -> &[(SymmetricMatrix, Vec<f64>)] {
-        &self.profiles
+    /// Whether no tightening has anything of its own, so that stretches speak of the shared parameters alone.
+    pub fn shares_all(&self) -> bool {
+        self.own_indices.is_empty()
     }
 
     /// The same without what torque noise alone makes of each cluster: what models are compared by.

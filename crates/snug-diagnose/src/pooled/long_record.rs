@@ -55,14 +55,19 @@ fn beginning(record: &FitTask<'_>) -> FitTask<'static> {
 
 /// Each start, and the same sizes from where the study's own mass, damping and stiffness begin.
 fn with_own_afresh(pooled: &PooledModel<'_>, starts: &[Start]) -> Vec<Start> {
-    let own = pooled.usual_start().own;
-    let afresh = |start: &Start| Start {
-        own: own.clone(),
-        shared: start.shared.clone(),
-    };
     (starts.iter())
-        .flat_map(|start| [start.clone(), afresh(start)])
+        .flat_map(|start| [start.clone(), pooled.with_base_afresh(start)])
         .collect()
+}
+
+/// Fits from the starts that the records themselves give.
+pub(crate) fn from_the_records(pooled: &mut PooledModel<'_>) -> Result<PooledFit, DiagnoseError> {
+    let starts = pooled.usual_starts();
+    let start = match starts.as_slice() {
+        [only] => only.clone(),
+        several => Start::at(&ends(pooled, several, &TRIAL_OF_A_START)?[0]),
+    };
+    to_the_end(pooled, &start)
 }
 
 /// Tries each start and goes on to the end from where the lowest led.

@@ -1,4 +1,5 @@
-//! A set of effects as one statement about all tightenings: each its own m, c, k, the effects' sizes shared.
+//! A set of effects as one statement about all tightenings: each its own m, c, k, the effects' sizes shared; of a few recordings
+//! of one machine m, c, k are shared, too.
 
 use crate::data::cases::Cases;
 use crate::data::simulation::{Asked, Simulated, simulate};
@@ -72,8 +73,11 @@ impl<'a> PooledModel<'a> {
             .map(|case| case.model_with(effects))
             .collect::<Result<Vec<_>, _>>()?;
         let first = &models[0];
-        let mut own: Vec<usize> = (0..BASE_PARAMETERS.len()).collect();
-        let mut shared = Vec::new();
+        let base: Vec<usize> = (0..BASE_PARAMETERS.len()).collect();
+        let (mut own, mut shared) = match cases.are_of_one_machine() {
+            true => (Vec::new(), base),
+            false => (base, Vec::new()),
+        };
         let mut index = BASE_PARAMETERS.len();
         for effect in effects {
             for spec in effect.description().parameters {
@@ -86,25 +90,29 @@ impl<'a> PooledModel<'a> {
         }
         own.retain(|&index| !first.parameters()[index].fixed);
         shared.retain(|&index| !first.parameters()[index].fixed);
-        let mut shared_set = Constraints::new(shared.len());
-        for (column, &index) in shared.iter().enumerate() {
-            let parameter = &first.parameters()[index];
-            shared_set.bound(
-                column,
-                parameter.minimum,
-                parameter.maximum,
-                &parameter.name,
-            );
-        }
-        let own_sets = models
-            .iter()
-            .zip(cases.iter())
+        let without = |model: &Model, held: &[usize]| {
+            let mut model = model.clone();
+            for &index in held {
+                model.parameters_mut()[index].fixed = true;
+            }
+            model
+        };
+        let held: Vec<usize> = match cases.are_of_one_machine() {
+            true => own.clone(),
+            false => (0..BASE_PARAMETERS.len()).chain(own.clone()).collect(),
+        };
+        let kinds = match cases.are_of_one_machine() {
+            true => cases[0].settings.constraints.as_slice(),
+            false => &[],
+        };
+        let shared_set = convex_set(&without(first, &held), kinds);
+        let own_sets = (models.iter().zip(cases.iter()))
             .map(|(model, case)| {
-                let mut alone = model.clone();
-                for &index in &shared {
-                    alone.parameters_mut()[index].fixed = true;
-                }
-                convex_set(&alone, &case.settings.constraints)
+                let kinds = match cases.are_of_one_machine() {
+                    true => &[],
+                    false => case.settings.constraints.as_slice(),
+                };
+                convex_set(&without(model, &shared), kinds)
             })
             .collect();
         Ok(Self {
@@ -138,6 +146,34 @@ impl<'a> PooledModel<'a> {
             own: self.models.iter().map(|m| pick(m, &self.own)).collect(),
             shared: pick(&self.models[0], &self.shared),
         }
+    }
+
+    /// Where the parameters begin by themselves, one start for each record where all share mass, damping and stiffness: what one
+    /// of them asks for may be far from what the others do.
+    pub fn usual_starts(&self) -> Vec<Start> {
+        let usual = self.usual_start();
+        if !self.cases.are_of_one_machine() {
+            return vec![usual];
+        }
+        (self.models.iter())
+            .map(|model| Start {
+                own: usual.own.clone(),
+                shared: (self.shared.iter())
+                    .map(|&index| model.parameters()[index].value)
+                    .collect(),
+            })
+            .collect()
+    }
+
+    /// The sizes of `start` with the study's own mass, damping and stiffness as they usually begin.
+    pub fn with_base_afresh(&self, start: &Start) -> Start {
+        let Start { own, mut shared } = self.usual_start();
+        for ((to, from), &index) in shared.iter_mut().zip(&start.shared).zip(&self.shared) {
+            if index >= BASE_PARAMETERS.len() {
+                *to = *from;
+            }
+        }
+        Start { own, shared }
     }
 
     /// Names of parameters by index.

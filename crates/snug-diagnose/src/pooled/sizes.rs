@@ -10,7 +10,7 @@ use crate::pooled::model::first_parameter;
 use snug_campaign::EffectParameter;
 use snug_identify::FitTask;
 use snug_least_squares::matrix::{SymmetricMatrix, inner_product as dot};
-use snug_model::{Effect, Law, Model, ParameterSpec, Scope};
+use snug_model::{BASE_PARAMETERS, Effect, Law, Model, ParameterSpec, Scope};
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
 /// Every parameter of one of the model's effects.
@@ -203,6 +203,10 @@ pub(crate) fn held(case: &FitTask<'_>, fitted: &Fitted, errors: Option<&[f64]>) 
     for (column, &index) in fitted.shared_indices().iter().enumerate() {
         let parameter = &mut model.parameters_mut()[index];
         parameter.value = fitted.shared[column];
+        // Of one machine's recordings each has its own mass, damping and stiffness again once it is looked at alone.
+        if index < BASE_PARAMETERS.len() {
+            continue;
+        }
         parameter.fixed = true;
         parameter.standard_error = errors.map(|errors| errors[column]);
     }

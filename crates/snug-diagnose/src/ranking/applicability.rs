@@ -1,11 +1,12 @@
 //! Which effects of the catalogue can act on the rig at all.
 
+use crate::data::cases::is_machine;
 use crate::error::DiagnoseError;
 use crate::library::terms;
 use crate::pooled::fitted::Fitted;
 use snug_campaign::Quantity;
 use snug_identify::FitTask;
-use snug_model::{Effect, Kind, Law, Scale};
+use snug_model::{Effect, Kind, Law};
 
 /// The effects that may be missing beside `current`.
 pub(crate) fn candidates(
@@ -47,9 +48,4 @@ fn can_act(effect: Effect, case: &FitTask<'_>) -> bool {
         _ => false,
     };
     !is_of_another && !is_set
-}
-
-/// Whether nobody holds the rig.
-fn is_machine(case: &FitTask<'_>) -> bool {
-    matches!(case.model.scale(), Scale::Rig { .. })
 }

@@ -10,6 +10,7 @@ use crate::pooled::model::PooledModel;
 use crate::pooled::sizes::is_told_from_nothing;
 use crate::ranking::max_t::Family;
 use crate::ranking::paired_gain::{chance, clearness, spread_of_sum};
+use crate::ranking::pairs::promising_pairs;
 use crate::ranking::refit::{followed, refit};
 use crate::ranking::score_test::{Control, Scored, Scorer};
 use crate::ranking::sensitivity::Column;
@@ -74,7 +75,7 @@ impl Candidate {
 
     /// Chance of so clear a gain in held-out clusters, among `family` candidates (Bonferroni): for effects that push
     /// elsewhere once the model follows them, so that no score against the model without them sees them.
-    fn p_of_gain(&self, family: usize) -> f64 {
+    pub fn p_of_gain(&self, family: usize) -> f64 {
         (chance(&self.gains, self.fitted.scale()) * family as f64).min(1.0)
     }
 
@@ -94,6 +95,8 @@ pub(crate) struct Ranking {
     pub candidates: Vec<Candidate>,
     /// Effects whose starts this rig cannot be simulated with.
     pub impossible: Vec<Effect>,
+    /// Pairs that promise more together than any effect alone, best first; looked for in a few long records only.
+    pub pairs: Vec<[Effect; 2]>,
     /// What every candidate was scored with.
     pub columns: Vec<Column>,
     /// Campaigns of nothing but noise, and in how many of them something was called supported.
@@ -120,6 +123,9 @@ pub(crate) fn rank(
     let scorer = Scorer::new(&pooled, current, clusters, control);
     let scored = scorer.score(candidates)?;
     let control = negative_control(&scorer, &scored, candidates, settings);
+    let pairs = (scored.gram.as_ref())
+        .map(|gram| promising_pairs(&scored.columns, gram))
+        .unwrap_or_default();
     let columns = scored.columns;
     cases.tally().signatures(cases.len() * columns.len());
     let family = Family::new(&columns, settings.sign_flips, settings.seed);
@@ -169,6 +175,7 @@ pub(crate) fn rank(
     Ok(Ranking {
         candidates,
         impossible,
+        pairs,
         columns,
         control,
     })

@@ -10,6 +10,7 @@ use crate::error::DiagnoseError;
 use crate::pooled::fitted::Fitted;
 use crate::pooled::model::{PooledModel, Room};
 use crate::ranking::nuisance::{Nuisance, coordinates};
+use crate::ranking::pairs::gram;
 use crate::ranking::sensitivity::{Column, directions};
 use crate::ranking::thresholds::{INSTANT_REACH, NOISE_REACH};
 use rand::SeedableRng;
@@ -18,7 +19,7 @@ use rand_distr::{Distribution, StandardNormal};
 use rayon::prelude::*;
 use snug_campaign::Quantity;
 use snug_identify::smooth;
-use snug_least_squares::matrix::inner_product as dot;
+use snug_least_squares::matrix::{SymmetricMatrix, inner_product as dot};
 use snug_model::{Effect, Input};
 
 /// The fitted model against which effects are scored.
@@ -40,6 +41,8 @@ pub(crate) struct Control {
 /// Columns of the measured campaign, and what campaigns that hold nothing but noise are made of.
 pub(crate) struct Scored {
     pub columns: Vec<Column>,
+    /// Inner products of the columns' signatures; only of a few long records.
+    pub gram: Option<SymmetricMatrix>,
     /// Tightening by tightening, campaign by campaign: s of each column, then the gradient over the shared parameters.
     draws: Vec<Vec<Vec<f64>>>,
 }
@@ -51,6 +54,7 @@ struct Contribution {
     variances: Vec<Vec<f64>>,
     information: Vec<f64>,
     cross: Vec<Vec<f64>>,
+    gram: Option<SymmetricMatrix>,
     /// Campaign by campaign: s of each column, then the gradient over the shared parameters.
     control: Vec<Vec<f64>>,
 }
@@ -96,6 +100,12 @@ impl<'a, 'h> Scorer<'a, 'h> {
         let contributions: Vec<Contribution> = (members.chunks(SIMULATED_TOGETHER))
             .flat_map(|some| self.contributions(some, &columns, &others))
             .collect();
+        let mut grams = contributions.iter().filter_map(|one| one.gram.as_ref());
+        let gram = grams.next().map(|first| {
+            let mut sum = first.clone();
+            grams.for_each(|more| sum.add(more));
+            sum
+        });
         for contribution in &contributions {
             for (index, column) in columns.iter_mut().enumerate() {
                 column.scores.extend(&contribution.scores[index]);
@@ -108,12 +118,14 @@ impl<'a, 'h> Scorer<'a, 'h> {
                 }
             }
         }
-        let profiles = self.fitted.profiles();
-        let gradients: Vec<&[f64]> = profiles.iter().map(|(_, g)| g.as_slice()).collect();
+        let (_, gradients) = self.fitted.shared_evidence();
+        let gradients: Vec<&[f64]> = gradients.iter().map(Vec::as_slice).collect();
+        let gram = gram.map(|gram| self.beside_shared(&columns, gram));
         self.project_shared(&mut columns, &gradients);
         let draws = contributions.into_iter().map(|of_one| of_one.control);
         Ok(Scored {
             columns,
+            gram,
             draws: draws.collect(),
         })
     }
@@ -180,6 +192,11 @@ impl<'a, 'h> Scorer<'a, 'h> {
             .collect()
     }
 
+    /// Whether what all share is taken out over all tightenings together.
+    fn is_joint(&self) -> bool {
+        self.clusters.are_whole() || self.fitted.shares_all() && self.pooled.cases.len() > 1
+    }
+
     /// All parameters of one tightening's model as fitted.
     fn values(&self, member: usize) -> Vec<f64> {
         let fitted = self.fitted;
@@ -191,7 +208,7 @@ impl<'a, 'h> Scorer<'a, 'h> {
     fn contribution(&self, member: usize, of_columns: &[&[f64]]) -> Contribution {
         let pooled = self.pooled;
         // Stretches of one tightening share everything with each other.
-        let own_count = match self.clusters.are_whole() {
+        let own_count = match self.is_joint() {
             true => pooled.own.len(),
             false => pooled.own.len() + pooled.shared.len(),
         };
@@ -212,6 +229,7 @@ impl<'a, 'h> Scorer<'a, 'h> {
             variances: Vec::new(),
             information: Vec::new(),
             cross: Vec::new(),
+            gram: None,
             control: Vec::new(),
         };
         let mut signatures: Vec<Vec<f64>> = Vec::new();
@@ -239,8 +257,11 @@ impl<'a, 'h> Scorer<'a, 'h> {
             contribution.information.push(information);
             if self.control.campaigns > 0 {
                 along_bias.push(bias.as_ref().map_or(0.0, |bias| dot(&z, bias)));
-                signatures.push(z);
             }
+            signatures.push(z);
+        }
+        if !self.clusters.are_whole() {
+            contribution.gram = Some(gram(&signatures));
         }
         if self.control.campaigns > 0 {
             for column in shared.chunks_exact(count) {
@@ -284,9 +305,26 @@ impl<'a, 'h> Scorer<'a, 'h> {
         Some(weighted)
     }
 
+    /// The inner products that are left once the shared parameters follow.
+    fn beside_shared(&self, columns: &[Column], mut gram: SymmetricMatrix) -> SymmetricMatrix {
+        if self.fitted.shared.is_empty() || !self.is_joint() {
+            return gram;
+        }
+        let curvature = self.fitted.shared_curvature();
+        for (i, column) in columns.iter().enumerate() {
+            let Some(b) = curvature.solve_scaled(&column.cross) else {
+                continue;
+            };
+            for (j, other) in columns.iter().enumerate().take(i + 1) {
+                gram.set(i, j, gram.at(i, j) - dot(&b, &other.cross));
+            }
+        }
+        gram
+    }
+
     /// Takes out of every column what the shared parameters of the model can imitate over all tightenings together.
     fn project_shared(&self, columns: &mut [Column], gradients: &[&[f64]]) {
-        if !self.fitted.shared.is_empty() && self.clusters.are_whole() {
+        if !self.fitted.shared.is_empty() && self.is_joint() {
             let curvature = self.fitted.shared_curvature();
             for column in columns.iter_mut() {
                 let Some(b) = curvature.solve_scaled(&column.cross) else {

@@ -106,6 +106,11 @@ impl Column {
         }
     }
 
+    /// Whether physics knows so many times the signature.
+    pub fn may_be(&self, times: f64) -> bool {
+        !self.one_sided || times >= 0.0
+    }
+
     fn sided(&self, sum: f64) -> f64 {
         if self.one_sided {
             sum.max(0.0)

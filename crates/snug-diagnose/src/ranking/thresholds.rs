@@ -13,6 +13,12 @@ pub(crate) const STRICTER: usize = 10;
 pub(crate) const BEST: usize = 3;
 /// The same of records that take long to simulate, where the others have taken a few steps only. Chosen.
 pub(crate) const BEST_OF_LONG: usize = 6;
+/// Pairs of effects that are tried where none is justified alone. Chosen.
+pub(crate) const PAIRS: usize = 6;
+/// How many times as much as the best alone two must promise together to be tried \[–\]. Chosen.
+pub(crate) const BEYOND_BOTH: f64 = 1.5;
+/// Share of its own power \[–\] that a signature must keep beside another for both to be two. Chosen.
+pub(crate) const UNLIKE: f64 = 1e-3;
 /// Sign flips behind a p in the negative control: a p of 0.05 is then the tenth of 200. Chosen.
 pub(crate) const CONTROL_FLIPS: usize = 199;
 /// Samples on either side over which the torque is averaged for the signatures. Chosen.

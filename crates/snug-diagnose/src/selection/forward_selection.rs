@@ -2,7 +2,7 @@
 
 use crate::error::DiagnoseError;
 use crate::selection::backward_elimination::{look_at_twins_again, try_removals};
-use crate::selection::model_selection::ModelSelection;
+use crate::selection::model_selection::{ModelSelection, Step};
 use crate::selection::path::{SelectionPath, Stop, justified};
 use crate::selection::thresholds::MOST_EFFECTS;
 
@@ -24,18 +24,30 @@ impl ModelSelection<'_> {
             }
             let best = match justified(&path.ranking, path.last(), &path.rungs[0], self.settings) {
                 Ok(best) => best,
-                Err(stop) => {
-                    path.stopped = Some(stop);
-                    break;
-                }
+                Err(stop) => match self.two_at_once(&path)? {
+                    Some(steps) => {
+                        self.go_up(path, steps)?;
+                        continue;
+                    }
+                    None => {
+                        path.stopped = Some(stop);
+                        break;
+                    }
+                },
             };
             let room = MOST_EFFECTS - path.additions.len();
-            for (addition, fitted) in self.choose(path.last(), &path.ranking, best, room)? {
-                path.add(addition, self.settled(&fitted)?);
-            }
+            let steps = self.choose(path.last(), &path.ranking, best, room)?;
+            self.go_up(path, steps)?;
         }
         try_removals(self, path)?;
         look_at_twins_again(self, path)
+    }
+
+    fn go_up(&self, path: &mut SelectionPath, steps: Vec<Step>) -> Result<(), DiagnoseError> {
+        for (addition, fitted) in steps {
+            path.add(addition, self.settled(&fitted)?);
+        }
+        Ok(())
     }
 }
 

@@ -356,7 +356,7 @@ impl ModelSelection<'_> {
         }))
     }
 
-    fn step(&self, ranking: &Ranking, index: usize, current: &Fitted) -> Step {
+    pub fn step(&self, ranking: &Ranking, index: usize, current: &Fitted) -> Step {
         let candidate = &ranking.candidates[index];
         let addition = Addition {
             effect: candidate.effect,
@@ -369,7 +369,8 @@ impl ModelSelection<'_> {
     }
 }
 
-type Step = (Addition, Fitted);
+/// What is added, and the model with it.
+pub(crate) type Step = (Addition, Fitted);
 
 /// Whether `left` leaves no more than the noise and a little.
 fn is_noise(left: &Fitted) -> bool {

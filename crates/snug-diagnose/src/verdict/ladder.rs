@@ -61,7 +61,9 @@ fn rms_residual(cases: &[FitTask<'_>], fitted: &Fitted) -> f64 {
             continue;
         };
         let mut values: Vec<f64> = model.parameters().iter().map(|p| p.value).collect();
-        for (&index, &value) in fitted.own_indices().iter().zip(&fitted.own[member]) {
+        let own = fitted.own_indices().iter().zip(&fitted.own[member]);
+        let shared = fitted.shared_indices().iter().zip(&fitted.shared);
+        for (&index, &value) in own.chain(shared) {
             values[index] = value;
         }
         let mut output = vec![0.0; case.measured().len()];

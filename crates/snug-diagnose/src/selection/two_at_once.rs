@@ -1,0 +1,100 @@
+//! Two effects that are justified together where neither is alone: of a few long records only, in which each would have to make
+//! up for the other.
+
+use crate::error::DiagnoseError;
+use crate::pooled::fitted::Fitted;
+use crate::pooled::sizes::is_told_from_nothing;
+use crate::ranking::rank::{Candidate, Ranking, gains, rank};
+use crate::ranking::thresholds::STRICTER;
+use crate::selection::model_selection::{ModelSelection, Step};
+use crate::selection::path::{SelectionPath, least_share};
+use snug_model::Effect;
+
+/// A pair, fitted: both, and the second as a step from the first, which stands at `seed` in the ranking.
+struct Pair {
+    both: Candidate,
+    seed: usize,
+    second: Step,
+}
+
+impl ModelSelection<'_> {
+    /// The two effects of the last ranking's promising pairs that explain most and are justified, as two steps.
+    pub fn two_at_once(&self, path: &SelectionPath) -> Result<Option<Vec<Step>>, DiagnoseError> {
+        let (current, ranking) = (path.last(), &path.ranking);
+        let mut best: Option<Pair> = None;
+        for &pair in &ranking.pairs {
+            let [a, b] = pair.map(|effect| effect.name());
+            self.watch.begin(&format!("trying {a} and {b} together"))?;
+            let Some(found) = self.together(current, ranking, pair)? else {
+                continue;
+            };
+            let known = best.as_ref().map_or(0.0, |best| best.both.gain());
+            if found.both.gain() > known && self.are_justified(path, pair, &found.both) {
+                best = Some(found);
+            }
+        }
+        Ok(best.map(|pair| {
+            let (mut first, alone) = self.step(ranking, pair.seed, current);
+            let (mut second, both) = pair.second;
+            first.p_family = pair.both.p_family;
+            second.p_family = pair.both.p_family;
+            vec![(first, alone), (second, both)]
+        }))
+    }
+
+    /// Both, from the end of one of them and from that of the other, whichever leads lower.
+    fn together(
+        &self,
+        current: &Fitted,
+        ranking: &Ranking,
+        [a, b]: [Effect; 2],
+    ) -> Result<Option<Pair>, DiagnoseError> {
+        let heldout = current.heldout_beyond_torque_noise();
+        let size = ranking.candidates.len();
+        let mut lowest: Option<Pair> = None;
+        for (first, second) in [(a, b), (b, a)] {
+            let mut all = ranking.candidates.iter();
+            let Some(seed) = all.position(|candidate| candidate.effect == first) else {
+                continue;
+            };
+            let alone = &ranking.candidates[seed].fitted;
+            let (clusters, settings) = (self.clusters, self.settings);
+            let next = rank(
+                self.cases,
+                alone,
+                &[second],
+                clusters,
+                settings,
+                0,
+                self.watch,
+            )?;
+            let Some(mut both) = next.candidates.first().cloned() else {
+                continue;
+            };
+            let known = lowest.as_ref().map(|one| one.both.fitted.squares());
+            if known.is_some_and(|known| known <= both.fitted.squares()) {
+                continue;
+            }
+            both.gains = gains(&heldout, &both.fitted);
+            both.p_family = both.p_of_gain(STRICTER * size * (size - 1) / 2);
+            lowest = Some(Pair {
+                second: self.step(&next, 0, alone),
+                both,
+                seed,
+            });
+        }
+        Ok(lowest)
+    }
+
+    /// Beyond chance among all pairs, with two sizes that are told from nothing, and by enough to matter.
+    fn are_justified(&self, path: &SelectionPath, pair: [Effect; 2], both: &Candidate) -> bool {
+        let (current, first) = (path.last(), &path.rungs[0]);
+        let share = |of: &Fitted| both.gain() / of.squares();
+        both.is_supported(self.settings)
+            && pair
+                .iter()
+                .all(|&effect| is_told_from_nothing(&self.cases, &both.fitted, effect))
+            && share(current) >= current.smallest_gain(self.settings)
+            && (current.is_weighted || share(first) >= least_share(both.effect))
+    }
+}
