@@ -15,16 +15,17 @@ use snug_synthetic::{
 
 /// One effect of each kind, at strengths that raise the error by about a fifth, and a gap so wide that some tightenings fall
 /// behind the others.
-const FEW: [(Hidden, f64); 4] = [
+const FEW: [(Hidden, f64); 5] = [
     (Hidden::CubicStiffness, 0.35),
     (Hidden::TorqueDependentStiffness, 0.67),
     (Hidden::TorqueDelay, 0.16),
     (Hidden::Backlash, 1.0),
+    (Hidden::TorqueRipple, 0.15),
 ];
 
 /// Every effect of the catalogue but an offset of the torque, which the quiet part shows, at strengths that raise the error by about 3 % and about a fifth, and strong: at its
 /// largest plausible size or so.
-const EVERY: [(Hidden, [f64; 3]); 22] = [
+const EVERY: [(Hidden, [f64; 3]); 25] = [
     (Hidden::CubicStiffness, [0.10, 0.35, 1.5]),
     (Hidden::QuadraticStiffness, [0.23, 0.78, 1.6]),
     (Hidden::CoulombFriction, [0.10, 0.32, 3.0]),
@@ -47,6 +48,9 @@ const EVERY: [(Hidden, [f64; 3]); 22] = [
     (Hidden::OutputOffset, [0.6, 1.71, 3.0]),
     (Hidden::CentripetalCrosstalk, [0.81, 1.5, 3.0]),
     (Hidden::GravityLeakage, [0.61, 1.2, 3.0]),
+    (Hidden::ExponentialStiffness, [0.10, 0.35, 1.5]),
+    (Hidden::StribeckFriction, [0.10, 0.32, 2.0]),
+    (Hidden::TorqueRipple, [0.05, 0.15, 1.0]),
 ];
 
 /// Two at once, at strengths at which each raises the error by about a fifth.
@@ -279,7 +283,6 @@ fn a_law_outside_the_catalogue_is_called_so() {
         Hidden::PositionFriction,
         Hidden::CubicDamping,
         Hidden::QuinticStiffness,
-        Hidden::ExponentialStiffness,
         Hidden::EndStop,
     ];
     let laws = if snug_tests::blind() {

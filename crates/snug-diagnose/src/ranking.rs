@@ -10,3 +10,4 @@ pub(crate) mod refit;
 pub(crate) mod score_test;
 pub(crate) mod sensitivity;
 pub(crate) mod thresholds;
+pub(crate) mod wavelengths;

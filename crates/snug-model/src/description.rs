@@ -29,6 +29,22 @@ impl Kind {
     }
 }
 
+/// On which rigs an effect may be what is missing. Who looks for what is missing tries no other: with every further candidate,
+/// what is missing must be clearer to be named.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum ActsOn {
+    /// A hand on a tool, and machines.
+    Anything,
+    /// A hand on a tool only.
+    Hands,
+    /// Machines only: rigs that nobody holds.
+    Machines,
+    /// Machines only, as long as they make no more than a few turns.
+    MachinesOfFewTurns,
+}
+
 /// Over what an effect's parameter is constant.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -88,6 +104,8 @@ pub struct Description {
     pub name: &'static str,
     /// Where it sits.
     pub kind: Kind,
+    /// On which rigs it may be what is missing.
+    pub acts_on: ActsOn,
     /// One sentence in plain words.
     pub summary: &'static str,
     /// What is added to the model's equations.

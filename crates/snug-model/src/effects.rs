@@ -12,6 +12,7 @@ use snug_campaign::Quantity;
 
 pub mod acceleration_bias;
 pub mod acceleration_lag;
+pub mod asymmetric_viscous_friction;
 pub mod backlash;
 pub mod bouc_wen;
 pub mod centripetal_crosstalk;
@@ -19,8 +20,10 @@ pub mod co_contraction;
 pub mod coulomb_friction;
 pub mod cubic_stiffness;
 pub mod directional_damping;
+pub mod exponential_stiffness;
 pub mod fatigue;
 pub mod gravity_leakage;
+pub mod gravity_torque;
 pub mod grip_slip;
 pub mod initial_motion;
 pub mod maxwell_branch;
@@ -28,11 +31,14 @@ pub mod output_offset;
 pub mod quadratic_damping;
 pub mod quadratic_stiffness;
 pub mod second_mass;
+pub mod second_mode;
 pub mod stretch_reflex;
+pub mod stribeck_friction;
 pub mod torque_delay;
 pub mod torque_dependent_stiffness;
 pub mod torque_lag;
 pub mod torque_offset;
+pub mod torque_ripple;
 pub mod voluntary_push;
 
 #[cfg(test)]
@@ -53,6 +59,12 @@ macro_rules! catalogue {
                 second_mass::SecondMass,
                 grip_slip::GripSlip,
                 bouc_wen::BoucWen,
+                exponential_stiffness::ExponentialStiffness,
+                stribeck_friction::StribeckFriction,
+                asymmetric_viscous_friction::AsymmetricViscousFriction,
+                torque_ripple::TorqueRipple,
+                second_mode::SecondMode,
+                gravity_torque::GravityTorque,
                 stretch_reflex::StretchReflex,
                 voluntary_push::VoluntaryPush,
                 co_contraction::CoContraction,
@@ -123,6 +135,10 @@ macro_rules! forward {
                     catalogue!(ask, self, law => law.$hook(p, $($argument),*))
                 }
             )+)+
+
+            fn wavelength(&self) -> Option<usize> {
+                catalogue!(ask, self, law => law.wavelength())
+            }
 
             fn same_as(&self, compared: Quantity) -> Option<&'static str> {
                 catalogue!(ask, self, law => law.same_as(compared))

@@ -117,6 +117,10 @@ macro_rules! hooks {
                 fn initial() -> (N, N);
             }
             asked_of_sensors {
+                /// How the place that is measured moves beside the one that is driven, in the tool's angle. Displacement and
+                /// velocity may depend on its own states only.
+                fn relative_motion(at: &Instant<N>, own: &[N], own_rates: &[N]) -> Kinematics<N>;
+
                 /// What else the accelerometer senses \[rad/s²\]; the velocity and displacement integrated from it follow.
                 ///
                 /// `at` is the instant of the true motion `motion`.
@@ -148,7 +152,7 @@ macro_rules! declare_law {
         /// ```text
         /// F = limit(k (1 + Σ stiffening) d + c dd/dt + Σ force + Σ delayed)     d = deflection(x − Σ support)
         /// T = y(t − Σ delay) + Σ lag · y'(t − Σ delay) − Σ offset + Σ torque    y: logged torque
-        /// a = measure(lagged(α + Σ cross_sensitivity, Σ acceleration lag))
+        /// a = measure(lagged(α' + Σ cross_sensitivity, Σ acceleration lag))        α' = α + Σ relative_motion
         /// ```
         pub trait Law {
             /// What people read about it.
@@ -162,6 +166,13 @@ macro_rules! declare_law {
                     None
                 }
             )+)+
+
+            /// Which of its parameters is a wavelength of its force over the displacement, if one is; the others are then sizes
+            /// that the force is proportional to. Where several wavelengths fit, whoever fits reads off the measurement with
+            /// which to begin.
+            fn wavelength(&self) -> Option<usize> {
+                None
+            }
 
             /// The effect that it is one and the same with where `compared` is all that is compared; of the two the other is
             /// ranked.
@@ -178,6 +189,7 @@ hooks!(declare_law);
 struct AtRest<'a> {
     at: &'a Instant<f64>,
     own: &'a [f64],
+    own_rates: &'a [f64],
     rates: &'a mut [f64],
     between: Deflection<f64>,
     motion: &'a Kinematics<f64>,
@@ -203,6 +215,7 @@ impl<'a> AtRest<'a> {
                 lever_arm_m: 1.0,
             },
             own,
+            own_rates: own,
             rates,
             between: Deflection {
                 x_m: 0.0,
@@ -261,6 +274,11 @@ impl AnsweredHooks {
     /// Whether nothing but what is measured changes.
     pub fn are_of_sensors(&self) -> bool {
         self.asked_of_sensors() && !self.asked_at_every_stage() && !self.asked_once()
+    }
+
+    /// Whether what is measured of the motion differs from it.
+    pub fn are_heard_by_sensors(&self) -> bool {
+        self.asked_of_sensors()
     }
 
     /// Whether there are any.

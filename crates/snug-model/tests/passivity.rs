@@ -48,10 +48,24 @@ fn moderate(spec: &ParameterSpec) -> f64 {
     }
 }
 
+/// What is mechanical and yet may give back more than was put in since the window began, each for its reason.
+const NOT_PASSIVE: [Effect; 4] = [
+    // What is measured moves otherwise than what is driven: torque times its velocity is no work.
+    Effect::SecondMode,
+    // The hand holds against it from before, with a force that then does work.
+    Effect::TorqueRipple,
+    // A weight may come down that was up before.
+    Effect::GravityTorque,
+    // Less friction one way is less of the base model's.
+    Effect::AsymmetricViscousFriction,
+];
+
 /// Once where nothing but the effect can dissipate, once with a damper for the laws that act through it.
 #[test]
 fn passive_laws_never_give_back_more_than_they_took() {
-    let mechanical = |effect: &&Effect| effect.description().kind == Kind::Mechanical;
+    let mechanical = |effect: &&Effect| {
+        effect.description().kind == Kind::Mechanical && !NOT_PASSIVE.contains(effect)
+    };
     for &effect in Effect::ALL.iter().filter(mechanical) {
         let specs = effect.description().parameters;
         let own: Vec<f64> = specs.iter().map(moderate).collect();

@@ -70,6 +70,12 @@ pub enum HiddenEffect {
     CentripetalCrosstalk,
     /// a + γ sin θ; γ \[rad/s²\].
     GravityLeakage,
+    /// F += f0 (e^{|x|/x0} − 1) sgn x, tissue that stiffens as it is stretched; f0 \[N\], x0 \[m\].
+    ExponentialStiffness,
+    /// F += (F_c + (F_s − F_c) e^{−(v/v_1)²}) tanh(v/v_s); F_c \[N\], F_s \[N\], v_1 \[m/s\], v_s \[m/s\].
+    StribeckFriction,
+    /// F += a_s sin(2π x/λ) + a_c (cos(2π x/λ) − 1); a_s \[N\], a_c \[N\], λ \[m\].
+    TorqueRipple,
     /// (1 + g) T is logged, exactly invisible; g.
     TorqueGain,
     /// l (1 + e) is the true lever arm, exactly invisible; e.
@@ -87,8 +93,6 @@ pub enum HiddenEffect {
     CubicDamping,
     /// F += k5 x⁵ (unlisted); k5 \[N/m⁵\].
     QuinticStiffness,
-    /// F += f0 (e^{x/x0} − 1 − x/x0), tissue that stiffens as it is stretched (unlisted); f0 \[N\], x0 \[m\].
-    ExponentialStiffness,
     /// F += k_s max(0, x − x_s), the grip meets something that gives way less (unlisted); k_s \[N/m\], x_s \[m\].
     EndStop,
 }
@@ -111,7 +115,7 @@ impl Law {
 
 impl HiddenEffect {
     /// Every effect with its fixed name, in the order of declaration: the catalogue's, then the unlisted laws.
-    pub const ALL: [(Self, &str); 33] = [
+    pub const ALL: [(Self, &str); 35] = [
         (Self::CubicStiffness, "cubic_stiffness"),
         (Self::QuadraticStiffness, "quadratic_stiffness"),
         (Self::CoulombFriction, "coulomb_friction"),
@@ -135,6 +139,9 @@ impl HiddenEffect {
         (Self::OutputOffset, "output_offset"),
         (Self::CentripetalCrosstalk, "centripetal_crosstalk"),
         (Self::GravityLeakage, "gravity_leakage"),
+        (Self::ExponentialStiffness, "exponential_stiffness"),
+        (Self::StribeckFriction, "stribeck_friction"),
+        (Self::TorqueRipple, "torque_ripple"),
         (Self::TorqueGain, "torque_gain"),
         (Self::LeverArmError, "lever_arm_error"),
         (Self::Fatigue, "fatigue"),
@@ -143,7 +150,6 @@ impl HiddenEffect {
         (Self::PositionFriction, "position_friction"),
         (Self::CubicDamping, "cubic_damping"),
         (Self::QuinticStiffness, "quintic_stiffness"),
-        (Self::ExponentialStiffness, "exponential_stiffness"),
         (Self::EndStop, "end_stop"),
     ];
 
@@ -214,6 +220,13 @@ impl HiddenEffect {
             Self::PositionFriction => vec![800.0 * strength, FRICTION_SPEED_M_PER_S],
             Self::CubicDamping => vec![200.0 * strength],
             Self::QuinticStiffness => vec![4.0e9 * strength],
+            Self::StribeckFriction => vec![
+                4.0 * strength,
+                12.0 * strength,
+                0.08,
+                FRICTION_SPEED_M_PER_S,
+            ],
+            Self::TorqueRipple => vec![8.0 * strength, 4.0 * strength, 0.006],
             Self::ExponentialStiffness => vec![8.0 * strength, STIFFENING_M],
             Self::EndStop => vec![5000.0 * strength, STOP_M],
         }

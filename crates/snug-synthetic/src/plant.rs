@@ -4,12 +4,13 @@ use crate::HiddenEffect::{
     AccelerationLag, Backlash, BoucWen, CoContraction, CoulombFriction, CubicDamping,
     CubicStiffness, DirectionalDamping, EndStop, ExponentialStiffness, GripSlip, InitialMotion,
     MaxwellBranch, PositionFriction, QuadraticDamping, QuadraticStiffness, QuinticStiffness,
-    SecondMass, StretchReflex, TorqueDelay, TorqueDependentStiffness, TorqueLag, VoluntaryPush,
-    X2vDamping, XvDamping,
+    SecondMass, StretchReflex, StribeckFriction, TorqueDelay, TorqueDependentStiffness, TorqueLag,
+    TorqueRipple, VoluntaryPush, X2vDamping, XvDamping,
 };
 use crate::history::History;
 use crate::pulse::smooth_step;
 use crate::{HandArm, HiddenEffect, Law, Pulse};
+use std::f64::consts::TAU;
 
 /// Number of states of a [`Plant`].
 pub(crate) const STATES: usize = 8;
@@ -167,7 +168,14 @@ impl Plant {
             (PositionFriction, [mu, v_s]) => mu * x.abs() * (v / v_s).tanh(),
             (CubicDamping, [d]) => d * v * v * v,
             (QuinticStiffness, [k5]) => k5 * x.powi(5),
-            (ExponentialStiffness, [f0, x0]) => f0 * ((x / x0).exp_m1() - x / x0),
+            (ExponentialStiffness, [f0, x0]) => f0 * (x.abs() / x0).exp_m1() * x.signum(),
+            (StribeckFriction, [fc, fs, v_1, v_s]) => {
+                (fc + (fs - fc) * (-(v / v_1).powi(2)).exp()) * (v / v_s).tanh()
+            }
+            (TorqueRipple, [a_s, a_c, wavelength]) => {
+                let phase = TAU * x / wavelength;
+                a_s * phase.sin() + a_c * (phase.cos() - 1.0)
+            }
             (EndStop, [k_s, x_s]) => k_s * (x - x_s).max(0.0),
             _ => 0.0,
         }

@@ -68,7 +68,7 @@ fn every_law_moves_the_tool_as_scipy_says() {
         .collect();
     let effects: BTreeSet<&str> = rows.iter().map(|row| row[0]).collect();
     // All laws that change the motion or a channel's timing; the others are sums that `channels.rs` checks.
-    assert_eq!(effects.len(), 24);
+    assert_eq!(effects.len(), 26);
     for effect in effects {
         let trajectory = Trajectory::of(&plant(effect), 0.0, 1e-4, 3001);
         for row in rows.iter().filter(|row| row[0] == effect) {

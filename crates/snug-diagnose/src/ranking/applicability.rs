@@ -4,9 +4,11 @@ use crate::data::cases::is_machine;
 use crate::error::DiagnoseError;
 use crate::library::terms;
 use crate::pooled::fitted::Fitted;
+use crate::ranking::thresholds::FEW_TURNS;
 use snug_campaign::Quantity;
 use snug_identify::FitTask;
-use snug_model::{Effect, Kind, Law};
+use snug_model::{ActsOn, Effect, Kind, Law};
+use std::f64::consts::TAU;
 
 /// The effects that may be missing beside `current`.
 pub(crate) fn candidates(
@@ -24,6 +26,10 @@ pub(crate) fn candidates(
     all.retain(|effect| !(only_this && effect.same_as(compared).is_some()));
     all.extend(custom);
     all.extend(terms(is_machine(case))?);
+    // A weight on an arm is told by the catalogue where it knows how to.
+    if all.contains(&Effect::GravityTorque) {
+        all.retain(|effect| effect.name() != "sine_law");
+    }
     all.retain(|effect| !current.effects.contains(effect));
     // What a simulation cannot carry beside the effects that are there is no candidate.
     all.retain(|&effect| {
@@ -35,17 +41,33 @@ pub(crate) fn candidates(
 
 /// Whether `effect` could be what a measurement like `case` shows.
 ///
-/// A machine has no muscles and nerves; what an accelerometer does wrong is not in a displacement that was measured by
-/// itself; and a simulation that takes up the measured motion begins with it.
+/// Every effect says on which rigs it acts; a machine has no muscles and nerves; what an accelerometer does wrong is not in a
+/// displacement that was measured by itself; and a simulation that takes up the measured motion begins with it.
 fn can_act(effect: Effect, case: &FitTask<'_>) -> bool {
     let description = effect.description();
     let has_accelerometer = case.quantity() == Quantity::Acceleration
         || case.tightening.motion.acceleration_rad_per_s2.is_some();
     let is_set = effect.sets_initial_motion() && case.input.is_restarted();
+    let is_here = match description.acts_on {
+        ActsOn::Hands => !is_machine(case),
+        ActsOn::Machines => is_machine(case),
+        ActsOn::MachinesOfFewTurns => is_machine(case) && makes_few_turns(case),
+        _ => true,
+    };
     let is_of_another = match description.kind {
         Kind::Muscular => is_machine(case),
         Kind::Measurement => !has_accelerometer && description.of_accelerometer(),
         _ => false,
     };
-    !is_of_another && !is_set
+    is_here && !is_of_another && !is_set
+}
+
+/// Whether the measured angle stays within a few turns; where none was measured, nobody knows.
+fn makes_few_turns(case: &FitTask<'_>) -> bool {
+    let angle_rad = case.tightening.motion.get(Quantity::Displacement);
+    let finite = angle_rad.into_iter().flatten().filter(|a| a.is_finite());
+    let reached = finite
+        .map(|&a| (a, a))
+        .reduce(|(low, high), (a, _)| (low.min(a), high.max(a)));
+    reached.is_some_and(|(low, high)| high - low < FEW_TURNS * TAU)
 }

@@ -12,6 +12,7 @@ use crate::ranking::sensitivity::Column;
 use crate::ranking::thresholds::{
     CANDIDATE, FEW, FREELY, LED, LED_REACH, LEFT_BEHIND, LITTLE, MOST_ROUNDS, ROUGH_REFIT,
 };
+use crate::ranking::wavelengths;
 use crate::settings::DiagnoseSettings;
 use snug_identify::{FitTask, HALF_WIDTHS, SIDE_BY_SIDE};
 use snug_least_squares::{PooledFit, PooledSettings, SolveError};
@@ -29,15 +30,15 @@ pub(crate) fn refit(
 ) -> Result<Fitted, DiagnoseError> {
     let mut effects = current.effects.clone();
     effects.push(effect);
+    let read_off = wavelengths::starts(cases, current, effect);
     // A term describes; which of its starts promises most is near enough to begin with.
-    let most = if is_unlisted(effect) {
-        1
-    } else {
-        settings.starts
+    let most = match is_unlisted(effect) || !read_off.is_empty() {
+        true => 1,
+        false => settings.starts,
     };
     let starts = promising(effect, columns, most);
     let mut pooled = PooledModel::new(cases, &effects)?;
-    let starts: Vec<Start> = (starts.iter())
+    let starts: Vec<Start> = (read_off.iter().map(Vec::as_slice).chain(starts))
         .map(|values| with_effect(&pooled, current, effect, values))
         .collect();
     let end = match starts.as_slice() {

@@ -56,3 +56,21 @@ pub(crate) const LEFT_BEHIND: f64 = 1.15;
 pub(crate) const LITTLE: f64 = 1e-3;
 /// Times that those who were left behind are fetched: with them the shared sizes move, and others may see the way. Chosen.
 pub(crate) const MOST_ROUNDS: usize = 3;
+/// Turns, from the smallest angle to the largest, up to which a weight on an arm is told by its angle: over more it is a ripple of
+/// one turn, and gearing as likely as gravity \[–\]. Chosen.
+pub(crate) const FEW_TURNS: f64 = 3.0;
+/// Samples to either side over which balances of torques are averaged to read off wavelengths: the shortest does not average
+/// out what comes fast, the longest takes most noise off a second derivative. Chosen.
+pub(crate) const HALF_WIDTHS_OF_BALANCE: [usize; 4] = [3, 9, 27, 81];
+/// Places of all tightenings together at which that balance is drawn up. Chosen.
+pub(crate) const SAMPLES_OF_BALANCE: usize = 6000;
+/// Wavelengths that are tried, at most, the longest first. Chosen.
+pub(crate) const WAVELENGTHS: usize = 2000;
+/// Steps of the wave number while one more wave fits into the way: a peak is about two of half waves wide \[–\]. Chosen.
+pub(crate) const PER_WAVE: f64 = 5.0;
+/// Parts of such a step in which the place of a peak is looked up. Chosen.
+pub(crate) const FINER: usize = 8;
+/// Wavelengths that are read off, the most promising. Chosen.
+pub(crate) const PEAKS: usize = 3;
+/// Parts of a wave between which its force is taken as straight, where wavelengths are read off. Chosen.
+pub(crate) const PARTS_OF_A_WAVE: usize = 128;

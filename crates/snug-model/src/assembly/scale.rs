@@ -114,6 +114,7 @@ impl Scale {
                 "m" => length,
                 "rad" => angle,
                 "s" => time,
+                "Hz" => 1.0 / time,
                 "kg" => force * time * time / length,
                 _ => return None,
             })
@@ -181,6 +182,8 @@ mod tests {
             ("1/Nm", 0.5),
             ("rad/s^2", 1.0),
             ("s", 2.0),
+            ("Hz", 0.5),
+            ("1/kg", 2.0),
             ("1", 1.0),
         ] {
             let factor = SCALE.factor(unit, RIG.lever_arm_m).unwrap();
@@ -197,7 +200,7 @@ mod tests {
                 let known = SCALE.factor(spec.unit, 1.0).is_some() || spec.unit == "output unit";
                 assert!(
                     known,
-                    "{}: nobody knows the unit `{}`; write it in N, Nm, m, rad, s, kg and 1, or add its symbol to `Scale::factor`",
+                    "{}: nobody knows the unit `{}`; write it in N, Nm, m, rad, s, Hz, kg and 1, or add its symbol to `Scale::factor`",
                     effect.name(),
                     spec.unit
                 );

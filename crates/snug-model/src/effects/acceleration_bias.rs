@@ -9,7 +9,7 @@
 //!
 //! Source: sensor zero offset, temperature drift.
 
-use crate::description::{Description, Kind, ParameterSpec, Scope, state};
+use crate::description::{ActsOn, Description, Kind, ParameterSpec, Scope, state};
 use crate::law::{Kinematics, Law};
 use crate::numeric::number::Number;
 
@@ -25,6 +25,7 @@ impl Law for AccelerationBias {
         &Description {
             name: "acceleration_bias",
             kind: Kind::Measurement,
+            acts_on: ActsOn::Anything,
             summary: SUMMARY,
             equation: EQUATION,
             parameters: &[ParameterSpec {

@@ -7,7 +7,7 @@
 //!
 //! Source: low-pass filter of the accelerometer.
 
-use crate::description::{Description, Kind, ParameterSpec, Scope, state};
+use crate::description::{ActsOn, Description, Kind, ParameterSpec, Scope, state};
 use crate::law::Law;
 use crate::numeric::number::Number;
 
@@ -23,6 +23,7 @@ impl Law for AccelerationLag {
         &Description {
             name: "acceleration_lag",
             kind: Kind::Measurement,
+            acts_on: ActsOn::Anything,
             summary: SUMMARY,
             equation: EQUATION,
             parameters: &[ParameterSpec {

@@ -14,7 +14,7 @@
 //!
 //! Source: dead zone with contact damping.
 
-use crate::description::{Description, Kind, ParameterSpec, Scope, state};
+use crate::description::{ActsOn, Description, Kind, ParameterSpec, Scope, state};
 use crate::law::{Deflection, Law};
 use crate::numeric::number::Number;
 
@@ -35,6 +35,7 @@ impl Law for Backlash {
         &Description {
             name: "backlash",
             kind: Kind::Mechanical,
+            acts_on: ActsOn::Anything,
             summary: SUMMARY,
             equation: EQUATION,
             parameters: &[ParameterSpec {

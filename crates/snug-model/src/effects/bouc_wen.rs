@@ -12,7 +12,7 @@
 //!
 //! Source: Bouc (1967) and Wen (1976) with n = 1, β = γ.
 
-use crate::description::{Description, Kind, ParameterSpec, Scope, state};
+use crate::description::{ActsOn, Description, Kind, ParameterSpec, Scope, state};
 use crate::law::{Instant, Law};
 use crate::numeric::number::Number;
 use crate::numeric::real::Real;
@@ -29,6 +29,7 @@ impl Law for BoucWen {
         &Description {
             name: "bouc_wen",
             kind: Kind::Mechanical,
+            acts_on: ActsOn::Anything,
             summary: SUMMARY,
             equation: EQUATION,
             parameters: &[

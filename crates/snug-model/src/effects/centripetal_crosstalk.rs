@@ -9,7 +9,7 @@
 //!
 //! Source: transverse sensitivity and mounting of the accelerometer.
 
-use crate::description::{Description, Kind, ParameterSpec, Scope, state};
+use crate::description::{ActsOn, Description, Kind, ParameterSpec, Scope, state};
 use crate::law::{Instant, Kinematics, Law};
 use crate::numeric::number::Number;
 
@@ -25,6 +25,7 @@ impl Law for CentripetalCrosstalk {
         &Description {
             name: "centripetal_crosstalk",
             kind: Kind::Measurement,
+            acts_on: ActsOn::Anything,
             summary: SUMMARY,
             equation: EQUATION,
             parameters: &[ParameterSpec {

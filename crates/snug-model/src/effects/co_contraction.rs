@@ -8,7 +8,7 @@
 //!
 //! Source: antagonist co-activation raises joint stiffness (Hogan 1984).
 
-use crate::description::{Description, Kind, ParameterSpec, Scope, state};
+use crate::description::{ActsOn, Description, Kind, ParameterSpec, Scope, state};
 use crate::law::{Instant, Law};
 use crate::numeric::number::Number;
 use crate::reaction;
@@ -25,6 +25,7 @@ impl Law for CoContraction {
         &Description {
             name: "co_contraction",
             kind: Kind::Muscular,
+            acts_on: ActsOn::Anything,
             summary: SUMMARY,
             equation: EQUATION,
             parameters: &[

@@ -7,7 +7,7 @@
 //!
 //! Source: Coulomb friction, smoothed as usual in identification so that it is differentiable.
 
-use crate::description::{Description, Kind, ParameterSpec, Scope, state};
+use crate::description::{ActsOn, Description, Kind, ParameterSpec, Scope, state};
 use crate::law::{Instant, Law};
 use crate::numeric::number::Number;
 
@@ -26,6 +26,7 @@ impl Law for CoulombFriction {
         &Description {
             name: "coulomb_friction",
             kind: Kind::Mechanical,
+            acts_on: ActsOn::Anything,
             summary: SUMMARY,
             equation: EQUATION,
             parameters: &[ParameterSpec {
@@ -40,7 +41,7 @@ impl Law for CoulombFriction {
                 scope: Scope::Shared,
             }],
             states: &[],
-            twins: &["quadratic_damping"],
+            twins: &["quadratic_damping", "stribeck_friction"],
             excited_by: "any motion; relatively strongest in weak pulses",
             shows_as: "misfit that follows the sign of the velocity, with a step at every reversal",
             check: "Move the handle slowly by hand with the tool off and feel or measure whether it needs a small force to move at all: look for rubbing sleeves, cables, hoses and the suspension.",

@@ -9,7 +9,7 @@
 //!
 //! Source: Duffing oscillator; muscle and tissue stiffening with stretch.
 
-use crate::description::{Description, Kind, ParameterSpec, Scope, state};
+use crate::description::{ActsOn, Description, Kind, ParameterSpec, Scope, state};
 use crate::law::{Instant, Law};
 use crate::numeric::number::Number;
 
@@ -25,6 +25,7 @@ impl Law for CubicStiffness {
         &Description {
             name: "cubic_stiffness",
             kind: Kind::Mechanical,
+            acts_on: ActsOn::Anything,
             summary: SUMMARY,
             equation: EQUATION,
             parameters: &[ParameterSpec {

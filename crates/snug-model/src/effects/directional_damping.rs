@@ -8,7 +8,7 @@
 //!
 //! Source: muscle resists lengthening and shortening differently (Hill's force–velocity relation).
 
-use crate::description::{Description, Kind, ParameterSpec, Scope, state};
+use crate::description::{ActsOn, Description, Kind, ParameterSpec, Scope, state};
 use crate::law::{Instant, Law};
 use crate::numeric::number::Number;
 use crate::numeric::real::Real;
@@ -25,6 +25,7 @@ impl Law for DirectionalDamping {
         &Description {
             name: "directional_damping",
             kind: Kind::Mechanical,
+            acts_on: ActsOn::Hands,
             summary: SUMMARY,
             equation: EQUATION,
             parameters: &[ParameterSpec {

@@ -8,7 +8,7 @@
 //!
 //! Source: muscle stiffness falls and posture sags as muscles tire.
 
-use crate::description::{Description, Kind, ParameterSpec, Scope};
+use crate::description::{ActsOn, Description, Kind, ParameterSpec, Scope};
 
 const fn slope(name: &'static str, meaning: &'static str) -> ParameterSpec {
     ParameterSpec {
@@ -28,6 +28,7 @@ const fn slope(name: &'static str, meaning: &'static str) -> ParameterSpec {
 pub const DESCRIPTION: Description = Description {
     name: "fatigue",
     kind: Kind::Trend,
+    acts_on: ActsOn::Anything,
     summary: "The arm tires: mass, damping and stiffness drift from one tightening to the next.",
     equation: "m (1 + s_m n), c (1 + s_c n), k (1 + s_k n),  n: the tightening's number",
     parameters: &[

@@ -9,7 +9,7 @@
 //!
 //! Source: static sensitivity of accelerometers.
 
-use crate::description::{Description, Kind, ParameterSpec, Scope, state};
+use crate::description::{ActsOn, Description, Kind, ParameterSpec, Scope, state};
 use crate::law::{Instant, Kinematics, Law};
 use crate::numeric::number::Number;
 
@@ -25,6 +25,7 @@ impl Law for GravityLeakage {
         &Description {
             name: "gravity_leakage",
             kind: Kind::Measurement,
+            acts_on: ActsOn::Anything,
             summary: SUMMARY,
             equation: EQUATION,
             parameters: &[ParameterSpec {

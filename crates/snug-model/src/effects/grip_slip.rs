@@ -8,7 +8,7 @@
 //!
 //! Source: limit of friction in the grip, smoothed.
 
-use crate::description::{Description, Kind, ParameterSpec, Scope, state};
+use crate::description::{ActsOn, Description, Kind, ParameterSpec, Scope, state};
 use crate::law::Law;
 use crate::numeric::number::Number;
 
@@ -24,6 +24,7 @@ impl Law for GripSlip {
         &Description {
             name: "grip_slip",
             kind: Kind::Mechanical,
+            acts_on: ActsOn::Hands,
             summary: SUMMARY,
             equation: EQUATION,
             parameters: &[ParameterSpec {

@@ -8,7 +8,7 @@
 //!
 //! Source: preceding tightening, posture.
 
-use crate::description::{Description, Kind, ParameterSpec, Scope, state};
+use crate::description::{ActsOn, Description, Kind, ParameterSpec, Scope, state};
 use crate::law::Law;
 use crate::numeric::number::Number;
 
@@ -24,6 +24,7 @@ impl Law for InitialMotion {
         &Description {
             name: "initial_motion",
             kind: Kind::Measurement,
+            acts_on: ActsOn::Anything,
             summary: SUMMARY,
             equation: EQUATION,
             parameters: &[

@@ -8,7 +8,7 @@
 //!
 //! Source: standard linear solid (Zener); tissue relaxation.
 
-use crate::description::{Description, Kind, ParameterSpec, Scope, state};
+use crate::description::{ActsOn, Description, Kind, ParameterSpec, Scope, state};
 use crate::law::{Instant, Law};
 use crate::numeric::number::Number;
 
@@ -24,6 +24,7 @@ impl Law for MaxwellBranch {
         &Description {
             name: "maxwell_branch",
             kind: Kind::Mechanical,
+            acts_on: ActsOn::Anything,
             summary: SUMMARY,
             equation: EQUATION,
             parameters: &[

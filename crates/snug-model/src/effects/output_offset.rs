@@ -7,7 +7,7 @@
 //!
 //! Source: sensor zero of the output channel.
 
-use crate::description::{Description, Kind, ParameterSpec, Scope, state};
+use crate::description::{ActsOn, Description, Kind, ParameterSpec, Scope, state};
 use crate::law::{Kinematics, Law};
 use crate::numeric::number::Number;
 use snug_campaign::Quantity;
@@ -24,6 +24,7 @@ impl Law for OutputOffset {
         &Description {
             name: "output_offset",
             kind: Kind::Measurement,
+            acts_on: ActsOn::Anything,
             summary: SUMMARY,
             equation: EQUATION,
             parameters: &[ParameterSpec {

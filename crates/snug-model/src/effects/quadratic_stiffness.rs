@@ -8,7 +8,7 @@
 //!
 //! Source: asymmetric restoring force (Nayfeh and Mook, Nonlinear Oscillations, 1979).
 
-use crate::description::{Description, Kind, ParameterSpec, Scope, state};
+use crate::description::{ActsOn, Description, Kind, ParameterSpec, Scope, state};
 use crate::law::{Instant, Law};
 use crate::numeric::number::Number;
 
@@ -24,6 +24,7 @@ impl Law for QuadraticStiffness {
         &Description {
             name: "quadratic_stiffness",
             kind: Kind::Mechanical,
+            acts_on: ActsOn::Anything,
             summary: SUMMARY,
             equation: EQUATION,
             parameters: &[ParameterSpec {

@@ -13,7 +13,7 @@
 //!
 //! Source: two-degree-of-freedom hand–arm models (ISO 10068).
 
-use crate::description::{Description, Kind, ParameterSpec, Scope, state};
+use crate::description::{ActsOn, Description, Kind, ParameterSpec, Scope, state};
 use crate::law::{Deflection, Instant, Law};
 use crate::numeric::number::Number;
 
@@ -29,6 +29,7 @@ impl Law for SecondMass {
         &Description {
             name: "second_mass",
             kind: Kind::Mechanical,
+            acts_on: ActsOn::Anything,
             summary: SUMMARY,
             equation: EQUATION,
             parameters: &[

@@ -9,7 +9,7 @@
 //!
 //! Source: short- and long-latency stretch reflexes of the arm, 25–50 ms and 50–100 ms.
 
-use crate::description::{Description, Kind, ParameterSpec, Scope, state};
+use crate::description::{ActsOn, Description, Kind, ParameterSpec, Scope, state};
 use crate::law::{Delayed, Law};
 use crate::numeric::number::Number;
 
@@ -25,6 +25,7 @@ impl Law for StretchReflex {
         &Description {
             name: "stretch_reflex",
             kind: Kind::Muscular,
+            acts_on: ActsOn::Anything,
             summary: SUMMARY,
             equation: EQUATION,
             parameters: &[

@@ -8,7 +8,7 @@
 //!
 //! Source: channel timing of separate amplifiers and filters.
 
-use crate::description::{Description, Kind, ParameterSpec, Scope, state};
+use crate::description::{ActsOn, Description, Kind, ParameterSpec, Scope, state};
 use crate::law::{Law, LoggedTorque};
 use crate::numeric::number::Number;
 
@@ -24,6 +24,7 @@ impl Law for TorqueDelay {
         &Description {
             name: "torque_delay",
             kind: Kind::Measurement,
+            acts_on: ActsOn::Anything,
             summary: SUMMARY,
             equation: EQUATION,
             parameters: &[ParameterSpec {

@@ -7,7 +7,7 @@
 //!
 //! Source: grip force, and stiffness with it, rises with the load.
 
-use crate::description::{Description, Kind, ParameterSpec, Scope, state};
+use crate::description::{ActsOn, Description, Kind, ParameterSpec, Scope, state};
 use crate::law::{Instant, Law};
 use crate::numeric::number::Number;
 
@@ -23,6 +23,7 @@ impl Law for TorqueDependentStiffness {
         &Description {
             name: "torque_dependent_stiffness",
             kind: Kind::Muscular,
+            acts_on: ActsOn::Anything,
             summary: SUMMARY,
             equation: EQUATION,
             parameters: &[ParameterSpec {

@@ -8,7 +8,7 @@
 //!
 //! Source: low-pass filter of the torque channel.
 
-use crate::description::{Description, Kind, ParameterSpec, Scope, state};
+use crate::description::{ActsOn, Description, Kind, ParameterSpec, Scope, state};
 use crate::law::{Law, LoggedTorque};
 use crate::numeric::number::Number;
 
@@ -24,6 +24,7 @@ impl Law for TorqueLag {
         &Description {
             name: "torque_lag",
             kind: Kind::Measurement,
+            acts_on: ActsOn::Anything,
             summary: SUMMARY,
             equation: EQUATION,
             parameters: &[ParameterSpec {

@@ -7,7 +7,7 @@
 //!
 //! Source: sensor zero offset.
 
-use crate::description::{Description, Kind, ParameterSpec, Scope, state};
+use crate::description::{ActsOn, Description, Kind, ParameterSpec, Scope, state};
 use crate::law::{Law, LoggedTorque};
 use crate::numeric::number::Number;
 
@@ -23,6 +23,7 @@ impl Law for TorqueOffset {
         &Description {
             name: "torque_offset",
             kind: Kind::Measurement,
+            acts_on: ActsOn::Anything,
             summary: SUMMARY,
             equation: EQUATION,
             parameters: &[ParameterSpec {

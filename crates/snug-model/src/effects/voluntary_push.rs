@@ -7,7 +7,7 @@
 //!
 //! Source: voluntary reaction, 100 ms and more after the stimulus.
 
-use crate::description::{Description, Kind, ParameterSpec, Scope, state};
+use crate::description::{ActsOn, Description, Kind, ParameterSpec, Scope, state};
 use crate::law::{Instant, Law};
 use crate::numeric::number::Number;
 use crate::reaction;
@@ -24,6 +24,7 @@ impl Law for VoluntaryPush {
         &Description {
             name: "voluntary_push",
             kind: Kind::Muscular,
+            acts_on: ActsOn::Anything,
             summary: SUMMARY,
             equation: EQUATION,
             parameters: &[

@@ -10,7 +10,7 @@ use crate::numeric::real::{Real, Task};
 use crate::simulate::acting_torque::ActingTorque;
 use crate::simulate::inputs::SimulationInputs;
 use crate::simulate::runge_kutta;
-use crate::simulate::sensors::Sensors;
+use crate::simulate::sensors::{Moment, Sensors};
 use crate::simulate::zeroed::Zeroed;
 
 impl Assembly {
@@ -64,7 +64,7 @@ struct Prepared<'a, N: Number, F> {
 impl<'a, N: Number, F: FnMut(usize, &Kinematics<N>)> Prepared<'a, N, F> {
     /// What is done with the true motion of every sample: the sensors see it, and `sample` gets what they show.
     #[inline(always)]
-    fn seen(self) -> impl FnMut(usize, Kinematics<N>) + use<'a, N, F> {
+    fn seen(self) -> impl FnMut(usize, &Moment<'_, N>) + use<'a, N, F> {
         let Self {
             assembly,
             p,
@@ -75,8 +75,8 @@ impl<'a, N: Number, F: FnMut(usize, &Kinematics<N>)> Prepared<'a, N, F> {
         let mut sensors = Sensors::new(assembly, p, inputs, acting_torque);
         let mut zeroed = sensors.are_heard().then(|| Zeroed::new(inputs)).flatten();
         #[inline(always)]
-        move |index, motion| {
-            let seen = sensors.sample(index, motion);
+        move |index, moment: &Moment<'_, N>| {
+            let seen = sensors.sample(index, moment);
             match &mut zeroed {
                 Some(zeroed) => zeroed.sample(index, seen, &mut sample),
                 None => sample(index, &seen),
@@ -102,7 +102,18 @@ impl<N: Number, F: FnMut(usize, &Kinematics<N>)> Task for Exact<'_, N, F> {
             &Assembly::oscillator(&values, inputs),
             inputs,
             #[inline(always)]
-            |index, response| seen(index, with_slopes(response, &base)),
+            |index, response| {
+                let motion = with_slopes(response, &base);
+                let (own, own_rates) = (&[][..], &[][..]);
+                seen(
+                    index,
+                    &Moment {
+                        motion,
+                        own,
+                        own_rates,
+                    },
+                );
+            },
         );
     }
 }

@@ -9,6 +9,7 @@ use crate::numeric::number::Number;
 use crate::simulate::acting_torque::ActingTorque;
 use crate::simulate::inputs::SimulationInputs;
 use crate::simulate::plant::{Plant, initial_motion};
+use crate::simulate::sensors::{Moment, moves_elsewhere, relative_motion};
 
 const ENDS: f64 = 1.0 / 6.0;
 const MIDDLE: f64 = 1.0 / 3.0;
@@ -22,7 +23,7 @@ const STAGES: [(f64, f64, f64); 4] = [
 ];
 
 /// Simulates from rest (or the effects' initial motion, or again and again from the input's restarts) and hands every
-/// sample's true motion to `sample`.
+/// sample's true motion and the effects' own states to `sample`.
 ///
 /// `p` are all parameters of the assembly in its order.
 ///
@@ -36,7 +37,7 @@ pub fn respond<N: Number>(
     p: &[N],
     inputs: &SimulationInputs<'_, N::Real>,
     acting_torque: &ActingTorque<'_, N>,
-    mut sample: impl FnMut(usize, Kinematics<N>),
+    mut sample: impl FnMut(usize, &Moment<'_, N>),
 ) {
     let (h, lever, zero) = (inputs.interval_s, inputs.lever_arm_m, N::from(inputs.zero));
     let per_lever = inputs.zero.constant(1.0) / lever;
@@ -59,9 +60,9 @@ pub fn respond<N: Number>(
     let (mut torque, mut index) = (acting_torque.at(0), 0);
     for point in 0..points {
         if let Some(restart) = inputs.restart_at(point) {
-            let [angle, velocity] = restart.motion;
-            x = N::select(restart.lanes, N::from(angle * lever), x);
-            v = N::select(restart.lanes, N::from(velocity * lever), v);
+            let [angle, velocity] = driven(assembly, p, restart.motion, &at, &own[..states]);
+            x = N::select(restart.lanes, angle.times(lever), x);
+            v = N::select(restart.lanes, velocity.times(lever), v);
         }
         plant.note(x, v);
         let next = acting_torque.at((point + 1).min(last));
@@ -80,7 +81,12 @@ pub fn respond<N: Number>(
             let acceleration =
                 plant.rates(position, &at, &own_at[..states], &mut own_rates[..states]);
             if stage == 0 && point == index * inputs.substeps {
-                sample(index, of_tool(x, v, acceleration, per_lever));
+                let moment = Moment {
+                    motion: of_tool(x, v, acceleration, per_lever),
+                    own: &own[..states],
+                    own_rates: &own_rates[..states],
+                };
+                sample(index, &moment);
                 index += 1;
             }
             if point == last {
@@ -100,6 +106,32 @@ pub fn respond<N: Number>(
         own[..states].copy_from_slice(&own_after[..states]);
         torque = next;
     }
+}
+
+/// Angle \[rad\] and velocity \[rad/s\] of what is driven, where `measured` are those of what is measured.
+#[inline(always)]
+fn driven<N: Number>(
+    assembly: &Assembly,
+    p: &[N],
+    measured: [N::Real; 2],
+    at: &Instant<N>,
+    own: &[N],
+) -> [N; 2] {
+    let [angle, velocity] = measured.map(N::from);
+    let parts = assembly.parts();
+    if !moves_elsewhere(parts) {
+        return [angle, velocity];
+    }
+    let moment = Moment {
+        motion: of_tool(at.x_m, at.v_m_per_s, at.x_m, at.lever_arm_m),
+        own,
+        own_rates: own,
+    };
+    let beside = relative_motion(parts, p, at, &moment);
+    [
+        angle - beside.displacement_rad,
+        velocity - beside.velocity_rad_per_s,
+    ]
 }
 
 /// The tool's motion when the grip has displacement `x`, velocity `v` and this acceleration; `per_lever` is 1/l.

@@ -7,12 +7,25 @@ use crate::simulate::accelerometer::Accelerometer;
 use crate::simulate::acting_torque::{ActingTorque, with_added_torque};
 use crate::simulate::inputs::SimulationInputs;
 
+/// The motion of the tool at one sample, and the effects' own states there with their rates.
+#[derive(Debug, Clone, Copy)]
+pub struct Moment<'s, N> {
+    /// θ, ω, α of the tool.
+    pub motion: Kinematics<N>,
+    /// The effects' own states; none where they have none.
+    pub own: &'s [N],
+    /// Their rates.
+    pub own_rates: &'s [N],
+}
+
 /// From the true motion to the measured one: cross-sensitivities and lag of the accelerometer, then what is added to its signals.
 pub struct Sensors<'a, N: Number> {
     parts: &'a [Part],
     p: &'a [N],
     inputs: &'a SimulationInputs<'a, N::Real>,
     acting_torque: &'a ActingTorque<'a, N>,
+    /// Whether what is measured moves otherwise than what is driven.
+    is_elsewhere: bool,
     /// Absent when no effect of the assembly needs it.
     accelerometer: Option<Accelerometer<N>>,
 }
@@ -37,6 +50,7 @@ impl<'a, N: Number> Sensors<'a, N> {
             p,
             inputs,
             acting_torque,
+            is_elsewhere: moves_elsewhere(assembly.parts()),
             accelerometer: None,
         };
         let lag = sensors.total(
@@ -52,7 +66,12 @@ impl<'a, N: Number> Sensors<'a, N> {
 
     /// The measured motion of the next sample, which is number `index`.
     #[inline(always)]
-    pub fn sample(&mut self, index: usize, motion: Kinematics<N>) -> Kinematics<N> {
+    pub fn sample(&mut self, index: usize, moment: &Moment<'_, N>) -> Kinematics<N> {
+        let mut motion = moment.motion;
+        if self.is_elsewhere {
+            let at = self.instant(index, &motion);
+            motion = motion.plus(&relative_motion(self.parts, self.p, &at, moment));
+        }
         let mut seen = motion;
         if self.accelerometer.is_some() {
             let cross_sensitivity = self.cross_sensitivity(index, &motion);
@@ -70,7 +89,9 @@ impl<'a, N: Number> Sensors<'a, N> {
 
     /// Whether an effect of the assembly changes what is measured of the motion.
     pub fn are_heard(&self) -> bool {
-        self.parts.iter().any(|part| part.answered.are_of_sensors())
+        self.parts
+            .iter()
+            .any(|part| part.answered.are_heard_by_sensors())
     }
 
     #[inline(always)]
@@ -110,5 +131,47 @@ impl<'a, N: Number> Sensors<'a, N> {
             }
         }
         total
+    }
+}
+
+/// Whether what is measured moves otherwise than what is driven.
+pub fn moves_elsewhere(parts: &[Part]) -> bool {
+    parts.iter().any(|part| part.answered.relative_motion)
+}
+
+/// How it moves beside that, with all that the effects `parts` say; `p` are all parameters.
+#[inline(always)]
+pub fn relative_motion<N: Number>(
+    parts: &[Part],
+    p: &[N],
+    at: &Instant<N>,
+    moment: &Moment<'_, N>,
+) -> Kinematics<N> {
+    let none = at.x_m.constant(0.0);
+    let mut whole = Kinematics {
+        displacement_rad: none,
+        velocity_rad_per_s: none,
+        acceleration_rad_per_s2: none,
+    };
+    for part in parts.iter().filter(|part| part.answered.relative_motion) {
+        let own = &moment.own[part.states.clone()];
+        let rates = &moment.own_rates[part.states.clone()];
+        let p = &p[part.parameters.clone()];
+        if let Some(more) = part.effect.relative_motion(p, at, own, rates) {
+            whole = whole.plus(&more);
+        }
+    }
+    whole
+}
+
+impl<N: Number> Kinematics<N> {
+    /// Both motions together.
+    #[inline(always)]
+    fn plus(self, other: &Self) -> Self {
+        Self {
+            displacement_rad: self.displacement_rad + other.displacement_rad,
+            velocity_rad_per_s: self.velocity_rad_per_s + other.velocity_rad_per_s,
+            acceleration_rad_per_s2: self.acceleration_rad_per_s2 + other.acceleration_rad_per_s2,
+        }
     }
 }

@@ -1,4 +1,5 @@
-//! Dry friction on a rig that is no hand on a tool: the catalogue's law with a turn as sharp as the rig's speed asks.
+//! Laws of the catalogue on a rig that is no hand on a tool: friction turns as sharply as the rig's speed asks, and a ripple goes
+//! by the rig's own zero.
 
 use crate::assembly::scale::Scale;
 use crate::custom::law::CustomEffect;
@@ -13,55 +14,85 @@ use snug_campaign::Rig;
 /// machine the force turns at once, and a soft turn would leave a step at every reversal to other effects.
 const SHARE_OF_SPEED: f64 = 0.003;
 
+/// Least speed at which friction that turns over that gives way, likewise.
+const LEAST_SHARE_OF_SPEED: f64 = 0.06;
+
 impl Scale {
     /// The effect as it acts on a rig of this scale.
     ///
     /// # Errors
     /// [`ModelError`] where the scale gives no finite law.
     pub fn effect(&self, effect: Effect, rig: &Rig) -> Result<Effect, ModelError> {
-        let (
-            Effect::CoulombFriction,
-            Self::Rig {
-                angle_rad, time_s, ..
-            },
-        ) = (effect, self)
+        let Self::Rig {
+            angle_rad, time_s, ..
+        } = self
         else {
             return Ok(effect);
         };
         let turn_m_per_s = SHARE_OF_SPEED * angle_rad * rig.lever_arm_m / time_s;
+        let expression = match effect {
+            Effect::CoulombFriction => format!("fc_n*tanh(v/{turn_m_per_s:e})"),
+            Effect::StribeckFriction => {
+                format!("(fc_n+(fs_n-fc_n)*exp(-(v/v_s_m_per_s)^2))*tanh(v/{turn_m_per_s:e})")
+            }
+            // Where its zero of x is says nothing of where it is at rest.
+            Effect::TorqueRipple => {
+                "a_sin_n*sin(2*pi*x/wavelength_m)+a_cos_n*cos(2*pi*x/wavelength_m)".to_owned()
+            }
+            _ => return Ok(effect),
+        };
+        self.written(effect, expression, rig)
+    }
+
+    /// A force of the catalogue written as this expression, under its own name.
+    fn written(&self, effect: Effect, expression: String, rig: &Rig) -> Result<Effect, ModelError> {
         let description = effect.description();
-        let spec = &description.parameters[0];
-        let range = self.range(spec, rig);
-        let settings = CustomEffectSettings {
-            name: description.name.to_owned(),
-            place: Place::Force,
-            expression: format!("{}*tanh(v/{turn_m_per_s:e})", spec.name),
-            parameters: vec![CustomParameterSettings {
+        let parameter = |spec: &ParameterSpec| {
+            let mut range = self.range(spec, rig);
+            // A speed at which friction gives way must not stand in for the one over which it turns.
+            if let (
+                Self::Rig {
+                    angle_rad, time_s, ..
+                },
+                "m/s",
+            ) = (self, spec.unit)
+            {
+                let least = LEAST_SHARE_OF_SPEED * angle_rad * rig.lever_arm_m / time_s;
+                range.minimum = range.minimum.max(least);
+            }
+            CustomParameterSettings {
                 name: spec.name.to_owned(),
                 unit: spec.unit.to_owned(),
                 start: range.starts[0],
+                further_starts: range.starts[1..].to_vec(),
                 minimum: range.minimum,
                 maximum: range.maximum,
                 ..CustomParameterSettings::default()
-            }],
+            }
         };
-        let sharp =
-            CustomEffect::intern_as(&settings, |written: &'static Description| Description {
-                equation: written.equation,
-                parameters: named_as(written.parameters, description.parameters),
-                ..*description
-            });
-        sharp.map(Effect::Custom)
+        let settings = CustomEffectSettings {
+            name: description.name.to_owned(),
+            place: Place::Force,
+            expression,
+            parameters: description.parameters.iter().map(parameter).collect(),
+        };
+        let law = CustomEffect::intern_as(&settings, |written: &'static Description| Description {
+            equation: written.equation,
+            parameters: named_as(written.parameters, description.parameters),
+            ..*description
+        });
+        law.map(Effect::Custom)
     }
 }
 
-/// The scaled starts and bounds under the catalogue's own names and units.
+/// The scaled starts and bounds under the catalogue's own names, meanings and units.
 fn named_as(
     scaled: &'static [ParameterSpec],
     own: &'static [ParameterSpec],
 ) -> &'static [ParameterSpec] {
     let both = scaled.iter().zip(own).map(|(scaled, own)| ParameterSpec {
         name: own.name,
+        meaning: own.meaning,
         unit: own.unit,
         vanishes_at: own.vanishes_at,
         ..*scaled

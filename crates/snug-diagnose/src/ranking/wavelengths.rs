@@ -1,0 +1,350 @@
+//! Starts for an effect whose force comes again with a wavelength of the displacement: read off the measurement, since the
+//! cost has a minimum for every wavelength or so.
+//!
+//! The balance of torques I α + C ω + K θ + l F = T is averaged with a smooth weight φ that is 0 at both ends, so that what was
+//! not measured comes of what was by parts (∫ φ α = −∫ φ' ω = ∫ φ'' θ); no simulation is needed. What every model may explain is
+//! projected out, and for every wavelength the sizes follow by linear least squares: a periodogram of the missing force over
+//! the displacement. The force is a function of x/λ that repeats, so that one wave of it is worked out once.
+
+use crate::data::cases::Cases;
+use crate::pooled::fitted::Fitted;
+use crate::ranking::thresholds::{
+    FEW, FINER, HALF_WIDTHS_OF_BALANCE, PARTS_OF_A_WAVE, PEAKS, PER_WAVE, ROUNDING,
+    SAMPLES_OF_BALANCE, WAVELENGTHS,
+};
+use rayon::prelude::*;
+use snug_campaign::Quantity;
+use snug_identify::FitTask;
+use snug_least_squares::matrix::{SymmetricMatrix, inner_product as dot};
+use snug_model::{Effect, Instant, Law, PlausibleRange};
+
+/// Parameters of `effect` with which a refit may begin, the most promising first; none where no wavelength is among them.
+pub(crate) fn starts(cases: Cases<'_>, current: &Fitted, effect: Effect) -> Vec<Vec<f64>> {
+    let Some(place) = effect.wavelength() else {
+        return Vec::new();
+    };
+    let some = cases.some(&current.spread(FEW));
+    let ranges = some[0].model.ranges(effect);
+    let mut best: Vec<Peak> = (HALF_WIDTHS_OF_BALANCE.iter())
+        .filter_map(|&half_width| peaks(&some, effect, place, &ranges, half_width))
+        .flatten()
+        .collect();
+    best.sort_by(|a, b| b.share.total_cmp(&a.share));
+    let mut starts: Vec<Vec<f64>> = Vec::new();
+    for peak in best {
+        let is_near = |known: &Vec<f64>| (known[place] / peak.values[place] - 1.0).abs() < 0.02;
+        if starts.len() < PEAKS && !starts.iter().any(is_near) {
+            starts.push(peak.values);
+        }
+    }
+    starts
+}
+
+/// A wavelength that explains more than its neighbours.
+struct Peak {
+    /// Share of what was left of the squared torque that it removes.
+    share: f64,
+    /// Parameters of the effect.
+    values: Vec<f64>,
+}
+
+/// The highest peaks of what wavelengths explain of balances averaged over `half_width` samples to either side.
+fn peaks(
+    some: &[FitTask<'_>],
+    effect: Effect,
+    place: usize,
+    ranges: &[PlausibleRange],
+    half_width: usize,
+) -> Option<Vec<Peak>> {
+    let balances: Vec<Balance> = (some.iter())
+        .filter_map(|case| Balance::of(case, half_width, SAMPLES_OF_BALANCE / some.len()))
+        .collect();
+    let reach = balances.iter().map(Balance::reach).fold(0.0, f64::max);
+    let (shortest, longest) = (ranges[place].minimum, ranges[place].maximum);
+    let step = 1.0 / (PER_WAVE * reach);
+    let count = ((1.0 / shortest - 1.0 / longest) / step).ceil();
+    if !(reach > 0.0 && count >= 1.0) {
+        return None;
+    }
+    let waves = Wave::of(effect, place, balances[0].lever_arm_m);
+    let explained = |wave_number: f64| explain(&balances, &waves, place, wave_number);
+    let at = |index: f64| 1.0 / longest + step * index;
+    let grid: Vec<Peak> = (0..(count as usize).min(WAVELENGTHS))
+        .into_par_iter()
+        .map(|index| explained(at(index as f64)))
+        .collect();
+    let mut highest: Vec<usize> = (0..grid.len())
+        .filter(|&index| {
+            let beside = [index.wrapping_sub(1), index + 1];
+            let lower = |other: &usize| {
+                grid.get(*other)
+                    .is_none_or(|o| o.share <= grid[index].share)
+            };
+            beside.iter().all(lower)
+        })
+        .collect();
+    highest.sort_by(|&a, &b| grid[b].share.total_cmp(&grid[a].share));
+    let finer = highest.into_iter().take(PEAKS).filter_map(|index| {
+        let offsets = (0..=2 * FINER).map(|part| part as f64 / FINER as f64 - 1.0);
+        let near = offsets.map(|offset| at((index as f64 + offset).max(0.0)));
+        near.map(explained)
+            .max_by(|a, b| a.share.total_cmp(&b.share))
+    });
+    let mut found: Vec<Peak> = finer.collect();
+    for peak in &mut found {
+        for (value, range) in peak.values.iter_mut().zip(ranges) {
+            *value = value.clamp(range.limits.0, range.limits.1);
+        }
+    }
+    Some(found)
+}
+
+/// One wave of the force that size number `size` alone, of 1, makes.
+struct Wave {
+    size: usize,
+    force_n: Vec<f64>,
+}
+
+impl Wave {
+    /// That of every size of an effect whose parameter number `place` is the wavelength.
+    fn of(effect: Effect, place: usize, lever_arm_m: f64) -> Vec<Self> {
+        let count = effect.description().parameters.len();
+        let alone = |size: usize| {
+            let mut values = vec![0.0; count];
+            (values[place], values[size]) = (1.0, 1.0);
+            let force_n = (0..=PARTS_OF_A_WAVE).map(|part| {
+                let at = Instant {
+                    torque_nm: 0.0,
+                    x_m: part as f64 / PARTS_OF_A_WAVE as f64,
+                    v_m_per_s: 0.0,
+                    since_onset_s: 0.0,
+                    lever_arm_m,
+                };
+                effect.force(&values, &at, &[]).unwrap_or(0.0)
+            });
+            Self {
+                size,
+                force_n: force_n.collect(),
+            }
+        };
+        let sizes = (0..count).filter(|&size| size != place);
+        sizes.map(alone).collect()
+    }
+
+    /// The force after so many waves \[N\].
+    fn at(&self, waves: f64) -> f64 {
+        let along = (waves - waves.floor()) * PARTS_OF_A_WAVE as f64;
+        let part = (along as usize).min(PARTS_OF_A_WAVE - 1);
+        let (before, after) = (self.force_n[part], self.force_n[part + 1]);
+        before + (after - before) * (along - part as f64)
+    }
+}
+
+/// What an effect of these waves explains of the balances with so many waves per metre, its sizes those that explain most.
+fn explain(balances: &[Balance], waves: &[Wave], place: usize, wave_number: f64) -> Peak {
+    let mut values = vec![0.0; waves.len() + 1];
+    values[place] = 1.0 / wave_number;
+    let mut squares = vec![vec![0.0; waves.len()]; waves.len()];
+    let (mut scores, mut whole) = (vec![0.0; waves.len()], 0.0);
+    for balance in balances {
+        let columns: Vec<Vec<f64>> = (waves.iter())
+            .map(|wave| balance.of_force(|x_m| wave.at(x_m * wave_number)))
+            .collect();
+        for (i, column) in columns.iter().enumerate() {
+            scores[i] += dot(column, &balance.left_nm);
+            for (j, other) in columns.iter().enumerate() {
+                squares[i][j] += dot(column, other);
+            }
+        }
+        whole += dot(&balance.left_nm, &balance.left_nm);
+    }
+    let information = SymmetricMatrix::new(waves.len(), squares.concat());
+    let Some(sizes) = information.solve_scaled(&scores) else {
+        return Peak { share: 0.0, values };
+    };
+    for (wave, &size) in waves.iter().zip(&sizes) {
+        values[wave.size] = size;
+    }
+    let share = dot(&sizes, &scores).abs() / whole.max(f64::MIN_POSITIVE);
+    Peak {
+        share: if share.is_finite() { share } else { 0.0 },
+        values,
+    }
+}
+
+/// The balance of torques of one tightening, averaged here and there.
+struct Balance {
+    lever_arm_m: f64,
+    /// Displacement of the grip at every sample \[m\].
+    x_m: Vec<f64>,
+    weights: Weights,
+    /// First sample of every place.
+    places: Vec<usize>,
+    /// Orthonormal: what every model may explain.
+    explained: Vec<Vec<f64>>,
+    /// What is left of the torque \[Nm\].
+    left_nm: Vec<f64>,
+}
+
+impl Balance {
+    /// At no more than `most` places; nothing where angle or velocity are not known.
+    fn of(case: &FitTask<'_>, half_width: usize, most: usize) -> Option<Self> {
+        let weights = Weights::new(half_width, case.tightening.time_base.interval_s);
+        let (lever_arm_m, torque_nm) = (case.model.rig().lever_arm_m, &case.tightening.torque_nm);
+        let known = |quantity| case.tightening.motion.get(quantity);
+        let acceleration = known(Quantity::Acceleration);
+        let velocity = known(Quantity::Velocity);
+        let summed;
+        let angle = match (known(Quantity::Displacement), velocity) {
+            (Some(angle), _) => angle,
+            (None, Some(velocity)) => {
+                summed = sums(velocity, case.tightening.time_base.interval_s);
+                &summed
+            }
+            _ => return None,
+        };
+        let first = case.unscored();
+        let end = angle.len().min(torque_nm.len());
+        let length = weights.of_value.len();
+        let hop = (2 * half_width / 3).max(1);
+        let is_known = |place: &usize| {
+            let of = |signal: &[f64]| {
+                signal[*place..*place + length]
+                    .iter()
+                    .all(|v| v.is_finite())
+            };
+            of(angle) && velocity.is_none_or(of) && acceleration.is_none_or(of)
+        };
+        let places: Vec<usize> = (first..(end + 1).saturating_sub(length))
+            .step_by(hop)
+            .filter(is_known)
+            .take(most)
+            .collect();
+        let mean = |signal: &[f64], weight: &[f64]| -> Vec<f64> {
+            let at = |&place: &usize| dot(&signal[place..place + length], weight);
+            places.iter().map(at).collect()
+        };
+        let of_velocity = match velocity {
+            Some(velocity) => mean(velocity, &weights.of_value),
+            None => mean(angle, &weights.of_slope),
+        };
+        let of_acceleration = match (acceleration, velocity) {
+            (Some(acceleration), _) => mean(acceleration, &weights.of_value),
+            (None, Some(velocity)) => mean(velocity, &weights.of_slope),
+            (None, None) => mean(angle, &weights.of_curvature),
+        };
+        let of_angle = mean(angle, &weights.of_value);
+        let left_nm = mean(torque_nm, &weights.of_value);
+        let of_each = |f: &dyn Fn(f64) -> f64, values: &[f64]| -> Vec<f64> {
+            values.iter().map(|&value| f(value)).collect()
+        };
+        let smooth = [
+            of_each(&|_| 1.0, &of_angle),
+            of_each(&f64::signum, &of_velocity),
+            of_each(&f64::abs, &of_velocity),
+            of_each(&|a| a * a, &of_angle),
+            of_each(&|a| a * a * a, &of_angle),
+            of_acceleration,
+            of_velocity,
+            of_angle,
+        ];
+        let mut balance = Self {
+            lever_arm_m,
+            x_m: angle[..end]
+                .iter()
+                .map(|angle| lever_arm_m * angle)
+                .collect(),
+            weights,
+            places,
+            explained: Vec::new(),
+            left_nm: Vec::new(),
+        };
+        for mut column in smooth {
+            let length = dot(&column, &column);
+            balance.project(&mut column);
+            let rest = dot(&column, &column);
+            if rest > ROUNDING * length {
+                column.iter_mut().for_each(|value| *value /= rest.sqrt());
+                balance.explained.push(column);
+            }
+        }
+        balance.left_nm = left_nm;
+        let mut left = std::mem::take(&mut balance.left_nm);
+        balance.project(&mut left);
+        balance.left_nm = left;
+        (!balance.places.is_empty()).then_some(balance)
+    }
+
+    /// How far the grip moves \[m\].
+    fn reach(&self) -> f64 {
+        let all = self.x_m.iter().copied().filter(|x| x.is_finite());
+        let (low, high) = all.fold((f64::MAX, f64::MIN), |(low, high), x| {
+            (low.min(x), high.max(x))
+        });
+        high - low
+    }
+
+    /// The torque \[Nm\] of a force, averaged, without what every model may explain.
+    fn of_force(&self, force_n: impl Fn(f64) -> f64) -> Vec<f64> {
+        let force: Vec<f64> = self.x_m.iter().map(|&x_m| force_n(x_m)).collect();
+        let weight = &self.weights.of_value;
+        let mean =
+            |&place: &usize| self.lever_arm_m * dot(&force[place..place + weight.len()], weight);
+        let mut column: Vec<f64> = self.places.iter().map(mean).collect();
+        self.project(&mut column);
+        column
+    }
+
+    fn project(&self, column: &mut [f64]) {
+        for known in &self.explained {
+            let share = dot(known, column);
+            for (value, known) in column.iter_mut().zip(known) {
+                *value -= share * known;
+            }
+        }
+    }
+}
+
+/// φ(u) = (1 − u²)⁴ between −1 and 1 over some samples, of mean 1, and what stands for it under derivatives.
+struct Weights {
+    of_value: Vec<f64>,
+    /// −φ' per second: makes the mean rate of what it weighs.
+    of_slope: Vec<f64>,
+    /// φ'' per square second.
+    of_curvature: Vec<f64>,
+}
+
+impl Weights {
+    fn new(half_width: usize, interval_s: f64) -> Self {
+        let (half, per_s) = (half_width as f64, 1.0 / (half_width as f64 * interval_s));
+        let places: Vec<f64> = (0..=2 * half_width)
+            .map(|index| index as f64 / half - 1.0)
+            .collect();
+        let each = |f: &dyn Fn(f64, f64) -> f64| -> Vec<f64> {
+            places.iter().map(|&u| f(u, 1.0 - u * u)).collect()
+        };
+        let of_value = each(&|_, w| w.powi(4));
+        let sum: f64 = of_value.iter().sum();
+        let scaled = |of: Vec<f64>, by: f64| of.into_iter().map(|value| value * by / sum).collect();
+        Self {
+            of_value: scaled(of_value, 1.0),
+            of_slope: scaled(each(&|u, w| 8.0 * u * w.powi(3)), per_s),
+            of_curvature: scaled(
+                each(&|u, w| 48.0 * u * u * w * w - 8.0 * w.powi(3)),
+                per_s * per_s,
+            ),
+        }
+    }
+}
+
+/// ∫ by trapezoids, from 0.
+fn sums(rate: &[f64], interval_s: f64) -> Vec<f64> {
+    let mut sum = 0.0;
+    let mut before = rate.first().copied().unwrap_or(0.0);
+    let next = |&rate: &f64| {
+        sum += 0.5 * interval_s * (before + rate);
+        before = rate;
+        sum
+    };
+    rate.iter().map(next).collect()
+}
