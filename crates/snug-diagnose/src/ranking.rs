@@ -7,6 +7,7 @@ pub(crate) mod paired_gain;
 pub(crate) mod pairs;
 pub(crate) mod rank;
 pub(crate) mod refit;
+pub(crate) mod resonances;
 pub(crate) mod score_test;
 pub(crate) mod sensitivity;
 pub(crate) mod thresholds;

@@ -45,6 +45,18 @@ pub enum ActsOn {
     MachinesOfFewTurns,
 }
 
+impl ActsOn {
+    /// What it is called in texts.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Anything => "a hand on a tool and machines",
+            Self::Hands => "a hand on a tool",
+            Self::Machines => "machines, which nobody holds",
+            Self::MachinesOfFewTurns => "machines, which nobody holds, of a few turns",
+        }
+    }
+}
+
 /// Over what an effect's parameter is constant.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]

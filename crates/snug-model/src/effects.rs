@@ -5,7 +5,7 @@ use crate::custom::settings::CustomEffectSettings;
 use crate::description::Description;
 use crate::error::ModelError;
 use crate::law::{
-    AnsweredHooks, Deflection, Delayed, Instant, Kinematics, Law, LoggedTorque, hooks,
+    AnsweredHooks, Deflection, Delayed, Instant, Kinematics, Law, LoggedTorque, Resonance, hooks,
 };
 use crate::numeric::number::Number;
 use snug_campaign::Quantity;
@@ -138,6 +138,10 @@ macro_rules! forward {
 
             fn wavelength(&self) -> Option<usize> {
                 catalogue!(ask, self, law => law.wavelength())
+            }
+
+            fn resonance(&self) -> Option<Resonance> {
+                catalogue!(ask, self, law => law.resonance())
             }
 
             fn same_as(&self, compared: Quantity) -> Option<&'static str> {

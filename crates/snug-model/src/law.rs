@@ -63,6 +63,17 @@ impl<N: Number> LoggedTorque<N> {
     }
 }
 
+/// Places, among an effect's parameters, of those of a resonance whose response the output follows in proportion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Resonance {
+    /// Its share in the output \[1/kg\]: of q'' + 2 ζ ω q' + ω² q = T / l, by which the grip's displacement grows.
+    pub size: usize,
+    /// Its frequency \[Hz\].
+    pub frequency: usize,
+    /// Its damping ratio \[–\].
+    pub damping: usize,
+}
+
 /// The measured motion at one sample.
 #[derive(Debug, Clone, Copy)]
 pub struct Kinematics<N> {
@@ -171,6 +182,11 @@ macro_rules! declare_law {
             /// that the force is proportional to. Where several wavelengths fit, whoever fits reads off the measurement with
             /// which to begin.
             fn wavelength(&self) -> Option<usize> {
+                None
+            }
+
+            /// Which of its parameters a resonance of its own has, if it has one: read off the spectra where several fit.
+            fn resonance(&self) -> Option<Resonance> {
                 None
             }
 

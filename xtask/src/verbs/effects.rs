@@ -40,13 +40,13 @@ fn table() -> String {
     let mut text = String::new();
     line(
         &mut text,
-        format_args!("{:<26} {:<12} What it is", "Effect", "Kind"),
+        format_args!("{:<28} {:<12} What it is", "Effect", "Kind"),
     );
     for description in descriptions() {
         line(
             &mut text,
             format_args!(
-                "{:<26} {:<12} {}",
+                "{:<28} {:<12} {}",
                 description.name,
                 description.kind.name(),
                 description.summary
@@ -62,7 +62,7 @@ fn table() -> String {
     for invisible in INVISIBLE {
         line(
             &mut text,
-            format_args!("{:<39} {}", invisible.name, invisible.summary),
+            format_args!("{:<41} {}", invisible.name, invisible.summary),
         );
     }
     line(
@@ -102,6 +102,10 @@ fn in_full(description: &Description) -> String {
     line(
         &mut text,
         format_args!("  Equation    {}", description.equation),
+    );
+    line(
+        &mut text,
+        format_args!("  Acts on     {}", description.acts_on.name()),
     );
     line(
         &mut text,

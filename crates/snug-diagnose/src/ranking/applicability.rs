@@ -26,8 +26,10 @@ pub(crate) fn candidates(
     all.retain(|effect| !(only_this && effect.same_as(compared).is_some()));
     all.extend(custom);
     all.extend(terms(is_machine(case))?);
-    // A weight on an arm is told by the catalogue where it knows how to.
-    if all.contains(&Effect::GravityTorque) {
+    // What goes with the angle is told by the catalogue where it knows how to.
+    let goes_with_angle =
+        |effect: &Effect| effect.description().acts_on == ActsOn::MachinesOfFewTurns;
+    if all.iter().any(goes_with_angle) {
         all.retain(|effect| effect.name() != "sine_law");
     }
     all.retain(|effect| !current.effects.contains(effect));
@@ -70,4 +72,60 @@ fn makes_few_turns(case: &FitTask<'_>) -> bool {
         .map(|&a| (a, a))
         .reduce(|(low, high), (a, _)| (low.min(a), high.max(a)));
     reached.is_some_and(|(low, high)| high - low < FEW_TURNS * TAU)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tests::made_up::{RIG, SAMPLES, exact};
+    use snug_model::Model;
+    use std::borrow::Cow;
+
+    fn names(case: FitTask<'static>) -> Vec<&'static str> {
+        let current = Fitted::made_up(&[], &[1.0], SAMPLES);
+        let all = candidates(&[case], &current, &[]).expect("the rig is one");
+        all.iter().map(Effect::name).collect()
+    }
+
+    fn machine(turns: f64) -> FitTask<'static> {
+        let mut case = exact(0, &[], &[]);
+        let scale = Scale::Rig {
+            torque_nm: 10.0,
+            angle_rad: 0.03,
+            time_s: 0.04,
+        };
+        let model = Model::scaled(RIG, &[], scale).expect("the rig is one");
+        case.model = Cow::Owned(model);
+        let angle = &mut case.tightening.to_mut().motion.displacement_rad;
+        let last = angle.as_mut().and_then(|angle| angle.last_mut());
+        *last.expect("it was measured") = turns * TAU;
+        case
+    }
+
+    const OF_MACHINES: [&str; 3] = [
+        "second_mode",
+        "gravity_torque",
+        "asymmetric_viscous_friction",
+    ];
+
+    /// With every candidate more, what is missing must be clearer to be named.
+    #[test]
+    fn tightenings_by_hand_have_no_candidates_of_machines() {
+        let names = names(exact(0, &[], &[]));
+        assert!(OF_MACHINES.iter().all(|name| !names.contains(name)));
+        assert!(names.contains(&"directional_damping") && names.contains(&"torque_ripple"));
+    }
+
+    #[test]
+    fn on_machines_friction_by_direction_is_a_drive_s_and_a_weight_is_told_by_the_catalogue() {
+        let names = names(machine(0.5));
+        assert!(OF_MACHINES.iter().all(|name| names.contains(name)));
+        assert!(!names.contains(&"directional_damping") && !names.contains(&"sine_law"));
+    }
+
+    #[test]
+    fn a_drive_that_makes_many_turns_has_no_weight_on_an_arm() {
+        let names = names(machine(50.0));
+        assert!(!names.contains(&"gravity_torque") && names.contains(&"sine_law"));
+    }
 }

@@ -8,6 +8,7 @@ use crate::pooled::fit::fit_effects;
 use crate::pooled::fitted::Fitted;
 use crate::pooled::long_record;
 use crate::pooled::model::{PooledModel, Start, first_parameter, pick};
+use crate::ranking::resonances;
 use crate::ranking::sensitivity::Column;
 use crate::ranking::thresholds::{
     CANDIDATE, FEW, FREELY, LED, LED_REACH, LEFT_BEHIND, LITTLE, MOST_ROUNDS, ROUGH_REFIT,
@@ -30,7 +31,8 @@ pub(crate) fn refit(
 ) -> Result<Fitted, DiagnoseError> {
     let mut effects = current.effects.clone();
     effects.push(effect);
-    let read_off = wavelengths::starts(cases, current, effect);
+    let mut read_off = wavelengths::starts(cases, current, effect);
+    read_off.extend(resonances::starts(cases, current, effect));
     // A term describes; which of its starts promises most is near enough to begin with.
     let most = match is_unlisted(effect) || !read_off.is_empty() {
         true => 1,

@@ -58,7 +58,7 @@ pub(crate) const LITTLE: f64 = 1e-3;
 pub(crate) const MOST_ROUNDS: usize = 3;
 /// Turns, from the smallest angle to the largest, up to which a weight on an arm is told by its angle: over more it is a ripple of
 /// one turn, and gearing as likely as gravity \[–\]. Chosen.
-pub(crate) const FEW_TURNS: f64 = 3.0;
+pub(crate) const FEW_TURNS: f64 = 5.0;
 /// Samples to either side over which balances of torques are averaged to read off wavelengths: the shortest does not average
 /// out what comes fast, the longest takes most noise off a second derivative. Chosen.
 pub(crate) const HALF_WIDTHS_OF_BALANCE: [usize; 4] = [3, 9, 27, 81];
@@ -74,3 +74,11 @@ pub(crate) const FINER: usize = 8;
 pub(crate) const PEAKS: usize = 3;
 /// Parts of a wave between which its force is taken as straight, where wavelengths are read off. Chosen.
 pub(crate) const PARTS_OF_A_WAVE: usize = 128;
+/// Frequencies, spaced evenly in their logarithm, at which a further resonance is looked for. Chosen.
+pub(crate) const RESONANCES: usize = 600;
+/// Damping ratios with which it is looked for \[–\]. Chosen.
+pub(crate) const DAMPING_RATIOS: [f64; 3] = [0.005, 0.03, 0.15];
+/// Lines of the spectra that are looked at, from the lowest on. Chosen.
+pub(crate) const LINES: usize = 20_000;
+/// Ratio of two frequencies from which they are two resonances to begin with \[–\]. Chosen.
+pub(crate) const APART: f64 = 1.1;

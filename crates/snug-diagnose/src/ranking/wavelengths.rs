@@ -348,3 +348,56 @@ fn sums(rate: &[f64], interval_s: f64) -> Vec<f64> {
     };
     rate.iter().map(next).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::data::cases::Tally;
+    use crate::tests::made_up::{SAMPLES, close, exact, hand, noisy};
+
+    /// The most promising start of `effect` where some tightenings hide `hidden`.
+    fn first(
+        of: fn(usize, &[Effect], &[f64]) -> FitTask<'static>,
+        effect: Effect,
+        sizes: &[f64],
+    ) -> Option<Vec<f64>> {
+        let cases: Vec<FitTask> = (0..4)
+            .map(|number| of(number, &[Effect::TorqueRipple], sizes))
+            .collect();
+        let own = (0..4).map(|number| hand(number).to_vec()).collect();
+        let current = Fitted::made_up(&[], &[1.0; 4], SAMPLES).with_own(&["m", "c", "k"], own, 0);
+        let tally = Tally::default();
+        starts(Cases::new(&cases, &tally), &current, effect)
+            .into_iter()
+            .next()
+    }
+
+    #[test]
+    fn a_ripple_s_wavelength_and_amplitudes_are_read_off() {
+        for sizes in [[8.0, 4.0, 0.006], [-1.0, 2.0, 0.0031], [3.0, 0.0, 0.0123]] {
+            for of in [exact, noisy] {
+                let found = first(of, Effect::TorqueRipple, &sizes).expect("it has a wavelength");
+                close(found[2], sizes[2], 0.02);
+                let off = (found[0] - sizes[0]).hypot(found[1] - sizes[1]);
+                let size = sizes[0].hypot(sizes[1]);
+                assert!(off < 0.3 * size, "{found:?} for {sizes:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn other_effects_have_none() {
+        assert!(first(exact, Effect::CubicStiffness, &[8.0, 4.0, 0.006]).is_none());
+    }
+
+    /// x² on a grid of 1 s: the mean of its second derivative is 2, of its first 2 x, by parts.
+    #[test]
+    fn derivatives_come_by_parts() {
+        let weights = Weights::new(9, 0.5);
+        let signal: Vec<f64> = (0..19)
+            .map(|index| (0.5 * f64::from(index)).powi(2))
+            .collect();
+        close(dot(&signal, &weights.of_slope), 2.0 * 4.5, 1e-2);
+        close(dot(&signal, &weights.of_curvature), 2.0, 1e-2);
+    }
+}

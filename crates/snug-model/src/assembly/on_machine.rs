@@ -1,7 +1,7 @@
 //! Laws of the catalogue on a rig that is no hand on a tool: friction turns as sharply as the rig's speed asks, and a ripple goes
 //! by the rig's own zero.
 
-use crate::assembly::scale::Scale;
+use crate::assembly::scale::{Scale, WIDER};
 use crate::custom::law::CustomEffect;
 use crate::custom::settings::{CustomEffectSettings, CustomParameterSettings, Place};
 use crate::description::{Description, ParameterSpec};
@@ -15,7 +15,7 @@ use snug_campaign::Rig;
 const SHARE_OF_SPEED: f64 = 0.003;
 
 /// Least speed at which friction that turns over that gives way, likewise.
-const LEAST_SHARE_OF_SPEED: f64 = 0.06;
+const LEAST_SHARE_OF_SPEED: f64 = 0.1;
 
 impl Scale {
     /// The effect as it acts on a rig of this scale.
@@ -47,8 +47,12 @@ impl Scale {
     /// A force of the catalogue written as this expression, under its own name.
     fn written(&self, effect: Effect, expression: String, rig: &Rig) -> Result<Effect, ModelError> {
         let description = effect.description();
-        let parameter = |spec: &ParameterSpec| {
+        let parameter = |(place, spec): (usize, &ParameterSpec)| {
             let mut range = self.range(spec, rig);
+            // A wave that is longer than the way is no ripple: it would stand in for gravity, or for any spring.
+            if effect.wavelength() == Some(place) {
+                range.maximum /= WIDER;
+            }
             // A speed at which friction gives way must not stand in for the one over which it turns.
             if let (
                 Self::Rig {
@@ -74,7 +78,12 @@ impl Scale {
             name: description.name.to_owned(),
             place: Place::Force,
             expression,
-            parameters: description.parameters.iter().map(parameter).collect(),
+            parameters: description
+                .parameters
+                .iter()
+                .enumerate()
+                .map(parameter)
+                .collect(),
         };
         let law = CustomEffect::intern_as(&settings, |written: &'static Description| Description {
             equation: written.equation,

@@ -36,7 +36,7 @@ const HAND_TIME_S: f64 = 0.04;
 const HAND_LEVER_ARM_M: f64 = 0.33;
 
 /// How much wider bounds are on a rig that the catalogue was not made for.
-const WIDER: f64 = 10.0;
+pub(crate) const WIDER: f64 = 10.0;
 
 /// Starts and bounds of one parameter on one rig, in the parameter's unit.
 #[derive(Debug, Clone, PartialEq)]

@@ -15,7 +15,7 @@
 //! Source: modal superposition (Ewins, Modal Testing): real residues of proportionally damped modes, either sign.
 
 use crate::description::{ActsOn, Description, Kind, ParameterSpec, Scope, state};
-use crate::law::{Instant, Kinematics, Law};
+use crate::law::{Instant, Kinematics, Law, Resonance};
 use crate::numeric::number::Number;
 use std::f64::consts::TAU;
 
@@ -110,6 +110,14 @@ impl Law for SecondMode {
             displacement_rad: share * own[0],
             velocity_rad_per_s: share * own[1],
             acceleration_rad_per_s2: share * own_rates[1],
+        })
+    }
+
+    fn resonance(&self) -> Option<Resonance> {
+        Some(Resonance {
+            size: 0,
+            frequency: 1,
+            damping: 2,
         })
     }
 }
