@@ -234,20 +234,8 @@ impl Balance {
             (None, None) => mean(angle, &weights.of_curvature),
         };
         let of_angle = mean(angle, &weights.of_value);
-        let left_nm = mean(torque_nm, &weights.of_value);
-        let of_each = |f: &dyn Fn(f64) -> f64, values: &[f64]| -> Vec<f64> {
-            values.iter().map(|&value| f(value)).collect()
-        };
-        let smooth = [
-            of_each(&|_| 1.0, &of_angle),
-            of_each(&f64::signum, &of_velocity),
-            of_each(&f64::abs, &of_velocity),
-            of_each(&|a| a * a, &of_angle),
-            of_each(&|a| a * a * a, &of_angle),
-            of_acceleration,
-            of_velocity,
-            of_angle,
-        ];
+        let mut left_nm = mean(torque_nm, &weights.of_value);
+        let smooth = smooth([of_angle, of_velocity, of_acceleration]);
         let mut balance = Self {
             lever_arm_m,
             x_m: angle[..end]
@@ -259,20 +247,23 @@ impl Balance {
             explained: Vec::new(),
             left_nm: Vec::new(),
         };
-        for mut column in smooth {
+        balance.explain_away(smooth);
+        balance.project(&mut left_nm);
+        balance.left_nm = left_nm;
+        (!balance.places.is_empty()).then_some(balance)
+    }
+
+    /// Takes up what every model may explain: these columns, as far as they are new.
+    fn explain_away(&mut self, columns: [Vec<f64>; 8]) {
+        for mut column in columns {
             let length = dot(&column, &column);
-            balance.project(&mut column);
+            self.project(&mut column);
             let rest = dot(&column, &column);
             if rest > ROUNDING * length {
                 column.iter_mut().for_each(|value| *value /= rest.sqrt());
-                balance.explained.push(column);
+                self.explained.push(column);
             }
         }
-        balance.left_nm = left_nm;
-        let mut left = std::mem::take(&mut balance.left_nm);
-        balance.project(&mut left);
-        balance.left_nm = left;
-        (!balance.places.is_empty()).then_some(balance)
     }
 
     /// How far the grip moves \[m\].
@@ -303,6 +294,24 @@ impl Balance {
             }
         }
     }
+}
+
+/// What every model may explain of a motion with these angles, velocities and accelerations: the base model's terms, and what
+/// friction and springs of a simple shape add.
+fn smooth([angle, velocity, acceleration]: [Vec<f64>; 3]) -> [Vec<f64>; 8] {
+    let of_each = |f: &dyn Fn(f64) -> f64, values: &[f64]| -> Vec<f64> {
+        values.iter().map(|&value| f(value)).collect()
+    };
+    [
+        of_each(&|_| 1.0, &angle),
+        of_each(&f64::signum, &velocity),
+        of_each(&f64::abs, &velocity),
+        of_each(&|a| a * a, &angle),
+        of_each(&|a| a * a * a, &angle),
+        acceleration,
+        velocity,
+        angle,
+    ]
 }
 
 /// φ(u) = (1 − u²)⁴ between −1 and 1 over some samples, of mean 1, and what stands for it under derivatives.

@@ -48,13 +48,7 @@ pub fn respond<N: Number>(
     let states = assembly.own_state_count.min(MAXIMUM_OWN_STATES);
     let mut own = [zero; MAXIMUM_OWN_STATES];
     let (mut own_at, mut own_after, mut own_rates) = (own, own, own);
-    let mut at = Instant {
-        torque_nm: zero,
-        x_m: x,
-        v_m_per_s: v,
-        since_onset_s: inputs.zero,
-        lever_arm_m: lever,
-    };
+    let mut at = beginning(inputs, x, v);
     let points = inputs.torque_nm().len();
     let last = points.saturating_sub(1);
     let (mut torque, mut index) = (acting_torque.at(0), 0);
@@ -81,11 +75,8 @@ pub fn respond<N: Number>(
             let acceleration =
                 plant.rates(position, &at, &own_at[..states], &mut own_rates[..states]);
             if stage == 0 && point == index * inputs.substeps {
-                let moment = Moment {
-                    motion: of_tool(x, v, acceleration, per_lever),
-                    own: &own[..states],
-                    own_rates: &own_rates[..states],
-                };
+                let motion = of_tool(x, v, acceleration, per_lever);
+                let moment = Moment::new(motion, &own[..states], &own_rates[..states]);
                 sample(index, &moment);
                 index += 1;
             }
@@ -105,6 +96,22 @@ pub fn respond<N: Number>(
         (x, v) = (x_after, v_after);
         own[..states].copy_from_slice(&own_after[..states]);
         torque = next;
+    }
+}
+
+/// The first sample's instant, before anything acts.
+#[inline(always)]
+fn beginning<N: Number>(
+    inputs: &SimulationInputs<'_, N::Real>,
+    x_m: N,
+    v_m_per_s: N,
+) -> Instant<N> {
+    Instant {
+        torque_nm: N::from(inputs.zero),
+        x_m,
+        v_m_per_s,
+        since_onset_s: inputs.zero,
+        lever_arm_m: inputs.lever_arm_m,
     }
 }
 

@@ -18,6 +18,18 @@ pub struct Moment<'s, N> {
     pub own_rates: &'s [N],
 }
 
+impl<'s, N> Moment<'s, N> {
+    /// These three.
+    #[inline(always)]
+    pub fn new(motion: Kinematics<N>, own: &'s [N], own_rates: &'s [N]) -> Self {
+        Self {
+            motion,
+            own,
+            own_rates,
+        }
+    }
+}
+
 /// From the true motion to the measured one: cross-sensitivities and lag of the accelerometer, then what is added to its signals.
 pub struct Sensors<'a, N: Number> {
     parts: &'a [Part],
