@@ -1,5 +1,6 @@
 //! Rigs of which nobody says where mass, damping and stiffness begin, nor in which unit anything was measured.
 
+use crate::campaign::run_study;
 use snug_campaign::{Diagnosis, Verdict};
 use snug_study::{RunSettings, Study, Verb, diagnose};
 use std::path::Path;
@@ -153,6 +154,84 @@ fn drive(file: &Path) -> String {
     std::iter::once("velocity,torque\n".to_owned())
         .chain(rows)
         .collect()
+}
+
+/// A carriage on a rail: force in N and position in m are the torque and the angle about a lever arm of 0.5 m, whatever the
+/// unit, to the bit where the unit's factor is a power of two's.
+#[test]
+fn a_linear_drive_is_declared_as_it_is_measured() {
+    let folder = tempfile::tempdir().unwrap();
+    let table = folder.path().join("carriage.csv");
+    std::fs::write(&table, carriage()).unwrap();
+    let fitted = |input: &str, output: &str, lever_arm_m: f64| {
+        let text = format!(
+            r#"(
+                source: (path: {table:?}, format: Csv(
+                    channels: [(column: Name("u"), {input}), (column: Name("x"), signal: Displacement, {output})],
+                    sampling: Rate(hz: 200.0),
+                )),
+                preprocess: (window: Whole, rig: (lever_arm_m: {lever_arm_m:?}, known_inertia: Fixed(0.0))),
+                identify: (fitted_output: Displacement, constraints: [Positive]),
+            )"#
+        );
+        let study = Study::parse(&text, Path::new("rig.ron")).unwrap();
+        let (outcome, out) = run_study(&study).unwrap();
+        let estimate = outcome.result.tightenings[0].estimate.as_ref().unwrap();
+        let page = std::fs::read_to_string(out.path().join("report.html")).unwrap();
+        let values = estimate.parameters.iter().map(|one| one.value);
+        (values.collect::<Vec<f64>>(), page.contains("input [N]"))
+    };
+    // T = 0.5 m · F and θ = x / 0.5 m.
+    let as_torque = "signal: Torque, unit: NewtonMetre, scale: 0.5";
+    let as_angle = "unit: Radian, scale: 2.0";
+    let (by_torque, _) = fitted(as_torque, as_angle, 0.5);
+    let (by_force, shown_in_newton) = fitted("signal: Force, unit: Newton", "unit: Metre", 0.5);
+    assert_eq!(by_force, by_torque);
+    assert!(shown_in_newton);
+    assert_eq!(
+        fitted("signal: Torque, unit: Newton", "unit: Metre", 0.5).0,
+        by_torque
+    );
+    for (value, truth) in by_force.iter().zip([2.0, 6.0, 800.0]) {
+        assert!((value / truth - 1.0).abs() < 0.01, "{by_force:?}");
+    }
+    let others = [
+        fitted(
+            "signal: Force, unit: Kilonewton, scale: 0.001",
+            "unit: Millimetre, scale: 1000",
+            0.33,
+        ),
+        fitted(
+            "signal: Force, unit: PoundForce, scale: 0.224808943",
+            "unit: Inch, scale: 39.37007874",
+            2.0,
+        ),
+    ];
+    for (values, _) in others {
+        for (value, same) in values.iter().zip(&by_force) {
+            assert!((value / same - 1.0).abs() < 1e-6, "{values:?} {by_force:?}");
+        }
+    }
+}
+
+/// 2 kg on a spring of 800 N/m with 6 kg/s under a force of three tones, by small steps of the midpoint rule; u in N, x in m.
+fn carriage() -> String {
+    let force = |t: f64| 10.0 * ((5.0 * t).sin() + (17.0 * t).sin() + (31.0 * t).sin());
+    let acceleration = |t: f64, x: f64, v: f64| (force(t) - 6.0 * v - 800.0 * x) / 2.0;
+    let (steps, h) = (50, 1.0 / 200.0 / 50.0);
+    let (mut x, mut v) = (0.0, 0.0);
+    let mut table = "u,x\n".to_owned();
+    for row in 0..1200 {
+        let start = f64::from(row) / 200.0;
+        table += &format!("{:?},{x:?}\n", force(start));
+        for step in 0..steps {
+            let t = start + f64::from(step) * h;
+            let (x_mid, v_mid) = (x + 0.5 * h * v, v + 0.5 * h * acceleration(t, x, v));
+            let a_mid = acceleration(t + 0.5 * h, x_mid, v_mid);
+            (x, v) = (x + h * v_mid, v + h * a_mid);
+        }
+    }
+    table
 }
 
 /// Two tanks are no oscillator: candidates run away, and are not believed.

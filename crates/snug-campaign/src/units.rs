@@ -6,8 +6,10 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct SignalUnits {
-    /// Of the input: `Nm`, or what the source declares in its place, for example `V`.
+    /// Of the input: `Nm`, `N` of a linear rig, or what the source declares in its place, for example `V`.
     pub input: String,
+    /// What a torque \[Nm\] is multiplied with to be shown in `input`: 1 by the lever arm for a force, else 1.
+    pub input_per_nm: f64,
     /// Of the output as a displacement: `rad`, `m` at the grip, or for example `V`.
     pub output: String,
     /// What a displacement \[rad\] is multiplied with to be shown in `output`: the lever arm for `m`, else 1.
@@ -18,6 +20,7 @@ impl Default for SignalUnits {
     fn default() -> Self {
         Self {
             input: "Nm".into(),
+            input_per_nm: 1.0,
             output: "rad".into(),
             output_per_rad: 1.0,
         }
@@ -25,13 +28,13 @@ impl Default for SignalUnits {
 }
 
 impl SignalUnits {
-    /// Whether the input is a torque; a rig driven by a voltage has no forces and no target torque.
+    /// Whether the input is a torque; a rig driven by a force or a voltage has no hand and no target torque.
     pub fn input_is_torque(&self) -> bool {
         self.input == "Nm"
     }
 
     /// Whether signals stand for an angle or a length, so that mass, damping and stiffness have their usual units.
     pub fn mechanical(&self) -> bool {
-        self.input_is_torque() && matches!(self.output.as_str(), "rad" | "m")
+        matches!(self.input.as_str(), "Nm" | "N") && matches!(self.output.as_str(), "rad" | "m")
     }
 }

@@ -25,7 +25,7 @@ use table::Table;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct CsvLayout {
-    /// The columns that are read: torque and at least one motion. Default none (must be declared).
+    /// The columns that are read: one input (torque or force) and at least one motion. Default none (must be declared).
     pub channels: Vec<CsvChannel>,
     /// Where the samples' times come from. Default a column `time` in s.
     pub sampling: Sampling,

@@ -122,7 +122,7 @@ pub(crate) fn recording(
         }
         match signal.quantity() {
             Some(quantity) => recording.motion.set(quantity, samples),
-            None if signal == Signal::Torque => recording.torque_nm = samples,
+            None if signal.is_input() => recording.torque_nm = samples,
             None => {
                 recording.grip_force_n = Some(samples);
                 recording.has_force_channel = true;

@@ -17,7 +17,7 @@ use std::path::Path;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct McapLayout {
-    /// The numeric channels that are read: torque and at least one motion, or none for Snug's own files. Default none.
+    /// The numeric channels that are read: one input (torque or force) and at least one motion, or none for Snug's own files. Default none.
     pub channels: Vec<McapChannel>,
     /// Samples per second \[Hz\] where the log times do not count; `None` (default): they do.
     pub rate_hz: Option<f64>,

@@ -62,6 +62,7 @@ mod tests {
         SignalUnits {
             input: input.into(),
             output: output.into(),
+            input_per_nm: 1.0,
             output_per_rad: 1.0,
         }
     }

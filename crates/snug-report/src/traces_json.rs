@@ -168,8 +168,8 @@ pub struct Example<'a> {
     pub tightening: usize,
     traces: &'a Traces,
     kept: Vec<usize>,
-    /// What motions \[rad …\] are multiplied with to be shown.
-    output_per_rad: f64,
+    /// In which units input and motions are shown.
+    units: &'a SignalUnits,
 }
 
 /// The examples whose tightening exists, each decimated to its share of the points.
@@ -180,15 +180,18 @@ pub fn examples(result: &CampaignResult) -> Vec<Example<'_>> {
         .examples
         .iter()
         .filter(|(tightening, _)| *tightening < result.tightenings.len())
-        .map(|(tightening, traces)| {
-            Example::new(*tightening, traces, points, result.units.output_per_rad)
-        })
+        .map(|(tightening, traces)| Example::new(*tightening, traces, points, &result.units))
         .collect()
 }
 
 impl<'a> Example<'a> {
     /// Chooses the samples to draw, at most about `points`.
-    pub fn new(tightening: usize, traces: &'a Traces, points: usize, output_per_rad: f64) -> Self {
+    pub fn new(
+        tightening: usize,
+        traces: &'a Traces,
+        points: usize,
+        units: &'a SignalUnits,
+    ) -> Self {
         let all = |keys: &[&str]| -> Vec<&'a [f64]> {
             keys.iter().filter_map(|key| samples(traces, key)).collect()
         };
@@ -198,13 +201,13 @@ impl<'a> Example<'a> {
             tightening,
             traces,
             kept: decimation::indices(leading, &others, points),
-            output_per_rad,
+            units,
         }
     }
 
     /// The same example with fewer points, for the still picture.
     pub fn coarser(&self, points: usize) -> Self {
-        Self::new(self.tightening, self.traces, points, self.output_per_rad)
+        Self::new(self.tightening, self.traces, points, self.units)
     }
 
     /// Unit of the time axis and how many of it one second has: milliseconds up to two seconds.
@@ -237,8 +240,11 @@ impl<'a> Example<'a> {
             Some(key) => Some(samples(self.traces, key)?),
             None => None,
         };
-        let motion = matches!(source.key.as_bytes().first(), Some(b'x' | b'v' | b'a'));
-        let scale = if motion { self.output_per_rad } else { 1.0 };
+        let scale = match source.key.as_bytes().first() {
+            Some(b'x' | b'v' | b'a') => self.units.output_per_rad,
+            Some(b't') => self.units.input_per_nm,
+            _ => 1.0,
+        };
         let value = |index: usize| {
             let first = *first.get(index)?;
             match second {

@@ -252,6 +252,7 @@ fn a_rig_that_measures_volts_shows_volts() {
     result.units = SignalUnits {
         input: "V".into(),
         output: "V".into(),
+        input_per_nm: 1.0,
         output_per_rad: 1.0,
     };
     let page = html(&result);

@@ -92,7 +92,7 @@ fn heading(tightening: &TighteningResult, result: &CampaignResult) -> String {
         } else {
             "input"
         },
-        significant(tightening.peak_torque_nm, 4),
+        significant(tightening.peak_torque_nm * result.units.input_per_nm, 4),
         result.units.input
     ));
     parts.push(outcome_words(&tightening.selection.rejections));
