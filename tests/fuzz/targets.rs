@@ -2,6 +2,7 @@
 
 mod csv;
 mod expression;
+mod json;
 mod mat;
 mod mat_packed;
 mod mcap;
@@ -29,6 +30,7 @@ pub const TARGETS: &[Target] = &[
     mat::HDF5,
     mat_packed::TARGET,
     csv::TARGET,
+    json::TARGET,
     mcap::TARGET,
     mcap_packed::TARGET,
     study::TARGET,

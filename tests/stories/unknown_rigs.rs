@@ -143,6 +143,74 @@ fn a_drive_lacks_dry_friction() {
     );
 }
 
+/// The same drive, read as it was recorded, has the bits that it has as a table.
+#[test]
+fn a_drive_is_read_as_it_was_recorded() {
+    let Some(data) = snug_tests::data("HSM150 two-motor rig") else {
+        return;
+    };
+    let file = data.join("hsm150-two-motor/idf_pos_0.06_1.mat");
+    let text = r#"(source: (format: Mat(
+        channels: [
+            (path: "data", part: Column(4), signal: Torque, unit: NewtonMetre),
+            (path: "data", part: Column(3), signal: Velocity, unit: RadianPerSecond),
+            (path: "data", part: Column(2), signal: Displacement, unit: Radian),
+        ],
+        sampling: Times(path: "data", part: Column(0)),
+    )))"#;
+    let source = Study::parse(text, Path::new("rig.ron")).unwrap().source;
+    source.check().unwrap();
+    let recording = snug_ingest::read(&source, &file, 1.0)
+        .unwrap()
+        .recordings
+        .remove(0);
+    assert!((recording.time_base.interval_s - 1e-3).abs() < 1e-12);
+    let velocity = recording.motion.velocity_rad_per_s.unwrap();
+    let rows = velocity.iter().zip(&recording.torque_nm);
+    let rows = rows.map(|(velocity, torque)| format!("{velocity},{torque}\n"));
+    let table: String = std::iter::once("velocity,torque\n".to_owned())
+        .chain(rows)
+        .collect();
+    assert!(table == drive(&file));
+}
+
+/// A nutrunner's own log: angle, torque and time as lists in the first step's graph. Expected numbers as Python's json reads
+/// them.
+#[test]
+fn a_nutrunners_json_is_read() {
+    let Some(data) = snug_tests::data("nutrunner unfastening") else {
+        return;
+    };
+    let folder = data.join("nutrunner-unfastening/dataset1/test/nicht_loesbar");
+    let text = r#"(source: (format: Json(
+        channels: [
+            (path: "tightening steps[0].graph.torque values", signal: Torque, unit: NewtonMetre),
+            (path: "tightening steps[0].graph.angle values", signal: Displacement, unit: Degree),
+        ],
+        sampling: Times(path: "tightening steps[0].graph.time values"),
+    )))"#;
+    let source = Study::parse(text, Path::new("rig.ron")).unwrap().source;
+    source.check().unwrap();
+    let files = snug_ingest::list(&source, &folder).unwrap().files;
+    assert_eq!(files.len(), 46);
+    for file in &files {
+        let read = snug_ingest::read(&source, file, 1.0).unwrap();
+        assert_eq!(read.recordings.len(), 1, "{}", file.display());
+    }
+    let known = folder.join("Cycle_8856.json");
+    let recording = snug_ingest::read(&source, &known, 1.0)
+        .unwrap()
+        .recordings
+        .remove(0);
+    let angles = recording.motion.displacement_rad.unwrap();
+    assert_eq!(recording.torque_nm[0], 0.029);
+    assert_eq!(angles[0], 0.0);
+    assert!((angles[angles.len() - 1].to_degrees() - LAST_ANGLE_DEG).abs() < 10.0);
+}
+
+/// Of `Cycle_8856.json` \[°\].
+const LAST_ANGLE_DEG: f64 = 2161.33;
+
 /// Its torque and speed as a table.
 fn drive(file: &Path) -> String {
     let read = snug_ingest::mat::MatFile::read(file).unwrap();

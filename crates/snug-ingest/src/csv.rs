@@ -148,7 +148,7 @@ pub enum TimeUnit {
 }
 
 impl TimeUnit {
-    fn seconds(self) -> f64 {
+    pub(crate) fn seconds(self) -> f64 {
         match self {
             Self::Second => 1.0,
             Self::Millisecond => 1e-3,
@@ -189,10 +189,6 @@ impl Layout for CsvLayout {
         &self.ranges
     }
 
-    fn conditions(&self) -> Option<&ConditionPattern> {
-        self.conditions.as_ref()
-    }
-
     fn declared(&self) -> Vec<(Signal, Unit, f64)> {
         let channels = self.channels.iter();
         channels.map(|c| (c.signal, c.unit, c.scale)).collect()
@@ -205,14 +201,16 @@ impl Layout for CsvLayout {
         lever_arm_m: f64,
         budget: &Budget,
     ) -> Result<Ingested, IngestError> {
-        let content = layout::content(input, budget, check_text)?;
+        let content = layout::content(input, budget, layout::check_text)?;
         if content.trim_ascii().is_empty() {
             return Err(IngestError::EmptyFile);
         }
         let mut log = FindingLog::new(path);
         let table = table::read(&content, self, &self.wanted(), budget, &mut log)?;
         let (grid, columns) = self.on_a_grid(table, budget, &mut log)?;
-        let recording = layout::recording(self, path, grid, columns, lever_arm_m, &mut log);
+        let channels = self.declared().into_iter().zip(columns).collect();
+        let about = (&self.ranges[..], self.conditions.as_ref());
+        let recording = layout::recording(about, path, grid, channels, lever_arm_m, &mut log);
         Ok(Ingested {
             recordings: vec![recording],
             findings: log.finish(),
@@ -261,14 +259,6 @@ impl CsvLayout {
             }
         };
         Ok((time_base, columns))
-    }
-}
-
-/// Whether the start of a file can be text: UTF-16, and whatever a broken disk leaves, has zero bytes.
-fn check_text(start: &[u8]) -> Result<(), IngestError> {
-    match start.iter().position(|&byte| byte == 0) {
-        Some(offset) => Err(IngestError::NotText { offset }),
-        None => Ok(()),
     }
 }
 

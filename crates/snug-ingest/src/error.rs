@@ -336,6 +336,14 @@ pub enum IngestError {
         /// Shape and class.
         found: String,
     },
+    /// The file's own sampling rate is no rate.
+    #[error("the sample rate {variable} is {found}; expected one positive number")]
+    UnusableRate {
+        /// Its name in the file.
+        variable: String,
+        /// What stands there.
+        found: String,
+    },
     /// A variable that is needed is there, but damaged.
     #[error("the {channel} variable {variable} cannot be read: {source}")]
     DamagedVariable {
@@ -377,6 +385,16 @@ pub enum IngestError {
         line: u64,
         /// The reason.
         source: csv::Error,
+    },
+    /// Text that is no JSON.
+    #[error("line {line}, column {column}: no JSON: {}", excerpt(reason))]
+    JsonSyntax {
+        /// 1-based line.
+        line: usize,
+        /// 1-based column \[bytes\].
+        column: usize,
+        /// The reason.
+        reason: String,
     },
     /// A file without rows of data.
     #[error("no data: {lines} line(s), none of them a row of numbers")]

@@ -32,11 +32,6 @@ pub(crate) trait Layout {
         Vec::new()
     }
 
-    /// How the file's name tells the conditions; `None` where it does not.
-    fn conditions(&self) -> Option<&ConditionPattern> {
-        None
-    }
-
     /// The recordings in a file; `path` names it, `lever_arm_m` turns lengths of the grip into angles. All that is made of
     /// the file is taken from `budget` first.
     ///
@@ -80,25 +75,35 @@ pub(crate) fn content(
     Ok(content)
 }
 
+/// Whether the start of a file can be text: UTF-16, and whatever a broken disk leaves, has zero bytes.
+pub(crate) fn check_text(start: &[u8]) -> Result<(), IngestError> {
+    match start.iter().position(|&byte| byte == 0) {
+        Some(offset) => Err(IngestError::NotText { offset }),
+        None => Ok(()),
+    }
+}
+
 /// A file's name, and the same without its ending.
 pub(crate) fn name_and_stem(path: &Path) -> (String, String) {
     let text = |part: Option<&OsStr>| part.unwrap_or_default().to_string_lossy().into_owned();
     (text(path.file_name()), text(path.file_stem()))
 }
 
-/// The recording in the file at `path` of the declared channels, on one time grid in `columns`, converted to SI units about
-/// the joint.
+/// What a channel measures, in which unit and with which factor, and its samples.
+pub(crate) type Channel = ((Signal, Unit, f64), Vec<f64>);
+
+/// The recording in the file at `path` of its channels on one time grid, converted to SI units about the joint.
 pub(crate) fn recording(
-    layout: &impl Layout,
+    (ranges, conditions): (&[Range], Option<&ConditionPattern>),
     path: &Path,
     time_base: TimeBase,
-    columns: Vec<Vec<f64>>,
+    channels: Vec<Channel>,
     lever_arm_m: f64,
     log: &mut FindingLog,
 ) -> Recording {
     let (file, label) = name_and_stem(path);
-    let samples = columns.first().map_or(0, Vec::len);
-    let conditions = match layout.conditions() {
+    let samples = channels.first().map_or(0, |(_, samples)| samples.len());
+    let conditions = match conditions {
         Some(pattern) => pattern.read(&[label.as_str()], log),
         None => Conditions::default(),
     };
@@ -112,9 +117,9 @@ pub(crate) fn recording(
         grip_force_n: None,
         has_force_channel: false,
         grip_force_channel: None,
-        segments: range::segments(layout.ranges(), samples, log),
+        segments: range::segments(ranges, samples, log),
     };
-    for ((signal, unit, scale), mut samples) in layout.declared().into_iter().zip(columns) {
+    for ((signal, unit, scale), mut samples) in channels {
         let factor = scale * unit.factor(signal, lever_arm_m).unwrap_or(f64::NAN);
         // Numbers that are in SI units already stay what they are, bit for bit.
         if factor != 1.0 {

@@ -2,6 +2,7 @@
 
 mod condition_pattern;
 pub mod csv;
+pub mod declared;
 mod error;
 mod finding_log;
 mod layout;

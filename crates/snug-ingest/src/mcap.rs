@@ -84,10 +84,6 @@ impl Layout for McapLayout {
         &self.ranges
     }
 
-    fn conditions(&self) -> Option<&ConditionPattern> {
-        self.conditions.as_ref()
-    }
-
     fn declared(&self) -> Vec<(Signal, Unit, f64)> {
         let channels = self.channels.iter();
         channels.map(|c| (c.signal, c.unit, c.scale)).collect()

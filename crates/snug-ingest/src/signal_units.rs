@@ -40,8 +40,8 @@ fn symbol(unit: Unit) -> Option<&'static str> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Format, Signal};
     use crate::csv::{Column, CsvChannel, CsvLayout};
+    use crate::{Format, Signal};
 
     fn units(channels: &[(Signal, Unit)]) -> (String, String, f64) {
         let channel = |&(signal, unit): &(Signal, Unit)| CsvChannel {

@@ -7,6 +7,8 @@ pub use listing::{Listing, list, list_on};
 
 use crate::IngestError;
 use crate::csv::CsvLayout;
+use crate::declared::json::JsonLayout;
+use crate::declared::mat::MatLayout;
 use crate::layout::Layout;
 use crate::mcap::McapLayout;
 use crate::memory::Budget;
@@ -43,6 +45,10 @@ pub enum Format {
     Csv(CsvLayout),
     /// MCAP with declared topics (`.mcap`).
     Mcap(McapLayout),
+    /// MAT files of any level with declared variables (`.mat`).
+    Mat(MatLayout),
+    /// JSON with declared paths (`.json`).
+    Json(JsonLayout),
 }
 
 impl Default for Format {
@@ -66,6 +72,8 @@ impl Format {
             Self::Thesis(layout) => layout,
             Self::Csv(layout) => layout,
             Self::Mcap(layout) => layout,
+            Self::Mat(layout) => layout,
+            Self::Json(layout) => layout,
         }
     }
 

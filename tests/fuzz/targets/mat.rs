@@ -3,7 +3,9 @@
 use super::Target;
 use crate::mutation::Mutation;
 use snug_ingest::{Source, mat::MatFile};
+use snug_study::Study;
 use std::path::Path;
+use std::sync::LazyLock;
 
 pub const MAT4: Target = level("mat4");
 pub const MAT5: Target = level("mat5");
@@ -18,6 +20,21 @@ const fn level(name: &'static str) -> Target {
     }
 }
 
+/// Variables that the inputs hold, declared in every way: a sparse one, a field, a row and a column.
+static DECLARED: LazyLock<Source> = LazyLock::new(|| {
+    let text = r#"(source: (format: Mat(
+        channels: [
+            (path: "Inline_Torque", signal: Torque, unit: NewtonMetre),
+            (path: "angle_acc_Acc_FIR150", part: Column(0), signal: Acceleration, unit: RadianPerSecondSquared),
+            (path: "sparse", part: Row(0), signal: Displacement, unit: Metre),
+            (path: "s[0].a", signal: Velocity, unit: MetrePerSecond),
+            (path: "c[]", signal: GripForce, unit: Newton),
+        ],
+        sampling: Rate(hz: 1000.0),
+    )))"#;
+    Study::parse(text, Path::new("study.ron")).unwrap().source
+});
+
 /// Length of the lever arm \[m\], by which lengths become angles.
 const LEVER_ARM_M: f64 = 0.33;
 
@@ -28,6 +45,7 @@ pub fn attempt(file: &Path, input: &[u8]) {
             let _ = (value.to_f64(), value.text(), value.rows(), value.describe());
         }
     }
+    let _ = snug_ingest::read(&DECLARED, file, LEVER_ARM_M);
     if let Ok(read) = snug_ingest::read(&Source::default(), file, LEVER_ARM_M) {
         for recording in read.recordings {
             assert!(!recording.torque_nm.is_empty());

@@ -47,7 +47,9 @@ impl IngestError {
             Self::DamagedVariable { channel, .. } if channel != "events" => "unusable_channel",
             Self::EventTable { .. } | Self::DamagedVariable { .. } => "unusable_events",
             Self::NoRows { .. } | Self::NoRecordings { .. } | Self::EmptyFile => "no_data",
-            Self::TimeNotRising { .. } | Self::TimeGap { .. } => "unusable_time",
+            Self::TimeNotRising { .. } | Self::TimeGap { .. } | Self::UnusableRate { .. } => {
+                "unusable_time"
+            }
             _ => "unreadable_file",
         }
     }
@@ -58,6 +60,7 @@ impl IngestError {
             Self::MissingChannel { channel, .. } => Some(channel),
             Self::UnusableChannel { variable, .. }
             | Self::DamagedVariable { variable, .. }
+            | Self::UnusableRate { variable, .. }
             | Self::EventTable { variable, .. } => Some(variable),
             _ => None,
         }

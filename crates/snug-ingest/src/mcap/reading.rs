@@ -2,6 +2,7 @@
 
 use super::{McapChannel, McapLayout};
 use crate::finding_log::{About, FindingLog};
+use crate::layout::Layout as _;
 use crate::memory::Budget;
 use crate::sampling::{self, Timed, Track};
 use crate::{IngestError, Ingested, layout};
@@ -151,11 +152,12 @@ fn declared(
             (time_base, channels)
         }
     };
+    let signals = declared.declared().into_iter();
     Ok(layout::recording(
-        declared,
+        (&declared.ranges, declared.conditions.as_ref()),
         path,
         time_base,
-        channels,
+        signals.zip(channels).collect(),
         lever_arm_m,
         log,
     ))
