@@ -14,6 +14,7 @@ use crate::range::{self, Range};
 use crate::sampling::{self, Timed};
 use crate::signal::{self, Signal, Unit};
 use crate::{ConditionPattern, IngestError, Ingested};
+pub(crate) use rows::Rows;
 use serde::{Deserialize, Serialize};
 use snug_campaign::TimeBase;
 use snug_files::Input;

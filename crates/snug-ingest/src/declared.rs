@@ -7,7 +7,7 @@ mod place;
 
 pub use place::Part;
 
-pub(crate) use path::{DataPath, Segment};
+pub(crate) use path::{DataPath, Segment, joined};
 pub(crate) use place::{Block, Order};
 
 use crate::csv::{TimeUnit, default_tolerance_ratio};

@@ -97,6 +97,11 @@ pub enum IngestError {
         feature: &'static str,
     },
 
+    /// A file of which nothing can be told without a declaration.
+    #[error(
+        "cannot be looked at: only .csv, .tsv, .txt, .mat and .json can be read without a study"
+    )]
+    NotSurveyed,
     /// A file without content.
     #[error("the file is empty")]
     EmptyFile,

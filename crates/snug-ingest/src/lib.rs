@@ -14,6 +14,7 @@ mod sampling;
 mod signal;
 mod signal_units;
 mod source;
+pub mod survey;
 mod thesis_layout;
 
 pub use condition_pattern::{ConditionPattern, Template};

@@ -17,7 +17,7 @@ pub enum Decimal {
 
 impl Decimal {
     /// The number that a cell holds.
-    pub(super) fn parse(self, cell: &str) -> Option<f64> {
+    pub(crate) fn parse(self, cell: &str) -> Option<f64> {
         let cell = cell.trim_matches([' ', '\t', '"']);
         match self {
             Self::Point => cell.parse().ok(),

@@ -30,7 +30,7 @@ impl Read for Metered<'_> {
 }
 
 /// The records of a file, blank and comment lines passed over.
-pub(super) struct Rows<'a> {
+pub(crate) struct Rows<'a> {
     reader: csv::Reader<Metered<'a>>,
     skipped: u64,
     delimiter: char,
@@ -38,10 +38,10 @@ pub(super) struct Rows<'a> {
 }
 
 /// A record with its 1-based line.
-pub(super) type Row = Option<(u64, StringRecord)>;
+pub(crate) type Row = Option<(u64, StringRecord)>;
 
 impl<'a> Rows<'a> {
-    pub(super) fn new(content: &'a [u8], layout: &'a CsvLayout) -> Self {
+    pub(crate) fn new(content: &'a [u8], layout: &'a CsvLayout) -> Self {
         let (content, skipped) = skip_lines(content, layout.skip_lines);
         let comment = layout
             .comment
@@ -71,7 +71,7 @@ impl<'a> Rows<'a> {
     }
 
     /// The next record with its line; text that is not UTF-8 (a header's `°` in an old encoding) is read as far as it is.
-    pub(super) fn next(&mut self) -> Result<Row, IngestError> {
+    pub(crate) fn next(&mut self) -> Result<Row, IngestError> {
         let mut record = csv::ByteRecord::new();
         self.reader.get_mut().since_row = 0;
         let start = self.reader.position().line();
