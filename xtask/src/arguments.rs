@@ -16,6 +16,7 @@ Examples:
   cargo xtask run --data DIR                   your folder of MAT files (or a folder of recordings)
   cargo xtask run --data DIR --preset thesis   the same, as the original program did it
   cargo xtask run --study rig.ron              any rig described in a study file
+  cargo xtask init DIR                         a study for files of any other rig, in rig.ron
   cargo xtask compare --data DIR               where the model fails
   cargo xtask diagnose --data DIR              which physical effect is missing
   cargo xtask add coulomb_friction --data DIR  the error before and after

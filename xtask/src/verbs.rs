@@ -5,6 +5,7 @@ mod diagnose;
 mod effects;
 mod fixtures;
 mod fuzz;
+mod init;
 mod recover;
 mod run;
 mod test;
@@ -59,6 +60,21 @@ pub enum Verb {
     /// Writes the whole ladder: how the error fell, what was tried and why it stopped. The study with the model found is the
     /// results' study.ron; the file given by --study changes with --write only.
     Improve(ChangeOptions),
+    /// Writes a commented study for measurement files of which nobody has declared anything.
+    ///
+    /// Looks at the columns of CSV, MAT or JSON files, guesses signals, units and sampling from names and numbers, shows
+    /// what it found, and writes every guess with its reason into a study file.
+    Init {
+        /// One folder, or files of one folder.
+        #[arg(required = true, value_name = "FILES")]
+        files: Vec<PathBuf>,
+        /// Study file that is written.
+        #[arg(long, value_name = "FILE.ron", default_value = "rig.ron")]
+        study: PathBuf,
+        /// Also over a file that is there.
+        #[arg(long)]
+        write: bool,
+    },
     /// The catalogue of physical effects, or one of them in full.
     Effects {
         /// Name of one effect, for example coulomb_friction.
@@ -127,6 +143,11 @@ impl Verb {
             }
             Self::Remove { effects, options } => diagnose::remove(&options, &effects),
             Self::Improve(options) => diagnose::change(&options, &snug_study::Verb::Improve),
+            Self::Init {
+                files,
+                study,
+                write,
+            } => init::init(&files, &study, write),
             Self::Effects { name } => effects::effects(name.as_deref()),
             Self::Recover { file } => recover::recover(&file),
             Self::Fixtures => fixtures::fixtures(),

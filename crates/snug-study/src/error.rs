@@ -145,6 +145,32 @@ pub enum StudyError {
         /// Why.
         source: RecordError,
     },
+    /// No study can be drafted for what was named.
+    #[error("no study can be drafted for {}: it holds {found}", path.display())]
+    NothingToDraft {
+        /// Folder or file.
+        path: PathBuf,
+        /// What is there.
+        found: String,
+    },
+    /// A drafted study would be written over a file.
+    #[error("{} is there already and stays as it is; --write writes over it, --study names another file", path.display())]
+    StudyIsThere {
+        /// The study file.
+        path: PathBuf,
+    },
+    /// A drafted study would be written over what may be a measurement.
+    #[error("{} cannot be the study: its name must end in .ron, and lead to none of the measurements", path.display())]
+    NoStudyName {
+        /// The file.
+        path: PathBuf,
+    },
+    /// Files in the layout of the thesis, which is the default.
+    #[error("{} holds files in the layout of the thesis, which need no study: cargo xtask run --data {}", path.display(), path.display())]
+    NeedsNoStudy {
+        /// Folder or file.
+        path: PathBuf,
+    },
     /// A recording could not be made whole.
     #[error("cannot recover {}: {source}{}", path.display(), remedy(source))]
     NotRecovered {
@@ -222,9 +248,18 @@ impl StudyError {
                 | Self::Record(RecordError::Setting { .. })
                 | Self::Preprocess(_)
                 | Self::Model(_)
+                | Self::NothingToDraft { .. }
+                | Self::NeedsNoStudy { .. }
+                | Self::StudyIsThere { .. }
+                | Self::NoStudyName { .. }
                 | Self::AlreadyInModel { .. }
                 | Self::NotInModel { .. }
         )
+    }
+
+    /// Whether the data are not there, or none of them can be read as the study says.
+    pub fn is_about_data(&self) -> bool {
+        matches!(self, Self::Ingest(_) | Self::Diagnose(_))
     }
 
     /// Whether whoever watches ended it.

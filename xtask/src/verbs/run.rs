@@ -42,6 +42,9 @@ pub fn carry_out(
     match outcome {
         Ok(outcome) => {
             let code = exit_code(&outcome, options.strict);
+            if outcome.nothing_identified().is_some() {
+                hint(options);
+            }
             match options.quiet {
                 true => code,
                 false => terminal::say(&told(&outcome, options, next), code),
@@ -51,7 +54,24 @@ pub fn carry_out(
             complain(&error.to_string());
             exit::interrupted()
         }
-        Err(error) => refused(&error),
+        Err(error) => {
+            let code = refused(&error);
+            if error.is_about_data() {
+                hint(options);
+            }
+            code
+        }
+    }
+}
+
+/// Whoever names data without saying what they are learns that a study can be drafted.
+fn hint(options: &RunOptions) {
+    if let (Some(data), None) = (&options.data, &options.study) {
+        complain(&format!(
+            "without --study only files in the layout of the thesis are read; for any others\n  cargo xtask init {}\nlooks at them and \
+             writes a study",
+            data.display()
+        ));
     }
 }
 

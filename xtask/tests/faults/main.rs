@@ -4,6 +4,7 @@
 #![allow(clippy::unwrap_used, reason = "a failing story should say where")]
 #![allow(clippy::print_stdout, reason = "a skipped check says so")]
 
+mod drafts;
 mod entries;
 mod full_disk;
 mod inputs;

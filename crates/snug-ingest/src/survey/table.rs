@@ -44,13 +44,19 @@ pub(super) fn survey(input: &mut dyn Input, budget: &Budget) -> Result<Survey, I
         }
         row = rows.next()?;
     }
+    let names = if has_header {
+        cells
+    } else {
+        vec![String::new(); cells.len()]
+    };
+    Ok(columns(&names, units, values))
+}
+
+/// Columns that are full, and the one number of those that hold no more.
+fn columns(names: &[String], mut units: Vec<String>, values: Vec<Vec<f64>>) -> Survey {
     let mut survey = Survey::default();
     for (place, values) in values.into_iter().enumerate() {
-        let header = if has_header {
-            cells[place].as_str()
-        } else {
-            ""
-        };
+        let header = names[place].as_str();
         let numbers = values.iter().filter(|value| !value.is_nan()).count();
         let (name, unit) = name_and_unit(header);
         let unit = if unit.is_empty() {
@@ -60,7 +66,7 @@ pub(super) fn survey(input: &mut dyn Input, budget: &Budget) -> Result<Survey, I
         };
         if values.len() >= FEWEST_SAMPLES && numbers as f64 >= FULL * values.len() as f64 {
             // Of two columns of one name only the first can be declared by it.
-            let is_named = !header.is_empty() && !cells[..place].contains(&cells[place]);
+            let is_named = !header.is_empty() && !names[..place].contains(&names[place]);
             let column = match is_named {
                 true => Column::Name(header.to_owned()),
                 false => Column::Index(place),
@@ -78,7 +84,7 @@ pub(super) fn survey(input: &mut dyn Input, budget: &Budget) -> Result<Survey, I
             survey.numbers.push((header.to_owned(), *value));
         }
     }
-    Ok(survey)
+    survey
 }
 
 fn unquoted(cell: &str) -> String {

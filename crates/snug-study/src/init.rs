@@ -1,0 +1,350 @@
+//! A study for files of which nobody has declared anything: what their columns probably are, and why, as text to be read
+//! and corrected.
+
+mod choice;
+mod numbers;
+mod roles;
+mod text;
+mod trials;
+mod units;
+
+use crate::{Study, StudyError};
+use choice::Choice;
+use snug_files::{FilesError, Host, Identity, write_whole};
+use snug_ingest::survey::{Survey, SurveyedPlace, survey};
+use snug_ingest::{IngestError, Source};
+use std::fs::OpenOptions;
+use std::io::{ErrorKind, Write as _};
+use std::path::{Path, PathBuf};
+
+/// Files that are looked at.
+const MOST_FILES: usize = 300;
+
+/// A study that was written for some files.
+#[derive(Debug, Clone)]
+pub struct Draft {
+    /// Every column of the first file that holds enough, for a picture.
+    pub columns: Vec<DraftColumn>,
+    /// What was found out, a sentence each.
+    pub notes: Vec<String>,
+    /// The study file, commented.
+    pub text: String,
+}
+
+/// A column and what it is taken for.
+#[derive(Debug, Clone)]
+pub struct DraftColumn {
+    /// Where it stands.
+    pub place: String,
+    /// What it is taken for, and why.
+    pub told: String,
+    /// Its numbers, in the unit of the file.
+    pub values: Vec<f64>,
+}
+
+/// Looks at `paths` (one folder, or files of one folder) and drafts the study that would stand at `study_file`.
+///
+/// # Errors
+/// [`StudyError::Ingest`] for what cannot be read, [`StudyError::NothingToDraft`] where no file holds an input and a motion.
+pub fn draft(paths: &[PathBuf], study_file: &Path) -> Result<Draft, StudyError> {
+    let given = Given::of(paths)?;
+    keep_apart(study_file, &given.files)?;
+    let mut reference = None;
+    let mut why_not = Vec::new();
+    for file in given.files.iter().take(MOST_FILES) {
+        match survey(file)
+            .map_err(StudyError::from)
+            .and_then(|found| usable(file, found))
+        {
+            Ok(found) => {
+                reference = Some((file, found));
+                break;
+            }
+            Err(error) => why_not.push(error),
+        }
+    }
+    let Some((file, found)) = reference else {
+        return Err(match why_not.into_iter().next() {
+            Some(first) if given.is_folder => nothing_in(
+                &given.path,
+                &format!("no file with columns of numbers (the first: {first})"),
+            ),
+            Some(first) => first,
+            None => nothing_in(&given.path, "nothing"),
+        });
+    };
+    if found.is_thesis {
+        return Err(StudyError::NeedsNoStudy { path: given.path });
+    }
+    let choice = Choice::of(file, &found)?;
+    let files = given.readable(&choice)?;
+    let path = text::path_from(study_file, &given.path);
+    let text = text::study(&choice, &path, &files.named, &given.title());
+    Study::parse(&text, study_file)?.check()?;
+    let mut notes = choice.notes.clone();
+    notes.insert(0, files.told);
+    Ok(Draft {
+        columns: choice.told(&found),
+        notes,
+        text,
+    })
+}
+
+/// Writes a study to `study_file`; over a file that is there only where `over` says so, and then whole or not at all.
+///
+/// # Errors
+/// [`StudyError::StudyIsThere`], [`StudyError::Files`].
+pub fn write_draft(draft: &Draft, study_file: &Path, over: bool) -> Result<(), StudyError> {
+    if over {
+        return Ok(write_whole(&Host, study_file, draft.text.as_bytes())?);
+    }
+    let refused = |source| FilesError::Refused {
+        action: "write",
+        path: study_file.to_path_buf(),
+        source,
+    };
+    let file = OpenOptions::new()
+        .write(true)
+        .create_new(true)
+        .open(study_file);
+    let mut file = file.map_err(|source| match source.kind() {
+        ErrorKind::AlreadyExists => StudyError::StudyIsThere {
+            path: study_file.to_path_buf(),
+        },
+        _ => refused(source).into(),
+    })?;
+    Ok(file.write_all(draft.text.as_bytes()).map_err(refused)?)
+}
+
+/// No study is written over a measurement, whatever its name: it ends in `.ron`, and leads to none of the files.
+fn keep_apart(study_file: &Path, files: &[PathBuf]) -> Result<(), StudyError> {
+    let refused = || StudyError::NoStudyName {
+        path: study_file.to_path_buf(),
+    };
+    if study_file.extension().is_none_or(|ending| ending != "ron") {
+        return Err(refused());
+    }
+    let identity = |path: &Path| Identity::of(&Host, path).ok().flatten();
+    let Some(study) = identity(study_file) else {
+        return Ok(());
+    };
+    match files
+        .iter()
+        .any(|file| identity(file) == Some(study.clone()))
+    {
+        true => Err(refused()),
+        false => Ok(()),
+    }
+}
+
+/// A survey with at least two columns; of the thesis' files no more is asked.
+fn usable(file: &Path, found: Survey) -> Result<Survey, StudyError> {
+    if found.is_thesis || found.columns.len() > 1 {
+        return Ok(found);
+    }
+    Err(StudyError::NothingToDraft {
+        path: file.to_path_buf(),
+        found: format!("{} column(s) of at least 16 numbers", found.columns.len()),
+    })
+}
+
+/// What was asked to be looked at.
+struct Given {
+    /// Folder or file that the study is to name.
+    path: PathBuf,
+    files: Vec<PathBuf>,
+    /// Whether a folder is meant.
+    is_folder: bool,
+    /// Files in it that its source would read and that hold no measurement.
+    others: usize,
+}
+
+/// That a folder holds nothing that can be drafted, and what else is there.
+fn nothing_in(folder: &Path, found: &str) -> StudyError {
+    let mut inside: Vec<String> = std::fs::read_dir(folder)
+        .into_iter()
+        .flatten()
+        .flatten()
+        .filter(|entry| entry.path().is_dir())
+        .map(|entry| entry.file_name().to_string_lossy().into_owned())
+        .collect();
+    inside.sort();
+    let folders = match inside.as_slice() {
+        [] => String::new(),
+        [first, ..] => format!(
+            "; folders inside are not looked into ({} of them, as {}): name one",
+            inside.len(),
+            folder.join(first).display()
+        ),
+    };
+    StudyError::NothingToDraft {
+        path: folder.to_path_buf(),
+        found: format!("{found}{folders}"),
+    }
+}
+
+/// Which files a study reads.
+struct Readable {
+    /// Their names, where they are not all of the folder.
+    named: Vec<String>,
+    told: String,
+}
+
+impl Given {
+    fn of(paths: &[PathBuf]) -> Result<Self, StudyError> {
+        match paths {
+            [one] if one.is_dir() => Self::folder(one),
+            [one] => Ok(Self {
+                path: one.clone(),
+                files: vec![one.clone()],
+                is_folder: false,
+                others: 0,
+            }),
+            several => {
+                let parent = |path: &PathBuf| path.parent().unwrap_or(Path::new("")).to_path_buf();
+                let folder = several.first().map(parent).unwrap_or_default();
+                if let Some(other) = several
+                    .iter()
+                    .find(|path| parent(path) != folder || path.is_dir())
+                {
+                    return Err(StudyError::NothingToDraft {
+                        path: other.clone(),
+                        found: "no file of the same folder as the first: name one folder, or files of one".to_owned(),
+                    });
+                }
+                Ok(Self {
+                    path: folder,
+                    files: several.to_vec(),
+                    is_folder: false,
+                    others: 0,
+                })
+            }
+        }
+    }
+
+    /// The files of the format of which a folder has most.
+    fn folder(folder: &Path) -> Result<Self, StudyError> {
+        let unreadable = |source| StudyError::Read {
+            path: folder.to_path_buf(),
+            source,
+        };
+        let mut files = Vec::new();
+        for entry in std::fs::read_dir(folder).map_err(unreadable)? {
+            let path = entry.map_err(unreadable)?.path();
+            let hidden = path
+                .file_name()
+                .is_some_and(|name| name.to_string_lossy().starts_with('.'));
+            if path.is_file() && !hidden {
+                files.push(path);
+            }
+        }
+        files.sort();
+        let of = |endings: &'static [&'static str]| {
+            let ends = |file: &&PathBuf| {
+                let ending = file
+                    .extension()
+                    .unwrap_or_default()
+                    .to_string_lossy()
+                    .to_lowercase();
+                endings.contains(&ending.as_str())
+            };
+            files.iter().filter(ends).cloned().collect::<Vec<PathBuf>>()
+        };
+        // Text may be anything, and beside tables it mostly is what people have to say of them.
+        let kinds: [&[&str]; 4] = [&["txt"], &["json"], &["csv", "tsv"], &["mat"]];
+        let text_last =
+            |endings: &&&'static [&'static str]| (endings != &&kinds[0], of(endings).len());
+        let chosen = kinds
+            .iter()
+            .filter(|kind| !of(kind).is_empty())
+            .max_by_key(text_last);
+        let Some(kind) = chosen else {
+            return Err(nothing_in(
+                folder,
+                "no .csv, .tsv, .txt, .mat or .json file",
+            ));
+        };
+        // A source of tables reads texts, too.
+        let others = match *kind == kinds[2] {
+            true => of(kinds[0]).len(),
+            false => 0,
+        };
+        Ok(Self {
+            path: folder.to_path_buf(),
+            files: of(kind),
+            is_folder: true,
+            others,
+        })
+    }
+
+    fn title(&self) -> String {
+        let absolute = self
+            .path
+            .canonicalize()
+            .unwrap_or_else(|_| self.path.clone());
+        let name = if self.is_folder {
+            absolute.file_name()
+        } else {
+            absolute.file_stem()
+        };
+        name.unwrap_or_default().to_string_lossy().into_owned()
+    }
+
+    /// Which of the files the choice can read.
+    fn readable(&self, choice: &Choice) -> Result<Readable, StudyError> {
+        let text = text::study(choice, "", &[], "");
+        let source: Source = Study::parse(&text, Path::new("study.ron"))?.source;
+        let (mut read, mut failed) = (Vec::new(), Vec::<IngestError>::new());
+        for file in self.files.iter().take(MOST_FILES) {
+            match snug_ingest::read(&source, file, 1.0) {
+                Ok(_) => read.push(file),
+                Err(error) => failed.push(error),
+            }
+        }
+        let all = self.files.len();
+        let name = |file: &&PathBuf| {
+            file.file_name()
+                .unwrap_or_default()
+                .to_string_lossy()
+                .into_owned()
+        };
+        let is_one = all == 1 && !self.is_folder;
+        let is_all = self.is_folder && self.others == 0 && (failed.is_empty() || all > MOST_FILES);
+        let mut told = match all {
+            1 => "One file, one recording.".to_owned(),
+            _ => format!(
+                "{} of {} files can be read so; each is one recording.",
+                read.len(),
+                all.min(MOST_FILES)
+            ),
+        };
+        if let Some(first) = failed.first() {
+            told += &format!(" The others are left out (the first: {first}).");
+        }
+        Ok(Readable {
+            named: if is_one || is_all {
+                Vec::new()
+            } else {
+                read.iter().map(name).collect()
+            },
+            told,
+        })
+    }
+}
+
+/// A place as people name it.
+fn told_place(place: &SurveyedPlace) -> String {
+    match place {
+        SurveyedPlace::Column(column) => column.to_string(),
+        SurveyedPlace::Path(path, snug_ingest::declared::Part::Row(row)) => {
+            format!("row {row} of {path}")
+        }
+        SurveyedPlace::Path(path, snug_ingest::declared::Part::Column(column)) => {
+            format!("column {column} of {path}")
+        }
+        SurveyedPlace::Path(path, _) => path.clone(),
+    }
+}
+
+#[cfg(test)]
+mod tests;
