@@ -1,6 +1,6 @@
 //! Which column is taken for what: by its name, or by its numbers.
 
-use super::numbers::{derivative, is_constant, median_step, rises, runs_away};
+use super::numbers::{derivative, is_constant, median_step, rises, runs_away, work};
 use super::roles::{self, Meaning};
 use super::units::unit_of;
 use super::{DraftColumn, text, told_place};
@@ -17,6 +17,8 @@ pub(super) struct Taken {
     pub(super) column: SurveyedColumn,
     pub(super) signal: Signal,
     pub(super) unit: Unit,
+    /// Factor before the unit.
+    pub(super) scale: f64,
     pub(super) why: String,
 }
 
@@ -60,6 +62,8 @@ impl Choice {
         }
         choice.take_the_rest(file, found, &mut open)?;
         choice.compare_motions(found);
+        choice.turn_the_input();
+        choice.try_the_sign(file);
         for (place, meaning) in open {
             choice.whys[place] = match meaning {
                 Meaning::Wanted => {
@@ -169,6 +173,7 @@ impl Choice {
             column: column.clone(),
             signal,
             unit,
+            scale: 1.0,
             why,
         });
     }
@@ -263,6 +268,34 @@ impl Choice {
                 ));
             }
             _ => {}
+        }
+    }
+
+    /// Turns the input's sign where it brakes the motion all the time, as a torque does that was counted as the load's.
+    fn turn_the_input(&mut self) {
+        const MOSTLY: f64 = -0.5;
+        let of = |signal: Signal| self.taken.iter().find(|one| one.signal == signal);
+        let Some(at) = self.taken.iter().position(|one| one.signal.is_input()) else {
+            return;
+        };
+        let input = &self.taken[at].column.values;
+        let share = match (of(Signal::Velocity), of(Signal::Displacement)) {
+            (Some(speed), _) => work(input, speed.column.values.iter().copied()),
+            (None, Some(position)) => {
+                let pairs = position.column.values.windows(2);
+                work(input, pairs.map(|pair| pair[1] - pair[0]))
+            }
+            (None, None) => None,
+        };
+        if share.is_some_and(|share| share < MOSTLY) {
+            let input = &mut self.taken[at];
+            input.scale = -1.0;
+            input.why += "; its sign is turned: it counts against the motion nearly always, and what drives a rig does not";
+            let turned = format!(
+                "The sign of {} is turned (scale: -1.0): it counts against the motion nearly always, and what drives a rig does not.",
+                told_place(&input.column.place)
+            );
+            self.notes.push(turned);
         }
     }
 

@@ -94,6 +94,18 @@ pub(super) fn runs_away(values: &[f64]) -> bool {
     }
 }
 
+/// Work of the input along a motion over the sum of its sizes from sample to sample, −1 to 1: a rig that is driven takes
+/// energy in. `None` where nothing is done.
+pub(super) fn work(input: &[f64], steps: impl Iterator<Item = f64>) -> Option<f64> {
+    let done = input.iter().zip(steps).map(|(input, step)| input * step);
+    let (sum, sizes) = done
+        .filter(|work| work.is_finite())
+        .fold((0.0, 0.0), |(sum, sizes), work| {
+            (sum + work, sizes + work.abs())
+        });
+    (sizes > 0.0).then(|| sum / sizes)
+}
+
 /// Largest size.
 pub(super) fn largest(values: &[f64]) -> f64 {
     values

@@ -170,6 +170,40 @@ fn a_tree_is_drafted_and_others_of_its_folder_are_left_out() {
     );
 }
 
+/// A drive that turns against friction under a torque that was counted as the load's.
+#[test]
+fn a_load_becomes_a_drive() {
+    let content = table("time,torque,angle", |place, row| {
+        format!(
+            "{},{},{}",
+            0.01 * place as f64,
+            row[0] - 4.0,
+            place as f64 + row[1]
+        )
+    });
+    let (study, draft, _folder) = drafted("a.csv", &content);
+    assert!(
+        draft.text.contains("unit: NewtonMetre, scale: -1.0"),
+        "{}",
+        draft.text
+    );
+    assert!(
+        draft
+            .notes
+            .iter()
+            .any(|note| note.contains("The sign of torque is turned"))
+    );
+    assert!(study.check().is_ok());
+}
+
+/// A sensor that counts the other way.
+#[test]
+fn a_turned_sign_is_turned_back() {
+    let content = table("torque,angle", |_, row| format!("{},{}", -row[0], row[1]));
+    let (study, draft, _folder) = drafted("a.csv", &content);
+    assert!(draft.text.contains("scale: -1.0") && study.check().is_ok());
+}
+
 #[test]
 fn what_cannot_be_drafted_says_why() {
     let folder = tempfile::tempdir().unwrap();

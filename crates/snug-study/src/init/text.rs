@@ -54,8 +54,12 @@ fn channel(taken: &Taken) -> String {
         SurveyedPlace::Column(column) => format!("column: {}", column_text(column)),
         SurveyedPlace::Path(path, part) => format!("path: {path:?}{}", part_text(*part)),
     };
+    let scale = match taken.scale == 1.0 {
+        true => String::new(),
+        false => format!(", scale: {:?}", taken.scale),
+    };
     format!(
-        "                // {}.\n                ({place}, signal: {:?}, unit: {:?}),",
+        "                // {}.\n                ({place}, signal: {:?}, unit: {:?}{scale}),",
         one_line(&taken.why),
         taken.signal,
         taken.unit

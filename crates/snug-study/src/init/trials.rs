@@ -139,6 +139,31 @@ impl Choice {
         }
     }
 
+    /// Says what the model explains of the motion, and whether it were more with the input's sign turned; nothing is turned.
+    pub(super) fn try_the_sign(&mut self, file: &Path) {
+        const CLEARLY: f64 = 0.1;
+        const HALF: f64 = 0.5;
+        let mut turned = self.clone();
+        let inputs = turned.taken.iter_mut().filter(|one| one.signal.is_input());
+        inputs.for_each(|input| input.scale *= -1.0);
+        let explained = |choice: &Self| 1.0 - choice.unexplained(file).unwrap_or(1.0).min(1.0);
+        let (as_it_is, other) = (explained(self), explained(&turned));
+        if other > as_it_is + CLEARLY {
+            self.notes.push(format!(
+                "With the input's sign turned (scale) mass, damping and stiffness explained {:.0} % of the motion rather than \
+                 {:.0} %: check which way input and motion count.",
+                100.0 * other,
+                100.0 * as_it_is
+            ));
+        } else if as_it_is < HALF {
+            self.notes.push(format!(
+                "Mass, damping and stiffness explain {:.0} % of the motion only: check signs and columns, or this rig is no body on a \
+                 spring.",
+                100.0 * as_it_is
+            ));
+        }
+    }
+
     /// Share of the motion's power that mass, damping and stiffness leave, as spectra tell; `None` where they say nothing.
     fn unexplained(&self, file: &Path) -> Option<f64> {
         let text = text::study(self, "", &[], "");
