@@ -2,6 +2,7 @@
 //! and corrected.
 
 mod choice;
+mod events;
 mod numbers;
 mod roles;
 mod text;
@@ -10,6 +11,8 @@ mod units;
 
 use crate::{Study, StudyError};
 use choice::Choice;
+use events::Pulse;
+use snug_campaign::Recording;
 use snug_files::{FilesError, Host, Identity, write_whole};
 use snug_ingest::survey::{Survey, SurveyedPlace, survey};
 use snug_ingest::{IngestError, Source};
@@ -76,8 +79,9 @@ pub fn draft(paths: &[PathBuf], study_file: &Path) -> Result<Draft, StudyError> 
     if found.is_thesis {
         return Err(StudyError::NeedsNoStudy { path: given.path });
     }
-    let choice = Choice::of(file, &found)?;
+    let mut choice = Choice::of(file, &found)?;
     let files = given.readable(&choice)?;
+    choice.set_window(files.pulse);
     let path = text::path_from(study_file, &given.path);
     let text = text::study(&choice, &path, &files.named, &given.title());
     Study::parse(&text, study_file)?.check()?;
@@ -187,6 +191,8 @@ fn nothing_in(folder: &Path, found: &str) -> StudyError {
 struct Readable {
     /// Their names, where they are not all of the folder.
     named: Vec<String>,
+    /// The window of the pulse that each of them holds.
+    pulse: Option<Pulse>,
     told: String,
 }
 
@@ -295,9 +301,13 @@ impl Given {
         let text = text::study(choice, "", &[], "");
         let source: Source = Study::parse(&text, Path::new("study.ron"))?.source;
         let (mut read, mut failed) = (Vec::new(), Vec::<IngestError>::new());
+        let mut pulses = Vec::new();
         for file in self.files.iter().take(MOST_FILES) {
             match snug_ingest::read(&source, file, 1.0) {
-                Ok(_) => read.push(file),
+                Ok(ingested) => {
+                    pulses.push(pulse_of(&ingested.recordings));
+                    read.push(file);
+                }
                 Err(error) => failed.push(error),
             }
         }
@@ -328,8 +338,20 @@ impl Given {
                 read.iter().map(name).collect()
             },
             told,
+            pulse: (pulses.into_iter().collect::<Option<Vec<_>>>())
+                .and_then(|all| events::window(&all)),
         })
     }
+}
+
+/// First and end of the pulse in a file's recording, and the recording's length \[s\].
+fn pulse_of(recordings: &[Recording]) -> Option<(f64, f64, f64)> {
+    let [recording] = recordings else {
+        return None;
+    };
+    let (first, end) = events::pulse(&recording.torque_nm)?;
+    let at = |sample: usize| sample as f64 * recording.time_base.interval_s;
+    Some((at(first), at(end), at(recording.torque_nm.len())))
 }
 
 /// A place as people name it.

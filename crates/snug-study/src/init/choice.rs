@@ -1,5 +1,6 @@
 //! Which column is taken for what: by its name, or by its numbers.
 
+use super::events::Pulse;
 use super::numbers::{derivative, is_constant, median_step, rises, runs_away, work};
 use super::roles::{self, Meaning};
 use super::units::unit_of;
@@ -35,6 +36,8 @@ pub(super) struct Choice {
     pub(super) format: SurveyedFormat,
     pub(super) taken: Vec<Taken>,
     pub(super) clock: Clock,
+    /// Where each recording is a tightening, its pulse.
+    pub(super) pulse: Option<Pulse>,
     pub(super) notes: Vec<String>,
     /// What is said of each column of the survey.
     whys: Vec<String>,
@@ -51,6 +54,7 @@ impl Choice {
                 hz: 1.0,
                 why: String::new(),
             },
+            pulse: None,
             notes: Vec::new(),
             whys: vec![String::new(); found.columns.len()],
         };
@@ -146,6 +150,16 @@ impl Choice {
                 }
             }
         };
+    }
+
+    /// Takes recordings for tightenings where each holds one pulse, and times are known.
+    pub(super) fn set_window(&mut self, pulse: Option<Pulse>) {
+        self.pulse = pulse.filter(|_| self.interval_s().is_some());
+        if let Some(Pulse { start_s, length_s }) = self.pulse {
+            self.notes.push(format!(
+                "Each recording is a tightening: one pulse of the input behind a quiet part; the window is {length_s} s from {start_s} s."
+            ));
+        }
     }
 
     /// Steps of the clock \[s\]; `None` where it only counts.

@@ -204,6 +204,51 @@ fn a_turned_sign_is_turned_back() {
     assert!(draft.text.contains("scale: -1.0") && study.check().is_ok());
 }
 
+/// One pulse in every file, at about the same time.
+#[test]
+fn tightenings_are_told_from_recordings() {
+    let folder = tempfile::tempdir().unwrap();
+    for file in 0..3 {
+        let start = 1000 + 10 * file;
+        let rows = (0..3000).map(|row: i32| {
+            let k = row - start;
+            let is_pulse = (0..100).contains(&k);
+            let torque = if is_pulse {
+                (f64::from(k) * 0.01 * std::f64::consts::PI).sin()
+            } else {
+                0.0
+            };
+            let after = if k > 0 {
+                (f64::from(k) * 0.01).sin() * (f64::from(-k) * 0.002).exp()
+            } else {
+                0.0
+            };
+            format!("{},{torque},{after}\n", f64::from(row) * 0.001)
+        });
+        let content: String = std::iter::once("time,torque,speed\n".to_owned())
+            .chain(rows)
+            .collect();
+        std::fs::write(folder.path().join(format!("{file}.csv")), content).unwrap();
+    }
+    let study_file = folder.path().join("rig.ron");
+    let draft = draft(&[folder.path().to_path_buf()], &study_file).unwrap();
+    assert!(
+        draft.text.contains("window: Pulse(start_s: 0.984"),
+        "{}",
+        draft.text
+    );
+    assert!(
+        draft
+            .notes
+            .iter()
+            .any(|note| note.starts_with("Each recording is a tightening"))
+    );
+    Study::parse(&draft.text, &study_file)
+        .unwrap()
+        .check()
+        .unwrap();
+}
+
 #[test]
 fn what_cannot_be_drafted_says_why() {
     let folder = tempfile::tempdir().unwrap();

@@ -1,6 +1,7 @@
 //! The study as text, every guess beside its reason.
 
 use super::choice::{Choice, Clock, Taken};
+use super::events::Pulse;
 use snug_ingest::Signal;
 use snug_ingest::csv::{Column, TimeUnit};
 use snug_ingest::declared::Part;
@@ -111,10 +112,19 @@ fn rig(choice: &Choice) -> String {
         "At 1 m mass_kg is the inertia in kg m², damping in N m s/rad, stiffness in N m/rad; where a hand or a load holds the \
          lever's end, write its length."
     };
+    let (why, window) = match choice.pulse {
+        Some(Pulse { start_s, length_s }) => (
+            "One pulse each, behind a quiet part that measures bias and noise; Whole takes recordings as they are.",
+            format!("Pulse(start_s: {start_s:?}, length_s: {length_s:?})"),
+        ),
+        None => (
+            "Every recording as a whole; Pulse(start_s: …, length_s: …) where each holds one pulse behind a quiet part.",
+            "Whole".to_owned(),
+        ),
+    };
     format!(
-        "    preprocess: (\n        // Every recording as a whole; where each holds one torque pulse behind a quiet part, write\n        \
-         // window: Pulse(start_s: …, length_s: …).\n        window: Whole,\n        // {lever}\n        // What turns \
-         with the tool and is known (kg m²) goes into known_inertia; 0: all of it is identified.\n        rig: (lever_arm_m: 1.0, \
+        "    preprocess: (\n        // {why}\n        window: {window},\n        // {lever}\n        // What turns with the tool \
+         and is known (kg m²) goes into known_inertia; 0: all of it is identified.\n        rig: (lever_arm_m: 1.0, \
          known_inertia: Fixed(0.0)),\n    ),"
     )
 }
