@@ -28,6 +28,7 @@ static SOURCES: LazyLock<[Source; 3]> = LazyLock::new(|| {
 });
 
 fn attempt(file: &Path, _: &[u8]) {
+    let _ = snug_ingest::survey::survey(file);
     for source in SOURCES.iter() {
         let _ = snug_ingest::read(source, file, 0.33);
     }

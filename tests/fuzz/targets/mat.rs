@@ -45,6 +45,7 @@ pub fn attempt(file: &Path, input: &[u8]) {
             let _ = (value.to_f64(), value.text(), value.rows(), value.describe());
         }
     }
+    let _ = snug_ingest::survey::survey(file);
     let _ = snug_ingest::read(&DECLARED, file, LEVER_ARM_M);
     if let Ok(read) = snug_ingest::read(&Source::default(), file, LEVER_ARM_M) {
         for recording in read.recordings {

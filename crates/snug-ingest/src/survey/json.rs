@@ -11,8 +11,8 @@ use snug_files::Input;
 /// Elements of a list of objects that are looked into, where they are no samples.
 const MOST_ELEMENTS: usize = 4;
 
-/// Memory that a tree takes per byte of text: an object of one number, `{"a":1},`, takes 300 for its 8.
-const BYTES_PER_BYTE: usize = 64;
+/// Memory that a tree takes per byte of text: an object of one number, `{"":1},`, takes 670 for its 8.
+const BYTES_PER_BYTE: usize = 100;
 
 pub(super) fn survey(input: &mut dyn Input, budget: &Budget) -> Result<Survey, IngestError> {
     let content = layout::content(input, budget, layout::check_text)?;

@@ -63,6 +63,7 @@ pub(super) fn window(pulses: &[(f64, f64, f64)]) -> Option<Pulse> {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used)]
     use super::*;
 
     /// A half sine of 100 samples behind 300 of small noise.
