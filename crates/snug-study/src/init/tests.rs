@@ -261,7 +261,7 @@ fn what_cannot_be_drafted_says_why() {
     );
     let flat: String = (0..30).map(|_| "1,2\n").collect();
     std::fs::write(path.join("a.csv"), flat).unwrap();
-    assert!(told(&[path.join("a.csv")]).contains("none that can be the input"));
+    assert!(told(&[path.join("a.csv")]).contains("column 0 (does not change)"));
     assert!(
         told(&[path.join("a.csv"), PathBuf::from("b.csv")]).contains("no file of the same folder")
     );

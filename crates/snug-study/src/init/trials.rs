@@ -1,6 +1,7 @@
 //! An input and a motion that no name tells: each that can be is tried with mass, damping and stiffness.
 
 use super::choice::Choice;
+use super::numbers::is_constant;
 use super::roles::{self, Meaning};
 use super::{text, told_place};
 use crate::{Study, StudyError, cases};
@@ -229,12 +230,13 @@ fn told_of(trials: &[Trial], found: &Survey) -> Option<String> {
     ))
 }
 
+/// The columns by place, and whether they say anything.
 fn named(found: &Survey) -> String {
-    let names: Vec<String> = found
-        .columns
-        .iter()
-        .map(|column| told_place(&column.place))
-        .take(12)
-        .collect();
+    const MOST: usize = 12;
+    let told = |column: &SurveyedColumn| match is_constant(&column.values) {
+        true => format!("{} (does not change)", told_place(&column.place)),
+        false => told_place(&column.place),
+    };
+    let names: Vec<String> = found.columns.iter().map(told).take(MOST).collect();
     names.join(", ")
 }
