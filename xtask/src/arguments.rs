@@ -3,6 +3,7 @@
 use crate::verbs::Verb;
 use clap::{Args, Parser, ValueEnum};
 use std::path::PathBuf;
+use std::time::Duration;
 
 /// Snug identifies the hand–arm model of a nutrunner from measured tightenings.
 #[derive(Debug, Parser)]
@@ -75,6 +76,9 @@ pub struct RunOptions {
     /// Folder for the results; made if it is not there.
     #[arg(long, value_name = "DIR", default_value = "out")]
     pub out: PathBuf,
+    /// Ends after so many seconds with the best answer so far, which says that it is one.
+    #[arg(long, value_name = "S", value_parser = seconds)]
+    pub time: Option<Duration>,
     /// Waits for another run that writes into the same folder.
     #[arg(long)]
     pub wait: bool,
@@ -90,6 +94,16 @@ pub struct RunOptions {
     /// Seed of everything random (permutation tests).
     #[arg(long, value_name = "N")]
     pub seed: Option<u64>,
+}
+
+/// `60` or `60s`.
+fn seconds(text: &str) -> Result<Duration, String> {
+    let number = text.strip_suffix('s').unwrap_or(text).trim();
+    let seconds: f64 = number.parse().unwrap_or(f64::NAN);
+    match Duration::try_from_secs_f64(seconds) {
+        Ok(time) if !time.is_zero() => Ok(time),
+        _ => Err("a number of seconds above 0 is wanted, as 60 or 60s".to_owned()),
+    }
 }
 
 /// Options of the verbs that change the model: a study file stays as it is unless somebody says otherwise.

@@ -4,6 +4,7 @@ use crate::exit;
 use crate::terminal::complain;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
 
 /// Becomes true with the first Ctrl-C, SIGTERM or SIGHUP; the second ends the program at once.
 ///
@@ -14,6 +15,18 @@ pub fn interruption() -> Arc<AtomicBool> {
         tracing::warn!(%error, "a signal will stop the program at once instead of after what is at hand");
     }
     interrupted
+}
+
+/// Interrupts as the first signal does once `time` has passed; becomes true where it was that which did.
+pub fn after(time: Duration, interrupted: &Arc<AtomicBool>) -> Arc<AtomicBool> {
+    let is_up = Arc::new(AtomicBool::new(false));
+    let (interrupted, told) = (Arc::clone(interrupted), Arc::clone(&is_up));
+    std::thread::spawn(move || {
+        std::thread::sleep(time);
+        let was_ended = interrupted.swap(true, Ordering::Relaxed);
+        told.store(!was_ended, Ordering::Relaxed);
+    });
+    is_up
 }
 
 #[cfg(unix)]

@@ -3,11 +3,14 @@
 use crate::data::cases::{Cases, Tally};
 use crate::data::clusters::Clusters;
 use crate::error::DiagnoseError;
+use crate::pooled::fit::fit_effects;
+use crate::pooled::thresholds::ONE_MACHINE;
 use crate::question::{Goal, Question};
 use crate::selection::model_selection::ModelSelection;
 use crate::settings::DiagnoseSettings;
 use crate::verdict::answer::{Answer, Examination};
 use crate::watch::Watch;
+use snug_model::Effect;
 
 /// Answers a question.
 ///
@@ -24,12 +27,14 @@ pub fn examine(
     let cases = question.cases;
     let tally = Tally::default();
     let left_out = "every tightening was left out; the findings say why";
+    let clusters = Clusters::of(cases);
     let counted = Cases::checked(cases, &tally, left_out)?;
+    let counted = one_machine_or_several(counted, &question.effects, clusters)?;
     let selection = ModelSelection {
         cases: counted,
         own: &question.effects,
         custom: &question.custom,
-        clusters: Clusters::of(cases),
+        clusters,
         settings,
         watch,
     };
@@ -48,4 +53,22 @@ pub fn examine(
         watch: watch.to_the_end(),
     }
     .answer()
+}
+
+/// Recordings of one machine share mass, damping and stiffness, unless each with its own leaves far less: then something differs
+/// between them, as how warm a bearing is or which way it turns.
+fn one_machine_or_several<'a>(
+    cases: Cases<'a>,
+    effects: &[Effect],
+    clusters: Clusters,
+) -> Result<Cases<'a>, DiagnoseError> {
+    if !cases.are_of_one_machine() {
+        return Ok(cases);
+    }
+    let several = cases.each_its_own();
+    let left = |cases| fit_effects(cases, effects, None, clusters).map(|fitted| fitted.squares());
+    Ok(match left(several)? < ONE_MACHINE * left(cases)? {
+        true => several,
+        false => cases,
+    })
 }

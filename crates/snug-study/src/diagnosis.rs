@@ -2,6 +2,7 @@
 
 use crate::cases::{chosen, with_settled};
 use crate::comparable::Comparable;
+use crate::held_input;
 use crate::output::Workplace;
 use crate::run::{Outcome, RunSettings, Task, pool, run_with};
 use crate::rungs::Ladder;
@@ -194,6 +195,21 @@ pub fn diagnose(
     };
     let watch = Watch::new(&tell).counting(&count).until(interrupted);
     let mut answer = pool.install(|| examine(&question, &search, &watch))?;
+    let mut held_study = None;
+    if *verb == Verb::Improve && held_input::may_be_held(study, &cases, &answer.diagnosis) {
+        let (held, cases) = held_input::held(study, &cases)?;
+        let question = Question {
+            cases: &cases,
+            ..question.clone()
+        };
+        let other = pool.install(|| examine(&question, &search, &watch))?;
+        if let Some(reason) = held_input::speaks_for_it(&other.diagnosis, &answer.diagnosis) {
+            answer = other;
+            answer.diagnosis.reasons.push(reason);
+            held_study = Some(held);
+        }
+    }
+    let study = held_study.as_ref().unwrap_or(study);
     answer.diagnosis.reasons.extend_from_slice(reasons);
     answer.diagnosis.reasons.extend(left_out);
     drop(cases);

@@ -143,8 +143,8 @@ fn free_input(study: &Study, prepared: &Prepared) -> Input {
     let tightening = &prepared.tightening;
     let interval_s = tightening.time_base.interval_s;
     let onset_s = tightening.onset.unwrap_or(0) as f64 * interval_s;
-    let input =
-        Input::new(&tightening.torque_nm, interval_s, study.model.intersample).with_onset(onset_s);
+    let input = Input::new(&tightening.torque_nm, interval_s, study.model.intersample())
+        .with_onset(onset_s);
     match study.preprocess.preset {
         // The original integrates from the segment's start, where its time is 0.
         Preset::Thesis => input

@@ -7,6 +7,7 @@ mod error;
 mod evaluation;
 mod examples;
 mod file_evaluation;
+mod held_input;
 mod init;
 mod output;
 mod position;

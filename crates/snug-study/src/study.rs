@@ -264,7 +264,7 @@ pub(crate) fn text_of(path: &Path) -> Result<String, StudyError> {
 /// What a preset decides beyond the preparation.
 struct PresetChoices {
     fitted_output: Quantity,
-    intersample: Intersample,
+    intersample: Option<Intersample>,
     constraints: Vec<ConstraintKind>,
 }
 
@@ -273,12 +273,12 @@ impl PresetChoices {
         match preset {
             Preset::Snug => Self {
                 fitted_output: Quantity::Acceleration,
-                intersample: Intersample::Linear,
+                intersample: None,
                 constraints: vec![ConstraintKind::Positive, ConstraintKind::LightlyDamped],
             },
             Preset::Thesis => Self {
                 fitted_output: Quantity::Displacement,
-                intersample: Intersample::ZeroOrder,
+                intersample: Some(Intersample::ZeroOrder),
                 constraints: vec![ConstraintKind::Stable],
             },
         }

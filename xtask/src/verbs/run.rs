@@ -7,7 +7,7 @@ use crate::terminal::complain;
 use crate::{diagnosis_summary, exit, signals, summary, terminal, workspace};
 use snug_study::{Outcome, Preset, ProgressEvent, RunSettings, Study, StudyError};
 use std::process::ExitCode;
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// From recordings to report and MCAP.
 pub fn run(options: &RunOptions) -> ExitCode {
@@ -36,12 +36,18 @@ pub fn carry_out(
         ..RunSettings::new(&options.out)
     };
     let interrupted = signals::interruption();
+    let is_up = (options.time).map(|time| signals::after(time, &interrupted));
+    let is_up = || {
+        is_up
+            .as_ref()
+            .is_some_and(|is_up| is_up.load(Ordering::Relaxed))
+    };
     let progress = Progress::new(options.quiet);
     let outcome = work(&settings, &|event| progress.report(event), &interrupted);
     progress.finish();
     match outcome {
         Ok(outcome) => {
-            let code = exit_code(&outcome, options.strict);
+            let code = exit_code(&outcome, options.strict, is_up());
             if outcome.nothing_identified().is_some() {
                 hint(options);
             }
@@ -49,6 +55,10 @@ pub fn carry_out(
                 true => code,
                 false => terminal::say(&told(&outcome, options, next), code),
             }
+        }
+        Err(error) if error.is_interruption() && is_up() => {
+            complain("the time was up before anything was found: allow more by --time");
+            exit::failed()
         }
         Err(error) if error.is_interruption() => {
             complain(&error.to_string());
@@ -99,9 +109,11 @@ fn told(outcome: &Outcome, options: &RunOptions, next: &str) -> String {
     text
 }
 
-fn exit_code(outcome: &Outcome, strict: bool) -> ExitCode {
+/// What a time limit ended was meant to end there.
+fn exit_code(outcome: &Outcome, strict: bool, is_time_up: bool) -> ExitCode {
     let diagnosis = outcome.result.diagnosis.as_ref();
-    if outcome.interrupted || diagnosis.is_some_and(|one| one.interrupted) {
+    let is_cut = outcome.interrupted || diagnosis.is_some_and(|one| one.interrupted);
+    if is_cut && !is_time_up {
         exit::interrupted()
     } else if let Some(why) = outcome.nothing_identified() {
         complain(&why);

@@ -72,6 +72,30 @@ fn every_verb_writes_what_it_has_and_marks_it() {
     }
 }
 
+/// As the first signal does, but nothing failed. A second is enough to read twelve tightenings and for nothing else.
+#[test]
+fn a_time_limit_ends_with_what_was_found_and_marks_it() {
+    let out = tempfile::tempdir().unwrap();
+    let data = fixture("mystery");
+    let limited = |time: &str| {
+        let words = ["improve", "--data", text(&data), "--out", text(out.path())];
+        let words = [&words[..], &["--threads", "1", "--time", time]].concat();
+        xtask(&words).output().unwrap()
+    };
+    let output = limited("0.6s");
+    let heard = said(&output);
+    assert_eq!(output.status.code(), Some(0), "{heard}");
+    assert!(heard.contains("Stopped by you"), "{heard}");
+    let verdict = &results(out.path())["verdict.json"];
+    assert!(String::from_utf8_lossy(verdict).contains("\"interrupted\": true"));
+
+    for wrong in ["0", "-3", "soon", "inf"] {
+        let output = limited(wrong);
+        assert_eq!(output.status.code(), Some(2), "{wrong}");
+        assert!(said(&output).contains("--time"), "{wrong}");
+    }
+}
+
 #[test]
 fn a_run_that_is_stopped_says_which_files_it_did_not_reach() {
     let out = tempfile::tempdir().unwrap();

@@ -106,6 +106,11 @@ pub enum Reason {
         /// Time between restarts \[s\].
         every_s: f64,
     },
+    /// The input is taken as held from sample to sample, since less is missing then.
+    Held {
+        /// Effects that are not needed then.
+        spared: Vec<String>,
+    },
     /// Tightenings that could not be judged by the common measure.
     LeftOut {
         /// How many.
@@ -194,6 +199,7 @@ impl Display for Reason {
                 "Run freely from its first sample on, the study's own model misses {} of the measured motion, so that a free run says little about single effects. Every model is therefore judged by what it predicts over {every_s} s from the measured motion, again and again (`identify.simulation: Restarted(every_s: {every_s})`; `FreeRun` in the study file asks for the whole record at once).",
                 whole_percent(missed.min(9.99))
             ),
+            Self::Held { spared } => held(f, spared),
             Self::LeftOut {
                 left_out,
                 all,
@@ -278,6 +284,16 @@ fn tightenings_left_out(
         f,
         "{left_out} of {all} tightenings took no part in the diagnosis: all must be judged by one measure, here {quantity} {measure}, and that could not be had of {these}. findings.json says why."
     )
+}
+
+fn held(f: &mut Formatter<'_>, spared: &[String]) -> fmt::Result {
+    let names: Vec<String> = spared.iter().map(|name| effect_name(name)).collect();
+    f.write_str("The input is taken as held from sample to sample, as a controller's is (`model.intersample: ZeroOrder`): a model of fewer effects then leaves as little")?;
+    match names.is_empty() {
+        true => f.write_str("."),
+        false => write!(f, ", without {}.", names.join(" and ")),
+    }?;
+    f.write_str(" State `Linear` where it is not.")
 }
 
 fn learnt_from(f: &mut Formatter<'_>, taken: usize, read: usize, files: usize) -> fmt::Result {

@@ -33,6 +33,14 @@ impl<'a> Cases<'a> {
         }
     }
 
+    /// The same, of which each has its own mass, damping and stiffness.
+    pub fn each_its_own(self) -> Self {
+        Self {
+            is_one_machine: false,
+            ..self
+        }
+    }
+
     /// Whether these are a few recordings of one machine, whose mass, damping and stiffness are the same in all of them. A hand's
     /// are not.
     pub fn are_of_one_machine(self) -> bool {

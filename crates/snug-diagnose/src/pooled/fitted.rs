@@ -338,6 +338,11 @@ impl Fitted {
         }
     }
 
+    /// Whether clusters are stretches of a few long records.
+    pub fn are_stretches(&self) -> bool {
+        !self.clusters.are_whole()
+    }
+
     /// Whether no tightening has anything of its own, so that stretches speak of the shared parameters alone.
     pub fn shares_all(&self) -> bool {
         self.own_indices.is_empty()

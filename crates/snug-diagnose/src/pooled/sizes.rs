@@ -94,6 +94,15 @@ pub(crate) fn is_told_from_nothing(cases: &[FitTask<'_>], fitted: &Fitted, effec
             },
         )
     };
+    // A law whose shape ends where it may go no further is another law.
+    let is_at_its_end = |(offset, size): (usize, &EffectParameter)| {
+        let parameter = &model.parameters()[first + offset];
+        let ends = [parameter.minimum, parameter.maximum];
+        nothing(offset).is_none() && !size.per_tightening && ends.contains(&size.value)
+    };
+    if fitted.are_stretches() && sizes.iter().enumerate().any(is_at_its_end) {
+        return false;
+    }
     let told: Vec<bool> = sizes.iter().enumerate().filter_map(excludes).collect();
     told.is_empty() || told.contains(&true)
 }

@@ -78,7 +78,7 @@ fn makes_few_turns(case: &FitTask<'_>) -> bool {
 mod tests {
     use super::*;
     use crate::tests::made_up::{RIG, SAMPLES, exact};
-    use snug_model::Model;
+    use snug_model::{Model, Scale};
     use std::borrow::Cow;
 
     fn names(case: FitTask<'static>) -> Vec<&'static str> {

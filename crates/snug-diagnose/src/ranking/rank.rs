@@ -10,7 +10,7 @@ use crate::pooled::model::PooledModel;
 use crate::pooled::sizes::is_told_from_nothing;
 use crate::ranking::max_t::Family;
 use crate::ranking::paired_gain::{chance, clearness, spread_of_sum};
-use crate::ranking::pairs::promising_pairs;
+use crate::ranking::pairs::{Pair, promising_pairs};
 use crate::ranking::refit::{followed, refit};
 use crate::ranking::score_test::{Control, Scored, Scorer};
 use crate::ranking::sensitivity::Column;
@@ -75,7 +75,7 @@ impl Candidate {
 
     /// Chance of so clear a gain in held-out clusters, among `family` candidates (Bonferroni): for effects that push
     /// elsewhere once the model follows them, so that no score against the model without them sees them.
-    pub fn p_of_gain(&self, family: usize) -> f64 {
+    fn p_of_gain(&self, family: usize) -> f64 {
         (chance(&self.gains, self.fitted.scale()) * family as f64).min(1.0)
     }
 
@@ -95,8 +95,8 @@ pub(crate) struct Ranking {
     pub candidates: Vec<Candidate>,
     /// Effects whose starts this rig cannot be simulated with.
     pub impossible: Vec<Effect>,
-    /// Pairs that promise more together than any effect alone, best first; looked for in a few long records only.
-    pub pairs: Vec<[Effect; 2]>,
+    /// Pairs that promise more together than either alone, best first; looked for in a few long records only.
+    pub pairs: Vec<Pair>,
     /// What every candidate was scored with.
     pub columns: Vec<Column>,
     /// Campaigns of nothing but noise, and in how many of them something was called supported.
@@ -124,7 +124,7 @@ pub(crate) fn rank(
     let scored = scorer.score(candidates)?;
     let control = negative_control(&scorer, &scored, candidates, settings);
     let pairs = (scored.gram.as_ref())
-        .map(|gram| promising_pairs(&scored.columns, gram))
+        .map(|gram| promising_pairs(&scored.columns, gram, settings))
         .unwrap_or_default();
     let columns = scored.columns;
     cases.tally().signatures(cases.len() * columns.len());

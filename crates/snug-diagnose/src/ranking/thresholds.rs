@@ -15,7 +15,7 @@ pub(crate) const BEST: usize = 3;
 pub(crate) const BEST_OF_LONG: usize = 6;
 /// Pairs of effects that are tried where none is justified alone. Chosen.
 pub(crate) const PAIRS: usize = 6;
-/// How many times as much as the best alone two must promise together to be tried \[–\]. Chosen.
+/// How many times as much as the better of them alone two must promise together to be tried \[–\]. Chosen.
 pub(crate) const BEYOND_BOTH: f64 = 1.5;
 /// Share of its own power \[–\] that a signature must keep beside another for both to be two. Chosen.
 pub(crate) const UNLIKE: f64 = 1e-3;

@@ -4,14 +4,14 @@
 use crate::error::DiagnoseError;
 use crate::pooled::fitted::Fitted;
 use crate::pooled::sizes::is_told_from_nothing;
+use crate::ranking::pairs::Pair;
 use crate::ranking::rank::{Candidate, Ranking, gains, rank};
-use crate::ranking::thresholds::STRICTER;
 use crate::selection::model_selection::{ModelSelection, Step};
-use crate::selection::path::{SelectionPath, least_share};
+use crate::selection::path::{SelectionPath, least_share, misfit};
 use snug_model::Effect;
 
 /// A pair, fitted: both, and the second as a step from the first, which stands at `seed` in the ranking.
-struct Pair {
+struct Both {
     both: Candidate,
     seed: usize,
     second: Step,
@@ -21,23 +21,27 @@ impl ModelSelection<'_> {
     /// The two effects of the last ranking's promising pairs that explain most and are justified, as two steps.
     pub fn two_at_once(&self, path: &SelectionPath) -> Result<Option<Vec<Step>>, DiagnoseError> {
         let (current, ranking) = (path.last(), &path.ranking);
-        let mut best: Option<Pair> = None;
-        for &pair in &ranking.pairs {
-            let [a, b] = pair.map(|effect| effect.name());
+        let mut best: Option<Both> = None;
+        let beyond_chance = |pair: &&Pair| pair.p_family <= self.settings.level;
+        for &pair in ranking.pairs.iter().filter(beyond_chance) {
+            let [a, b] = pair.effects.map(|effect| effect.name());
             self.watch.begin(&format!("trying {a} and {b} together"))?;
             let Some(found) = self.together(current, ranking, pair)? else {
                 continue;
             };
             let known = best.as_ref().map_or(0.0, |best| best.both.gain());
-            if found.both.gain() > known && self.are_justified(path, pair, &found.both) {
+            if found.both.gain() > known && self.are_justified(path, pair.effects, &found.both) {
                 best = Some(found);
             }
         }
         Ok(best.map(|pair| {
             let (mut first, alone) = self.step(ranking, pair.seed, current);
             let (mut second, both) = pair.second;
-            first.p_family = pair.both.p_family;
-            second.p_family = pair.both.p_family;
+            // What either does by itself says little.
+            for addition in [&mut first, &mut second] {
+                addition.p_family = pair.both.p_family;
+                addition.heldout_gain = pair.both.gain() / misfit(current);
+            }
             vec![(first, alone), (second, both)]
         }))
     }
@@ -47,11 +51,11 @@ impl ModelSelection<'_> {
         &self,
         current: &Fitted,
         ranking: &Ranking,
-        [a, b]: [Effect; 2],
-    ) -> Result<Option<Pair>, DiagnoseError> {
+        pair: Pair,
+    ) -> Result<Option<Both>, DiagnoseError> {
         let heldout = current.heldout_beyond_torque_noise();
-        let size = ranking.candidates.len();
-        let mut lowest: Option<Pair> = None;
+        let [a, b] = pair.effects;
+        let mut lowest: Option<Both> = None;
         for (first, second) in [(a, b), (b, a)] {
             let mut all = ranking.candidates.iter();
             let Some(seed) = all.position(|candidate| candidate.effect == first) else {
@@ -76,8 +80,8 @@ impl ModelSelection<'_> {
                 continue;
             }
             both.gains = gains(&heldout, &both.fitted);
-            both.p_family = both.p_of_gain(STRICTER * size * (size - 1) / 2);
-            lowest = Some(Pair {
+            both.p_family = pair.p_family;
+            lowest = Some(Both {
                 second: self.step(&next, 0, alone),
                 both,
                 seed,

@@ -15,7 +15,7 @@ use crate::settings::DiagnoseSettings;
 use crate::verdict::earned;
 use crate::verdict::experiment::separating_experiment;
 use crate::verdict::reasons::{Situation, explanation, headline, paste, reasons, removal, stopped};
-use crate::verdict::thresholds::{BESIDE_EFFECTS, REPEATS};
+use crate::verdict::thresholds::{BESIDE_EFFECTS, REPEATS, WHITE};
 use crate::verdict::tightening_fits::TighteningFits;
 use crate::verdict::trend::trends;
 use crate::verdict::{detectability, ladder, preparation};
@@ -204,7 +204,8 @@ impl Examination<'_> {
     /// The verdict, and what to check where no model fits. A comparison leaves it at that only where there is something to check:
     /// an effect that does most of the work is for `diagnose` to find.
     fn verdict_and_suspicions(&self, places: &Places) -> (Verdict, Vec<Suspicion>) {
-        let verdict = self.verdict(places.last().repeatable_share);
+        let is_white = (places.explained.as_ref()).is_some_and(|all| all.neighbours.abs() < WHITE);
+        let verdict = self.verdict(places.last().repeatable_share, is_white);
         let (Verdict::NotFitted, Some(explained)) = (verdict, places.explained) else {
             return (verdict, Vec::new());
         };
@@ -215,7 +216,8 @@ impl Examination<'_> {
         }
     }
 
-    fn verdict(&self, repeatable: Option<f64>) -> Verdict {
+    /// `is_white` where what is left is as white as noise, whatever candidates promise.
+    fn verdict(&self, repeatable: Option<f64>, is_white: bool) -> Verdict {
         let (last, candidates) = (self.path.last(), &self.path.ranking.candidates);
         let added_unlisted = self
             .path
@@ -257,9 +259,9 @@ impl Examination<'_> {
             return Verdict::UnlistedEffect;
         }
         match self.path.is_promising(self.settings) {
-            Some(_) => Verdict::Undecided,
-            None if earned::keeps_the_promise(share, self.question.cases) => Verdict::Adequate,
-            None => Verdict::NotFitted,
+            Some(_) if !is_white => Verdict::Undecided,
+            _ if earned::keeps_the_promise(share, self.question.cases) => Verdict::Adequate,
+            _ => Verdict::NotFitted,
         }
     }
 

@@ -20,6 +20,9 @@ pub(crate) const MOST_TIGHTENINGS: usize = 10_000;
 /// Least share of the fitted output's power about its mean that a model must explain before anything is said of effects \[–\]:
 /// less than half, and most of what happens is something else. Chosen.
 pub(crate) const LEAST_EXPLAINED: f64 = 0.5;
+/// Correlation of neighbouring samples below which what is left is white \[–\]: 0.05 is the chance of two in five hundred samples,
+/// and what a model misses is far smoother. Chosen.
+pub(crate) const WHITE: f64 = 0.1;
 /// By how much less than m, c, k alone, where the spectra put them, a model may explain and still be called adequate \[–\].
 /// Chosen.
 pub(crate) const SHORTFALL: f64 = 0.05;

@@ -17,8 +17,9 @@ pub struct ModelSettings {
     pub effects: Vec<String>,
     /// Laws that this study writes itself; they are in the model only where `effects` name them. Default none.
     pub custom: Vec<CustomEffectSettings>,
-    /// What the input does between samples: `ZeroOrder`, `Linear` or `BandLimited`; default `Linear`.
-    pub intersample: Intersample,
+    /// What the input does between samples: `ZeroOrder`, `Linear` or `BandLimited`; default `Linear`, unless `improve` finds on a
+    /// machine that with `ZeroOrder` less is missing.
+    pub intersample: Option<Intersample>,
     /// How large torques, angles and times are on this rig, which starts and bounds of effects follow: `Automatic`,
     /// `HandOnTool` or `Rig(torque_nm: …, angle_rad: …, time_s: …)`; default `Automatic`.
     pub scale: Scale,
@@ -48,7 +49,7 @@ impl Default for ModelSettings {
         Self {
             effects: Vec::new(),
             custom: Vec::new(),
-            intersample: Intersample::Linear,
+            intersample: None,
             scale: Scale::Automatic,
             parameters: BTreeMap::new(),
         }
@@ -56,6 +57,11 @@ impl Default for ModelSettings {
 }
 
 impl ModelSettings {
+    /// What the input does between samples.
+    pub fn intersample(&self) -> Intersample {
+        self.intersample.unwrap_or(Intersample::Linear)
+    }
+
     /// The model these settings describe, for one rig.
     ///
     /// # Errors

@@ -63,8 +63,9 @@ impl Law for SecondMode {
                     unit: "1",
                     starts: &[0.03, 0.2],
                     minimum: 1e-4,
-                    maximum: 1.0,
-                    limits: (1e-5, 1.0),
+                    // What hardly rings is no mode but a lag, and would stand in for friction.
+                    maximum: 0.5,
+                    limits: (1e-5, 0.5),
                     vanishes_at: None,
                     scope: Scope::Shared,
                 },

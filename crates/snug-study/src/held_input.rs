@@ -1,0 +1,74 @@
+//! Whether a machine's input is held from sample to sample, as a controller's is, where the study says nothing of it.
+//!
+//! Taken as running straight from sample to sample, a held input comes half a sampling interval early, and a search finds a delay,
+//! a lag or a fast mode that is none. The model that needs fewer effects for the same error is the likelier story.
+
+use crate::cases::with_settled;
+use crate::{Study, StudyError};
+use snug_campaign::words::reason::Reason;
+use snug_campaign::{Diagnosis, Intersample};
+use snug_identify::FitTask;
+use snug_model::{Input, Scale};
+use std::borrow::Cow;
+
+/// Effects that stand in for half a sampling interval.
+const STAND_INS: [&str; 3] = ["torque_delay", "torque_lag", "second_mode"];
+/// Samples of all recordings up to which everything is searched twice. Chosen: some seconds more.
+const MOST_SAMPLES: usize = 30_000;
+/// Root mean square of the error, over that with a straight input, up to which a model of fewer effects leaves as little \[–\].
+/// Chosen.
+const AS_LITTLE: f64 = 1.1;
+/// The same below which one of as many effects leaves plainly less \[–\]. Chosen.
+const PLAINLY_LESS: f64 = 0.95;
+
+/// Whether a search that found `diagnosis` is worth to be made again with a held input.
+pub(crate) fn may_be_held(study: &Study, cases: &[FitTask<'_>], diagnosis: &Diagnosis) -> bool {
+    let samples: usize = cases.iter().map(|case| case.measured().len()).sum();
+    study.model.intersample.is_none()
+        && matches!(study.model.scale, Scale::Rig { .. })
+        && samples <= MOST_SAMPLES
+        && stand_ins(diagnosis).next().is_some()
+}
+
+/// The study and its recordings with a held input.
+pub(crate) fn held<'a>(
+    study: &Study,
+    cases: &'a [FitTask<'_>],
+) -> Result<(Study, Vec<FitTask<'a>>), StudyError> {
+    let mut study = study.clone();
+    study.model.intersample = Some(Intersample::ZeroOrder);
+    let held = cases.iter().map(|case| {
+        let interval_s = case.tightening.time_base.interval_s;
+        let torque_nm = &case.tightening.torque_nm;
+        let input = Input::new(torque_nm, interval_s, Intersample::ZeroOrder)
+            .with_onset(case.input.onset_s())
+            .with_rest_before(case.input.rest_before_s());
+        FitTask {
+            input: Cow::Owned(input),
+            ..case.lent()
+        }
+    });
+    let held = with_settled(&study, held.collect())?;
+    Ok((study, held))
+}
+
+/// What speaks for a held input, if that does: with it a search found `held`, without it `straight`.
+pub(crate) fn speaks_for_it(held: &Diagnosis, straight: &Diagnosis) -> Option<Reason> {
+    let error = |diagnosis: &Diagnosis| diagnosis.ladder.last().map(|rung| rung.rms_fitted_output);
+    let (with, without) = (error(held)?, error(straight)?);
+    let (fewer, more) = (held.added.len(), straight.added.len());
+    let is_simpler = fewer < more && with <= AS_LITTLE * without;
+    let is_better = fewer <= more && with < PLAINLY_LESS * without;
+    let is_needed = |effect: &&str| !stand_ins(held).any(|other| other == *effect);
+    (!held.interrupted && (is_simpler || is_better)).then(|| Reason::Held {
+        spared: stand_ins(straight)
+            .filter(is_needed)
+            .map(str::to_owned)
+            .collect(),
+    })
+}
+
+fn stand_ins(diagnosis: &Diagnosis) -> impl Iterator<Item = &str> {
+    let added = diagnosis.added.iter().map(|added| added.effect.as_str());
+    added.filter(|effect| STAND_INS.contains(effect))
+}
