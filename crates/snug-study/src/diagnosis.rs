@@ -181,35 +181,16 @@ pub fn diagnose(
         cases: &cases,
         effects: effects(study, &study.model.effects, &cases)?,
         custom: study.model.custom_effects()?,
-        goal: match verb {
-            Verb::Compare => Goal::Compare,
-            Verb::Diagnose => Goal::Diagnose,
-            Verb::Add(names) => Goal::Add(effects(study, names, &cases)?),
-            Verb::Improve => Goal::Improve,
-        },
+        goal: goal(study, verb, &cases)?,
     };
-    let tell = |what: &str| progress(ProgressEvent::Stage { what });
-    let count = |pieces: Pieces| match pieces {
-        Pieces::Of(of) => progress(ProgressEvent::Candidates { of }),
-        Pieces::Done => progress(ProgressEvent::CandidateDone),
+    let search = Search {
+        settings: &search,
+        verb,
+        progress,
+        interrupted,
     };
-    let watch = Watch::new(&tell).counting(&count).until(interrupted);
-    let mut answer = pool.install(|| examine(&question, &search, &watch))?;
-    let mut held_study = None;
-    if *verb == Verb::Improve && held_input::may_be_held(study, &cases, &answer.diagnosis) {
-        let (held, cases) = held_input::held(study, &cases)?;
-        let question = Question {
-            cases: &cases,
-            ..question.clone()
-        };
-        let other = pool.install(|| examine(&question, &search, &watch))?;
-        if let Some(reason) = held_input::speaks_for_it(&other.diagnosis, &answer.diagnosis) {
-            answer = other;
-            answer.diagnosis.reasons.push(reason);
-            held_study = Some(held);
-        }
-    }
-    let study = held_study.as_ref().unwrap_or(study);
+    let (mut answer, held) = pool.install(|| search.answer(study, &question))?;
+    let study = held.as_ref().unwrap_or(study);
     answer.diagnosis.reasons.extend_from_slice(reasons);
     answer.diagnosis.reasons.extend(left_out);
     drop(cases);
@@ -226,6 +207,63 @@ pub fn diagnose(
         ..Task::of(&last)
     };
     run_with(task, workplace, settings, progress, interrupted)
+}
+
+fn goal(study: &Study, verb: &Verb, cases: &[FitTask<'_>]) -> Result<Goal, StudyError> {
+    Ok(match verb {
+        Verb::Compare => Goal::Compare,
+        Verb::Diagnose => Goal::Diagnose,
+        Verb::Add(names) => Goal::Add(effects(study, names, cases)?),
+        Verb::Improve => Goal::Improve,
+    })
+}
+
+/// How an answer is looked for.
+struct Search<'a> {
+    settings: &'a snug_diagnose::DiagnoseSettings,
+    verb: &'a Verb,
+    progress: &'a (dyn Fn(ProgressEvent<'_>) + Sync),
+    interrupted: &'a AtomicBool,
+}
+
+impl Search<'_> {
+    /// The answer, and the study with a held input where that is the likelier story.
+    fn answer(
+        &self,
+        study: &Study,
+        question: &Question<'_>,
+    ) -> Result<(Answer, Option<Study>), StudyError> {
+        let straight = self.examined(question)?;
+        let cases = question.cases;
+        let may_be_held = held_input::may_be_held(study, cases, &straight.diagnosis);
+        if *self.verb != Verb::Improve || !may_be_held {
+            return Ok((straight, None));
+        }
+        let (held_study, cases) = held_input::held(study, cases)?;
+        let question = Question {
+            cases: &cases,
+            ..question.clone()
+        };
+        let mut held = self.examined(&question)?;
+        match held_input::speaks_for_it(&held.diagnosis, &straight.diagnosis) {
+            Some(reason) => {
+                held.diagnosis.reasons.push(reason);
+                Ok((held, Some(held_study)))
+            }
+            None => Ok((straight, None)),
+        }
+    }
+
+    fn examined(&self, question: &Question<'_>) -> Result<Answer, StudyError> {
+        let progress = self.progress;
+        let tell = |what: &str| progress(ProgressEvent::Stage { what });
+        let count = |pieces: Pieces| match pieces {
+            Pieces::Of(of) => progress(ProgressEvent::Candidates { of }),
+            Pieces::Done => progress(ProgressEvent::CandidateDone),
+        };
+        let watch = Watch::new(&tell).counting(&count).until(self.interrupted);
+        Ok(examine(question, self.settings, &watch)?)
+    }
 }
 
 /// The named effects, the study's own among them, as they act on its rig.

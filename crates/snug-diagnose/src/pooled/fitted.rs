@@ -230,6 +230,11 @@ impl Fitted {
             .collect()
     }
 
+    /// What one tightening has of its own and shares.
+    pub fn all_named(&self, member: usize) -> Vec<(String, f64)> {
+        [self.own_named(member), self.shared_named()].concat()
+    }
+
     pub fn shared_named(&self) -> Vec<(String, f64)> {
         self.shared_names
             .iter()

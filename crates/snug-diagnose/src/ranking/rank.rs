@@ -14,11 +14,11 @@ use crate::ranking::pairs::{Pair, promising_pairs};
 use crate::ranking::refit::{followed, refit};
 use crate::ranking::score_test::{Control, Scored, Scorer};
 use crate::ranking::sensitivity::Column;
-use crate::ranking::thresholds::{BEST, BEST_OF_LONG, CONTROL_FLIPS, STRICTER};
+use crate::ranking::thresholds::{BEST, BEST_OF_LONG, CONTROL_FLIPS, SHAPES_TRIED, STRICTER};
 use crate::settings::DiagnoseSettings;
 use crate::watch::{Pieces, Watch};
 use rayon::prelude::*;
-use snug_model::Effect;
+use snug_model::{Effect, Law};
 
 /// A candidate after its refit.
 #[derive(Debug, Clone)]
@@ -156,7 +156,26 @@ pub(crate) fn rank(
     let impossible = outcomes.filter(|(_, outcome)| outcome.is_none());
     let impossible = impossible.map(|(&effect, _)| effect).collect();
     let mut candidates: Vec<Candidate> = refitted.into_iter().flatten().collect();
-    sort(&mut candidates);
+    follow_best(cases, current, &mut candidates, clusters, watch)?;
+    Ok(Ranking {
+        candidates,
+        impossible,
+        pairs,
+        columns,
+        control,
+    })
+}
+
+/// Follows the best to their ends, judges every gain by chance too, and sorts.
+fn follow_best(
+    cases: Cases<'_>,
+    current: &Fitted,
+    candidates: &mut [Candidate],
+    clusters: Clusters,
+    watch: &Watch<'_>,
+) -> Result<(), DiagnoseError> {
+    let heldout = current.heldout_beyond_torque_noise();
+    sort(candidates);
     let followed = match clusters.are_whole() {
         true if !current.is_at_floor() => BEST,
         false if long_record::take_long(&cases) => BEST_OF_LONG,
@@ -168,17 +187,20 @@ pub(crate) fn rank(
         candidate.settle(cases, clusters, &heldout)
     })?;
     let family_size = candidates.len() * STRICTER;
-    for candidate in &mut candidates {
-        candidate.p_family = candidate.p_family.min(candidate.p_of_gain(family_size));
+    for candidate in &mut *candidates {
+        let p = candidate.p_family.min(candidate.p_of_gain(family_size));
+        candidate.p_family = (p * shapes_tried(candidate.effect)).min(1.0);
     }
-    sort(&mut candidates);
-    Ok(Ranking {
-        candidates,
-        impossible,
-        pairs,
-        columns,
-        control,
-    })
+    sort(candidates);
+    Ok(())
+}
+
+/// How many shapes of an effect were looked at before its starts were read off the data.
+fn shapes_tried(effect: Effect) -> f64 {
+    match effect.wavelength().is_some() || effect.resonance().is_some() {
+        true => SHAPES_TRIED,
+        false => 1.0,
+    }
 }
 
 /// Campaigns of nothing but noise, and in how many of them one of the candidates would be called supported.

@@ -23,7 +23,7 @@ pub(crate) fn starts(cases: Cases<'_>, current: &Fitted, effect: Effect) -> Vec<
         return Vec::new();
     };
     let records: Vec<Record> = (current.spread(FEW).into_iter())
-        .filter_map(|member| Record::of(&cases[member], &current.own_named(member)))
+        .filter_map(|member| Record::of(&cases[member], &current.all_named(member)))
         .collect();
     let ranges = cases[0].model.ranges(effect);
     let (mut lowest, mut highest) = ranges[resonance.frequency].limits;

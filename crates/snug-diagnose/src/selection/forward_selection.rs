@@ -24,7 +24,7 @@ impl ModelSelection<'_> {
             }
             let best = match justified(&path.ranking, path.last(), &path.rungs[0], self.settings) {
                 Ok(best) => best,
-                Err(stop) => match self.two_at_once(&path)? {
+                Err(stop) => match self.two_at_once(path)? {
                     Some(steps) => {
                         self.go_up(path, steps)?;
                         continue;

@@ -170,25 +170,32 @@ pub(crate) fn justified(
     settings: &DiagnoseSettings,
 ) -> Result<usize, Stop> {
     let all = &ranking.candidates;
-    let supported = |candidate: &Candidate| candidate.is_supported(settings);
-    let share = |index: usize, of: &Fitted| all[index].gain() / of.squares();
-    match all.iter().position(supported) {
-        Some(best) if share(best, current) < current.smallest_gain(settings) => {
-            Err(Stop::TooSmall {
-                effect: all[best].effect,
-                share: share(best, current),
-            })
-        }
+    let supported = |index: &usize| all[*index].is_supported(settings);
+    // Where leaving out a stretch leaves the others hardly a size, the gain in it has no bounds; a fall of the error has.
+    let gain = |index: usize| match current.are_stretches() {
+        true => all[index]
+            .gain()
+            .min(current.squares() - all[index].fitted.squares()),
+        false => all[index].gain(),
+    };
+    let share = |index: usize, of: &Fitted| gain(index) / of.squares();
+    let matters = |index: &usize| share(*index, current) >= current.smallest_gain(settings);
+    let is_enough = |index: &usize| {
+        current.is_weighted || share(*index, first) >= least_share(all[*index].effect)
+    };
+    match (0..all.len()).find(supported) {
         Some(best) => {
-            let is_enough = |index: &usize| {
-                supported(&all[*index])
-                    && share(*index, current) >= current.smallest_gain(settings)
-                    && (current.is_weighted
-                        || share(*index, first) >= least_share(all[*index].effect))
+            let mut those = (best..all.len()).filter(supported).filter(matters);
+            let Some(next) = those.next() else {
+                return Err(Stop::TooSmall {
+                    effect: all[best].effect,
+                    share: share(best, current),
+                });
             };
-            (best..all.len()).find(is_enough).ok_or(Stop::Trifle {
-                effect: all[best].effect,
-                share: share(best, first),
+            let mut those = std::iter::once(next).chain(those);
+            those.find(is_enough).ok_or(Stop::Trifle {
+                effect: all[next].effect,
+                share: share(next, first),
             })
         }
         None => {
