@@ -12,6 +12,8 @@ const SAMPLES: usize = 40;
 /// y_i(t) = a_i exp(−b t) + c_i + d t² with own a_i, c_i and shared b, d.
 struct Decays {
     measured: Vec<Vec<f64>>,
+    /// Whether the members from the third on have a d of their own, which is the third shared parameter then.
+    by_group: bool,
 }
 
 impl Decays {
@@ -25,7 +27,20 @@ impl Decays {
         });
         Self {
             measured: measured.collect(),
+            by_group: false,
         }
+    }
+
+    fn by_group() -> Self {
+        Self {
+            by_group: true,
+            ..Self::new()
+        }
+    }
+
+    /// Which of the shared parameters is a member's d.
+    fn place_of_d(&self, member: usize) -> usize {
+        1 + usize::from(self.by_group && member >= 2)
     }
 
     /// Residual and Jacobian of one member over (a, c, b, d).
@@ -63,7 +78,11 @@ impl PooledResidual for Decays {
     }
 
     fn shared_count(&self) -> usize {
-        2
+        2 + usize::from(self.by_group)
+    }
+
+    fn shared_of(&self, member: usize) -> Vec<usize> {
+        vec![0, self.place_of_d(member)]
     }
 
     fn linearize(&mut self, trials: &mut [Trial<'_>]) -> Result<(), EvaluationError> {
@@ -84,7 +103,7 @@ impl Residual for Stacked {
     }
 
     fn parameter_count(&self) -> usize {
-        2 * MEMBERS + 2
+        2 * MEMBERS + self.0.shared_count()
     }
 
     fn evaluate(
@@ -98,15 +117,14 @@ impl Residual for Stacked {
             jacobian.fill(0.0);
         }
         for i in 0..MEMBERS {
-            let own = [&parameters[2 * i..2 * i + 2], shared].concat();
+            let d = self.0.place_of_d(i);
+            let own = [&parameters[2 * i..2 * i + 2], &[shared[0], shared[d]]].concat();
             let (r, j) = self.0.member(i, &own);
             let rows = i * SAMPLES..(i + 1) * SAMPLES;
             residual[rows.clone()].copy_from_slice(&r);
             if let Some(jacobian) = jacobian.as_deref_mut() {
-                for (column, target) in [2 * i, 2 * i + 1, 2 * MEMBERS, 2 * MEMBERS + 1]
-                    .into_iter()
-                    .enumerate()
-                {
+                let columns = [2 * i, 2 * i + 1, 2 * MEMBERS, 2 * MEMBERS + d];
+                for (column, target) in columns.into_iter().enumerate() {
                     jacobian[target * MEMBERS * SAMPLES..][rows.clone()]
                         .copy_from_slice(&j[column * SAMPLES..(column + 1) * SAMPLES]);
                 }
@@ -172,6 +190,46 @@ fn on_bounds_of_shared_and_own_parameters_it_is_the_stacked_optimum() {
         stacked.bound(2 * i + 1, -0.3, 10.0, "c");
     }
     agree(shared, own, stacked);
+}
+
+/// Members 0 and 1 share one d, the others another; all share b.
+#[test]
+fn what_only_a_group_shares_is_the_stacked_optimum_too() {
+    let settings = PooledSettings {
+        cost_tolerance: 1e-14,
+        ..PooledSettings::default()
+    };
+    let (starts, shared) = (vec![vec![0.8, 0.1]; MEMBERS], [0.5, 0.0, 0.0]);
+    let own_sets = vec![Constraints::new(2); MEMBERS];
+    let mut held = Constraints::new(3);
+    held.bound(2, -1.0, 0.15, "d");
+    for shared_set in [Constraints::new(3), held] {
+        let mut decays = Decays::by_group();
+        let pooled = solve_pooled(
+            &mut decays,
+            &starts,
+            &own_sets,
+            &shared,
+            &shared_set,
+            &settings,
+        )
+        .unwrap();
+        let mut stacked_set = Constraints::new(2 * MEMBERS + 3);
+        let (low, high) = shared_set.bounds_of(2);
+        stacked_set.bound(2 * MEMBERS + 2, low, high, "d");
+        let start = [starts.concat(), shared.to_vec()].concat();
+        let mut problem = DenseResidual::new(Stacked(Decays::by_group()));
+        let stacked = solve(&mut problem, &start, &stacked_set, &Settings::default()).unwrap();
+        let found = [pooled.own.concat(), pooled.shared.clone()].concat();
+        for (found, stacked) in found.iter().zip(&stacked.values) {
+            assert!((found - stacked).abs() < 1e-6, "{found} {stacked}");
+        }
+        assert!(
+            (found[2 * MEMBERS + 1] - found[2 * MEMBERS + 2]).abs() > 1e-4,
+            "they differ"
+        );
+        assert!(pooled.converged);
+    }
 }
 
 /// S = Σ S_i is the Schur complement: its inverse is the shared block of the stacked problem's (JᵀJ)⁻¹.

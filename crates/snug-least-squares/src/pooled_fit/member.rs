@@ -6,10 +6,13 @@ use crate::matrix::{add_scaled, dot, triangularize, upper_transposed_times};
 use crate::problem::linearization::Linearization;
 use crate::solver::fit::Work;
 use crate::solver::step::Stepper;
+use std::collections::BTreeMap;
 
 /// One member while the fit goes on.
 pub struct Member {
     pub own: Vec<f64>,
+    /// Which of α its residual depends on, ascending.
+    pub shared: Vec<usize>,
     pub here: Linearization,
     pub there: Linearization,
     pub stepper: Stepper,
@@ -19,7 +22,8 @@ pub struct Member {
     rest: Rest,
 }
 
-/// What a member says of α once β_i has done what it may: ½‖right + rows · dα‖², p rows.
+/// What members say of those p entries of α on which they depend, once every β_i has done what it may: ½‖right + rows · dα‖²,
+/// p rows.
 #[derive(Default)]
 struct Rest {
     rows: Vec<f64>,
@@ -27,11 +31,12 @@ struct Rest {
 }
 
 impl Member {
-    /// At its start, beside `p` shared parameters.
-    pub fn new(own: Vec<f64>, p: usize) -> Self {
-        let n = own.len();
+    /// At its start, beside those shared parameters on which it depends.
+    pub fn new(own: Vec<f64>, shared: Vec<usize>) -> Self {
+        let (n, p) = (own.len(), shared.len());
         Self {
             own,
+            shared,
             here: Linearization::new(n + p),
             there: Linearization::new(n + p),
             stepper: Stepper::new(n),
@@ -39,6 +44,12 @@ impl Member {
             active_set: Vec::new(),
             rest: Rest::default(),
         }
+    }
+
+    /// Its own parameters and its part of `shared`.
+    pub fn parameters(&self, own: &[f64], shared: &[f64]) -> Vec<f64> {
+        let part = self.shared.iter().map(|&place| shared[place]);
+        own.iter().copied().chain(part).collect()
     }
 
     /// Steps β_i after α has moved by `shift`; true when its active set has changed.
@@ -50,14 +61,14 @@ impl Member {
         work: &mut Work,
     ) -> bool {
         let n = self.own.len();
-        let size = n + shift.len();
+        let size = n + self.shared.len();
         let conditional = &mut self.conditional;
         conditional
             .reachable
             .copy_from_slice(&self.here.reachable[..n]);
-        for (column, step) in shift.iter().enumerate() {
+        for (column, &place) in self.shared.iter().enumerate() {
             let factor = &self.here.factor[(n + column) * size..][..n];
-            add_scaled(&mut conditional.reachable, *step, factor);
+            add_scaled(&mut conditional.reachable, shift[place], factor);
         }
         for column in 0..n {
             conditional.factor[column * n..(column + 1) * n]
@@ -87,15 +98,15 @@ impl Member {
 
     /// The decrease of ½‖r_i‖² that the step of β_i and `shift` predict together.
     pub fn predicted_decrease(&self, shift: &[f64]) -> f64 {
-        let step = [self.stepper.displacement(), shift].concat();
+        let step = self.parameters(self.stepper.displacement(), shift);
         -self.here.rise(&step)
     }
 
     /// Works out what is left to α once β_i follows as damping and constraints let it: along an inequality that its own step
     /// presses on, never through it.
-    pub fn eliminate(&mut self, p: usize, damping: f64, set: &Constraints) {
+    pub fn eliminate(&mut self, damping: f64, set: &Constraints) {
         let directions = self.stepper.free_directions(&self.own, set);
-        let (n, free) = (self.own.len(), directions.len());
+        let (n, p, free) = (self.own.len(), self.shared.len(), directions.len());
         let size = n + p;
         let (rows, columns) = (size + free, free + p);
         let mut stacked = vec![0.0; rows * columns];
@@ -124,8 +135,8 @@ impl Member {
         }
     }
 
-    pub fn profile(&self, p: usize) -> Profile {
-        let n = self.own.len();
+    pub fn profile(&self) -> Profile {
+        let (n, p) = (self.own.len(), self.shared.len());
         let size = n + p;
         // The last p rows of the factor: R_αα.
         let column = |index: usize| &self.here.factor[(n + index) * size + n..][..p];
@@ -138,32 +149,45 @@ impl Member {
         }
         Profile {
             cost: self.here.cost,
+            shared: self.shared.clone(),
             curvature,
             gradient: (0..p).map(|j| dot(column(j), reachable)).collect(),
         }
     }
 }
 
-/// The least-squares problem in α alone, every β_i following: what all leave to it, stacked and triangularised.
+/// The least-squares problem in α alone, every β_i following: what all leave to it, stacked and triangularised; first those
+/// that depend on the same entries of α, so that the work grows linearly with the number of members however many entries
+/// belong to some of them only.
 pub fn reduce(members: &[Member], p: usize) -> Linearization {
-    let rows = members.len() * p;
-    let mut stacked = vec![0.0; rows * p];
-    let mut right = vec![0.0; rows];
-    for (index, member) in members.iter().enumerate() {
-        for column in 0..p {
-            stacked[column * rows + index * p..][..p]
-                .copy_from_slice(&member.rest.rows[column * p..][..p]);
+    let mut groups: BTreeMap<&[usize], Vec<&Rest>> = BTreeMap::new();
+    for member in members {
+        groups.entry(&member.shared).or_default().push(&member.rest);
+    }
+    let parts: Vec<(&[usize], Rest)> = (groups.into_iter())
+        .map(|(places, rests)| {
+            let of_all: Vec<usize> = (0..places.len()).collect();
+            let rests: Vec<(&[usize], &Rest)> = rests
+                .into_iter()
+                .map(|rest| (of_all.as_slice(), rest))
+                .collect();
+            (places, together(&rests, places.len()))
+        })
+        .collect();
+    let rest = match parts.as_slice() {
+        [(places, _)] if places.len() == p => None,
+        several => {
+            let rests: Vec<(&[usize], &Rest)> = several
+                .iter()
+                .map(|(places, rest)| (*places, rest))
+                .collect();
+            Some(together(&rests, p))
         }
-        right[index * p..][..p].copy_from_slice(&member.rest.right);
-    }
+    };
+    let rest = rest.as_ref().unwrap_or_else(|| &parts[0].1);
     let mut reduced = Linearization::new(p);
-    triangularize(&mut stacked, &mut right, rows, p);
-    for column in 0..p {
-        let filled = column + 1;
-        reduced.factor[column * p..column * p + filled]
-            .copy_from_slice(&stacked[column * rows..column * rows + filled]);
-    }
-    reduced.reachable.copy_from_slice(&right[..p]);
+    reduced.factor.copy_from_slice(&rest.rows);
+    reduced.reachable.copy_from_slice(&rest.right);
     upper_transposed_times(
         &reduced.factor,
         p,
@@ -171,4 +195,30 @@ pub fn reduce(members: &[Member], p: usize) -> Linearization {
         &mut reduced.gradient,
     );
     reduced
+}
+
+/// Several, each of so many of `p` entries as it has places, stacked and triangularised.
+fn together(rests: &[(&[usize], &Rest)], p: usize) -> Rest {
+    let filled: usize = rests.iter().map(|(places, _)| places.len()).sum();
+    let rows = filled.max(p);
+    let mut stacked = vec![0.0; rows * p];
+    let mut right = vec![0.0; rows];
+    let mut first = 0;
+    for (places, rest) in rests {
+        let size = places.len();
+        for (column, &place) in places.iter().enumerate() {
+            stacked[place * rows + first..][..size]
+                .copy_from_slice(&rest.rows[column * size..][..size]);
+        }
+        right[first..][..size].copy_from_slice(&rest.right);
+        first += size;
+    }
+    triangularize(&mut stacked, &mut right, rows, p);
+    let mut upper = vec![0.0; p * p];
+    for column in 0..p {
+        let filled = column + 1;
+        upper[column * p..][..filled].copy_from_slice(&stacked[column * rows..][..filled]);
+    }
+    right.truncate(p);
+    Rest { rows: upper, right }
 }

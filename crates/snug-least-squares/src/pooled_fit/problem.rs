@@ -15,6 +15,12 @@ pub trait PooledResidual {
     /// Number p of the shared parameters α.
     fn shared_count(&self) -> usize;
 
+    /// Which of the shared parameters one member's residual depends on, ascending; all unless said otherwise.
+    fn shared_of(&self, member: usize) -> Vec<usize> {
+        let _ = member;
+        (0..self.shared_count()).collect()
+    }
+
     /// Cost, gradient and curvature of some members, each at its own trial.
     ///
     /// # Errors
@@ -26,7 +32,7 @@ pub trait PooledResidual {
 pub struct Trial<'a> {
     /// Which member.
     pub member: usize,
-    /// (β_i, α), n + p entries.
+    /// (β_i, those of α on which it depends).
     pub parameters: Vec<f64>,
     /// Gets cost, gradient and curvature there.
     pub linearization: &'a mut Linearization,
@@ -57,9 +63,11 @@ impl Default for PooledSettings {
 pub struct Profile {
     /// ½‖r_i‖².
     pub cost: f64,
-    /// Projected curvature S_i = Z̃ᵀZ̃, p × p, column-major, where Z̃ is ∂r_i/∂α without what ∂r_i/∂β_i can imitate.
+    /// Which p of the shared parameters it depends on, ascending.
+    pub shared: Vec<usize>,
+    /// Projected curvature S_i = Z̃ᵀZ̃ of these, p × p, column-major, where Z̃ is ∂r_i/∂α without what ∂r_i/∂β_i can imitate.
     pub curvature: Vec<f64>,
-    /// Projected gradient Z̃ᵀr_i, p; its sum over members vanishes at a free optimum.
+    /// Projected gradient Z̃ᵀr_i of these, p; its sum over members vanishes at a free optimum.
     pub gradient: Vec<f64>,
 }
 
@@ -89,8 +97,11 @@ impl PooledFit {
         let p = self.shared.len();
         let mut sum = vec![0.0; p * p];
         for profile in &self.profiles {
-            for (sum, value) in sum.iter_mut().zip(&profile.curvature) {
-                *sum += value;
+            let size = profile.shared.len();
+            for (column, &to) in profile.shared.iter().enumerate() {
+                for (row, &place) in profile.shared.iter().enumerate() {
+                    sum[to * p + place] += profile.curvature[column * size + row];
+                }
             }
         }
         sum

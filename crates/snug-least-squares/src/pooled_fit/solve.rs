@@ -72,7 +72,6 @@ impl<'a> PooledSolver<'a> {
         shared_start: &[f64],
         shared_set: &'a Constraints,
     ) -> Result<Self, SolveError> {
-        let p = residual.shared_count();
         if own_starts.is_empty() {
             return Err(SolveError::NoStart);
         }
@@ -80,20 +79,20 @@ impl<'a> PooledSolver<'a> {
         let mut shared = shared_start.to_vec();
         shared_set.clamp(&mut shared);
         let mut members = Vec::with_capacity(own_starts.len());
-        for (start, set) in own_starts.iter().zip(own_sets) {
+        for (index, (start, set)) in own_starts.iter().zip(own_sets).enumerate() {
             let own = if set.contains(start) {
                 start.clone()
             } else {
                 project(start, set, &mut work).unwrap_or_else(|| start.clone())
             };
-            members.push(Member::new(own, p));
+            members.push(Member::new(own, residual.shared_of(index)));
         }
         let mut solver = Self {
             residual,
             own_sets,
             shared_set,
             shared,
-            shared_stepper: Stepper::new(p),
+            shared_stepper: Stepper::new(shared_start.len()),
             members,
             cost: 0.0,
             cost_there: 0.0,
@@ -105,7 +104,7 @@ impl<'a> PooledSolver<'a> {
         let mut trials: Vec<Trial<'_>> = (solver.members.iter_mut().enumerate())
             .map(|(index, member)| Trial {
                 member: index,
-                parameters: [member.own.as_slice(), shared].concat(),
+                parameters: member.parameters(&member.own, shared),
                 linearization: &mut member.here,
             })
             .collect();
@@ -143,7 +142,7 @@ impl<'a> PooledSolver<'a> {
     /// The damped step of α, every β_i following along the inequalities that it presses on; false when none was found.
     fn find_shift(&mut self, shift: &mut [f64]) -> bool {
         for (member, set) in self.members.iter_mut().zip(self.own_sets) {
-            member.eliminate(shift.len(), self.damping.value, set);
+            member.eliminate(self.damping.value, set);
         }
         let reduced = reduce(&self.members, shift.len());
         self.shared_stepper.rescale(&reduced, 0.0);
@@ -165,7 +164,7 @@ impl<'a> PooledSolver<'a> {
         let mut trials: Vec<Trial<'_>> = (self.members.iter_mut().enumerate())
             .map(|(index, member)| Trial {
                 member: index,
-                parameters: [member.stepper.step.target.as_slice(), target].concat(),
+                parameters: member.parameters(&member.stepper.step.target, target),
                 linearization: &mut member.there,
             })
             .collect();
@@ -205,8 +204,7 @@ impl<'a> PooledSolver<'a> {
     }
 
     fn finish(self, converged: bool) -> PooledFit {
-        let p = self.shared.len();
-        let profiles = self.members.iter().map(|member| member.profile(p));
+        let profiles = self.members.iter().map(Member::profile);
         PooledFit {
             profiles: profiles.collect(),
             own: self.members.iter().map(|m| m.own.clone()).collect(),

@@ -99,6 +99,7 @@ fn own_parameters_are_corrected_by_what_is_usual() {
 fn ended(squares: &[f64], own: Vec<Vec<f64>>, shared: Vec<f64>) -> PooledFit {
     let p = shared.len();
     let profile = |squares: &f64| Profile {
+        shared: Vec::new(),
         cost: 0.5 * squares,
         curvature: vec![0.0; p * p],
         gradient: vec![0.0; p],
