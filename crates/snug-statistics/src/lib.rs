@@ -9,6 +9,7 @@ mod error;
 pub mod k_sample;
 pub mod multiplicity;
 pub mod proportion;
+pub mod random_effects;
 mod ranks;
 mod root;
 mod sample;
