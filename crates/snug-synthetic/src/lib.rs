@@ -20,6 +20,7 @@ mod sensors;
 mod simulate;
 mod trajectory;
 mod truth;
+mod whose;
 
 pub use campaign::SyntheticCampaign;
 pub use effects::{HiddenEffect, Law};
@@ -37,3 +38,4 @@ pub use sensors::{Sensors, ZeroErrors};
 pub use simulate::simulate;
 pub use trajectory::Trajectory;
 pub use truth::{TighteningTruth, Truth};
+pub use whose::Whose;

@@ -1,7 +1,7 @@
 //! The plan of a campaign: conditions of its files, people, sensors, hidden effects, faults; the seed decides the rest.
 
 use crate::fault::PlannedFault;
-use crate::{HiddenEffect, NoiseKind, Population, Sensors, SyntheticError};
+use crate::{HiddenEffect, NoiseKind, Population, Sensors, SyntheticError, Whose};
 use serde::{Deserialize, Serialize};
 
 /// Tightening strategy; it decides the tool's inertia, since only Quick Step was recorded with the force transducer.
@@ -108,6 +108,8 @@ pub struct CampaignPlan {
     pub effects: Vec<HiddenEffect>,
     /// How strong they are, 0 to 1, without unit; default 0.3.
     pub strength: f64,
+    /// Who has the hidden effects; default everyone alike.
+    pub whose: Whose,
     /// Who holds the tool.
     pub population: Population,
     /// What the sensors add.
@@ -162,6 +164,7 @@ impl CampaignPlan {
             files: (0..files).map(file).collect(),
             effects: Vec::new(),
             strength: 0.3,
+            whose: Whose::Everyone,
             population: Population::default(),
             sensors: Sensors::default(),
             faults: Vec::new(),
@@ -176,6 +179,12 @@ impl CampaignPlan {
     pub fn hiding(mut self, effect: HiddenEffect, strength: f64) -> Self {
         self.effects.push(effect);
         self.strength = strength;
+        self
+    }
+
+    /// The same campaign with the effects that it hides of these only, or larger for some.
+    pub fn of(mut self, whose: Whose) -> Self {
+        self.whose = whose;
         self
     }
 

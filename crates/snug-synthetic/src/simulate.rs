@@ -76,7 +76,7 @@ impl Bench<'_> {
             .population
             .tightening(around, plan.lever_arm_m, known_inertia, &mut rng)?;
         let pulse = Pulse::drawn(file, &mut rng);
-        let (laws, used) = self.laws(number, index);
+        let (laws, used) = self.laws(number, file, index);
         let plant = Plant {
             lever_arm_m: plan.lever_arm_m * (1.0 + lever_arm_error(&laws)),
             known_inertia_kg_m2: known_inertia,
@@ -131,12 +131,18 @@ impl Bench<'_> {
         ))
     }
 
-    fn laws(&self, file: usize, index: usize) -> (Vec<Law>, BTreeMap<String, Vec<f64>>) {
-        let mut rng = Stream::Effect.rng(self.seed, file, index);
+    fn laws(
+        &self,
+        number: usize,
+        file: &FilePlan,
+        index: usize,
+    ) -> (Vec<Law>, BTreeMap<String, Vec<f64>>) {
+        let mut rng = Stream::Effect.rng(self.seed, number, index);
+        let factor = self.plan.whose.factor(file, self.seed);
         let mut laws = Vec::new();
         let mut used = BTreeMap::new();
         for &effect in &self.plan.effects {
-            if let Some(law) = effect.law(self.plan.strength, &mut rng) {
+            if let Some(law) = effect.law(factor * self.plan.strength, &mut rng) {
                 used.insert(effect.name().to_owned(), law.numbers.clone());
                 laws.push(law);
             }

@@ -1,0 +1,42 @@
+//! Whose effect a campaign hides: everyone's alike, larger for some, or of some only.
+
+use crate::random::Stream;
+use crate::{FilePlan, Joint, Strategy};
+use rand_distr::{Distribution, StandardNormal};
+use serde::{Deserialize, Serialize};
+
+/// Who has the hidden effects, and how much of them.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Whose {
+    /// Everyone alike.
+    #[default]
+    Everyone,
+    /// Everyone, the logarithm of the strength scattering from participant to participant by this much, without unit.
+    Scattering(f64),
+    /// Participants of these numbers only.
+    Participants(Vec<u32>),
+    /// Only under this joint.
+    Joint(Joint),
+    /// Only with this strategy.
+    Strategy(Strategy),
+}
+
+impl Whose {
+    /// What the strength is multiplied by in a file.
+    pub(crate) fn factor(&self, file: &FilePlan, seed: u64) -> f64 {
+        let has = match self {
+            Self::Everyone => true,
+            Self::Scattering(spread) => {
+                // Number 0 of a participant's draws is the hand–arm.
+                let mut rng = Stream::Person.rng(seed, 1, file.participant as usize);
+                let standard: f64 = StandardNormal.sample(&mut rng);
+                return (spread * standard).exp();
+            }
+            Self::Participants(those) => those.contains(&file.participant),
+            Self::Joint(joint) => file.joint == *joint,
+            Self::Strategy(strategy) => file.strategy == *strategy,
+        };
+        f64::from(u8::from(has))
+    }
+}
