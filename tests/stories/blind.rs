@@ -67,9 +67,9 @@ const PAIRS: [([Hidden; 2], f64); 10] = [
     ([Hidden::StretchReflex, Hidden::TorqueDelay], 0.4),
 ];
 
-struct Campaign {
-    cases: Vec<FitTask<'static>>,
-    truth: Truth,
+pub struct Campaign {
+    pub cases: Vec<FitTask<'static>>,
+    pub truth: Truth,
 }
 
 fn campaign(effects: &[Hidden], strength: f64, seed: u64) -> Campaign {
@@ -87,7 +87,12 @@ fn campaign_as(preset: Preset, effects: &[Hidden], strength: f64, seed: u64) -> 
     if effects.contains(&Hidden::AccelerationBias) {
         plan.sensors.zero_errors = ZeroErrors::WindowOnly;
     }
-    let simulated = simulate(&plan, seed).unwrap();
+    campaign_of(preset, &plan, seed)
+}
+
+/// The campaign of a plan, written, read and prepared as a user's.
+pub fn campaign_of(preset: Preset, plan: &CampaignPlan, seed: u64) -> Campaign {
+    let simulated = simulate(plan, seed).unwrap();
     let folder = tempfile::tempdir().unwrap();
     simulated
         .write(&folder.path().join("data"), MatStyle::default())
@@ -102,10 +107,11 @@ fn campaign_as(preset: Preset, effects: &[Hidden], strength: f64, seed: u64) -> 
     }
 }
 
-fn ask(cases: &[FitTask<'_>], goal: Goal) -> Diagnosis {
+pub fn ask(cases: &[FitTask<'_>], goal: Goal) -> Diagnosis {
     let question = Question {
         cases,
         effects: Vec::new(),
+        by_group: vec![],
         custom: Vec::new(),
         goal,
     };
@@ -118,7 +124,7 @@ fn ask(cases: &[FitTask<'_>], goal: Goal) -> Diagnosis {
     .diagnosis
 }
 
-fn error(diagnosis: &Diagnosis) -> f64 {
+pub fn error(diagnosis: &Diagnosis) -> f64 {
     diagnosis.ladder.last().unwrap().error_over_noise.unwrap()
 }
 
@@ -135,7 +141,7 @@ fn name(effect: Hidden) -> &'static str {
     }
 }
 
-fn names(added: &AddedEffect, effect: Hidden) -> bool {
+pub fn names(added: &AddedEffect, effect: Hidden) -> bool {
     added.effect == name(effect) || added.twins.iter().any(|twin| twin == name(effect))
 }
 

@@ -15,6 +15,7 @@ mod many;
 mod mystery;
 mod one_pass;
 mod other_rigs;
+mod people;
 mod practice;
 mod recording;
 mod round_trip;

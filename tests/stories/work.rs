@@ -50,6 +50,7 @@ fn diagnosed(cases: &[FitTask<'_>], threads: usize) -> WorkDone {
     let question = Question {
         cases,
         effects: Vec::new(),
+        by_group: vec![],
         custom: Vec::new(),
         goal: Goal::Diagnose,
     };

@@ -3,7 +3,7 @@
 use crate::words::headline::Headline;
 use crate::words::reason::Reason;
 use crate::words::stopped::Stopped;
-use crate::{Comparison, Drift, Location, TighteningId, Traces};
+use crate::{Comparison, Drift, Factor, Location, TighteningId, Traces};
 use serde::{Deserialize, Serialize};
 
 /// What the campaign says about the model.
@@ -61,6 +61,40 @@ pub struct EffectParameter {
     pub minimum: f64,
     /// Largest plausible value.
     pub maximum: f64,
+    /// The size of each group, of a parameter that differs from group to group; `value` is their mean then, `spread` the standard
+    /// deviation between them beyond their own errors.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub by_group: Option<GroupSizes>,
+}
+
+/// The sizes of a parameter that differs between groups of tightenings.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct GroupSizes {
+    /// What groups them.
+    pub factor: Factor,
+    /// In the order of the groups.
+    pub groups: Vec<GroupSize>,
+}
+
+/// The size of one group.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct GroupSize {
+    /// Which group, for example `TP3`.
+    pub group: String,
+    /// Its tightenings.
+    pub tightenings: usize,
+    /// Its own estimate.
+    pub value: f64,
+    /// Its standard error.
+    pub standard_error: Option<f64>,
+    /// The same, shrunk towards the mean of all groups as far as its error asks.
+    pub shrunk: f64,
+    /// Lower end of its own 95 % interval.
+    pub low: Option<f64>,
+    /// Upper end of its own 95 % interval.
+    pub high: Option<f64>,
+    /// Whether the effect is there: told from nothing, with one false discovery in twenty over the groups.
+    pub present: bool,
 }
 
 impl EffectParameter {

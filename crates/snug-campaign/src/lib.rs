@@ -7,6 +7,7 @@ mod diagnosis;
 mod diagnosis_summary;
 mod estimate;
 mod excerpt;
+mod factor;
 mod finding;
 mod likely_name;
 mod location;
@@ -27,12 +28,13 @@ pub use comparison::{Comparison, Misfit, TighteningMisfit};
 pub use conditions::Conditions;
 pub use diagnosis::{
     AddedEffect, CorrectedEffect, Detectability, Diagnosis, Doubt, EffectParameter, Experiment,
-    NegativeControl, NoiseStatement, RankedEffect, Removal, Rung, Showcase, UnlistedTerm, Verdict,
-    WorkDone,
+    GroupSize, GroupSizes, NegativeControl, NoiseStatement, RankedEffect, Removal, Rung, Showcase,
+    UnlistedTerm, Verdict, WorkDone,
 };
 pub use diagnosis_summary::DiagnosisSummary;
 pub use estimate::{Estimate, FitStatus, Identifiability, Interval, NORMAL_95, ParameterEstimate};
 pub use excerpt::excerpt;
+pub use factor::{Factor, Level};
 pub use finding::{Finding, Severity};
 pub use likely_name::did_you_mean;
 pub use location::{Aspect, Drift, ForceCurve, ForceMap, Location, Share};

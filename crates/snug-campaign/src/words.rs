@@ -6,6 +6,7 @@ mod said;
 pub mod chance;
 pub mod effect_name;
 pub mod explained;
+pub mod groups;
 pub mod headline;
 pub mod number;
 pub mod reason;

@@ -50,6 +50,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let question = Question {
         cases: &cases,
         effects: vec![],
+        by_group: vec![],
         custom: vec![],
         goal: Goal::Diagnose,
     };

@@ -29,10 +29,12 @@ pub fn examine(
     let left_out = "every tightening was left out; the findings say why";
     let clusters = Clusters::of(cases);
     let counted = Cases::checked(cases, &tally, left_out)?;
+    let sharing = question.sharing()?;
     let counted = one_machine_or_several(counted, &question.effects, clusters)?;
     let selection = ModelSelection {
         cases: counted,
         own: &question.effects,
+        sharing: &sharing,
         custom: &question.custom,
         clusters,
         settings,

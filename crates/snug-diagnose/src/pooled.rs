@@ -2,8 +2,10 @@
 
 pub(crate) mod fit;
 pub(crate) mod fitted;
+pub(crate) mod group_sizes;
 pub(crate) mod long_record;
 pub(crate) mod model;
+pub(crate) mod sharing;
 pub(crate) mod sizes;
 pub(crate) mod thresholds;
 pub(crate) mod together;

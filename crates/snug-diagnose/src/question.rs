@@ -1,5 +1,9 @@
 //! What can be asked of the data.
 
+use crate::error::DiagnoseError;
+use crate::pooled::model::effect_of;
+use crate::pooled::sharing::{Groups, Sharing};
+use snug_campaign::Factor;
 use snug_identify::FitTask;
 use snug_model::Effect;
 
@@ -14,6 +18,26 @@ pub enum Goal {
     Add(Vec<Effect>),
     /// Effects are added as long as the data justify it.
     Improve,
+}
+
+impl Question<'_> {
+    /// Which of the study's own effects have sizes that differ between groups.
+    pub(crate) fn sharing(&self) -> Result<Sharing, DiagnoseError> {
+        let mut sharing = Sharing::default();
+        let Some(case) = self.cases.first() else {
+            return Ok(sharing);
+        };
+        let model = case.model_with(&self.effects)?;
+        for (name, factor) in &self.by_group {
+            let index = model.parameters().iter().position(|p| p.name == *name);
+            if let Some((effect, _)) = index.and_then(|index| effect_of(&self.effects, index))
+                && Groups::of(self.cases, *factor).is_some()
+            {
+                sharing = sharing.with(effect, Some(*factor));
+            }
+        }
+        Ok(sharing)
+    }
 }
 
 impl Goal {
@@ -35,6 +59,8 @@ pub struct Question<'a> {
     pub cases: &'a [FitTask<'a>],
     /// Effects of the study's own model.
     pub effects: Vec<Effect>,
+    /// Which of their parameters differ between groups of tightenings, by name, and what groups these.
+    pub by_group: Vec<(String, Factor)>,
     /// Effects that the study declares but does not use: candidates, too.
     pub custom: Vec<Effect>,
     /// What is asked.

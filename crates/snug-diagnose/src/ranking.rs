@@ -1,6 +1,7 @@
 //! What every candidate would explain: score test, refit, gain on tightenings that took no part, against chance.
 
 pub(crate) mod applicability;
+pub(crate) mod by_group;
 pub(crate) mod max_t;
 pub(crate) mod nuisance;
 pub(crate) mod paired_gain;

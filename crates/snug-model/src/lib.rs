@@ -15,7 +15,7 @@ mod simulate;
 pub use assembly::layout::{Assembly, BASE_PARAMETERS, MAXIMUM_FREE};
 pub use assembly::model::{Model, THESIS_START};
 pub use assembly::scale::{PlausibleRange, Scale};
-pub use assembly::settings::{ModelSettings, ParameterSettings};
+pub use assembly::settings::{GroupValue, ModelSettings, ParameterSettings, ValuesByGroup};
 pub use assembly::unidentifiable::{INVISIBLE, Invisible};
 pub use base_model::euler::euler_displacement;
 pub use base_model::forces::{inverse_dynamics_force, spring_damper_force};

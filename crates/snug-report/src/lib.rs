@@ -5,6 +5,7 @@ mod decimation;
 mod effect_words;
 mod figure;
 mod findings_json;
+mod group_strip;
 mod grouping;
 mod json;
 mod number;

@@ -123,7 +123,7 @@ pub(crate) fn with_settled<'a>(
     let simulation = study.identify.simulation;
     (cases.into_iter())
         .map(|case| {
-            let model = study.model.model(case.tightening.rig)?;
+            let model = study.model_for(&case.tightening)?;
             let input = simulation.of(case.input.into_owned(), &case.tightening);
             Ok(FitTask {
                 model: Cow::Owned(model),
@@ -161,7 +161,7 @@ fn cases_of_file(study: &Study, file: &PreparedFile) -> Result<Vec<FitTask<'stat
                 ..IdentifySettings::default()
             };
             let case = FitTask {
-                model: Cow::Owned(study.model.model(tightening.rig)?),
+                model: Cow::Owned(study.model_for(&tightening)?),
                 input: Cow::Owned(input),
                 settings: Cow::Owned(settings),
                 tightening: Cow::Owned(tightening),

@@ -9,9 +9,10 @@ use crate::rungs::Ladder;
 use crate::settling::{Settled, settle};
 use crate::{ProgressEvent, Study, StudyError};
 use serde::{Deserialize, Serialize};
+use snug_campaign::{GroupSize, GroupSizes};
 use snug_diagnose::{Answer, DiagnoseError, Goal, Pieces, Question, RungModel, Watch, examine};
 use snug_identify::FitTask;
-use snug_model::{Effect, ParameterSettings};
+use snug_model::{Effect, GroupValue, ParameterSettings, ValuesByGroup};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// How a study is diagnosed.
@@ -180,6 +181,7 @@ pub fn diagnose(
     let question = Question {
         cases: &cases,
         effects: effects(study, &study.model.effects, &cases)?,
+        by_group: study.sizes_by_group(),
         custom: study.model.custom_effects()?,
         goal: goal(study, verb, &cases)?,
     };
@@ -294,6 +296,22 @@ fn climb(study: &Study, answer: Answer) -> (Study, Ladder) {
     (last, Ladder { diagnosis, before })
 }
 
+/// The sizes of groups as a study says them.
+fn values_by_group(sizes: &GroupSizes) -> ValuesByGroup {
+    let value = |one: &GroupSize| GroupValue {
+        value: one.value,
+        standard_error: one.standard_error,
+    };
+    let values = sizes
+        .groups
+        .iter()
+        .map(|one| (one.group.clone(), value(one)));
+    ValuesByGroup {
+        factor: sizes.factor,
+        values: values.collect(),
+    }
+}
+
 /// The study with a rung's model. What all tightenings share is held where they put it together.
 fn with_model(study: &Study, model: &RungModel, changes: bool) -> Study {
     let mut study = study.clone();
@@ -330,6 +348,7 @@ fn with_model(study: &Study, model: &RungModel, changes: bool) -> Study {
         told.value = Some(parameter.value);
         told.fixed = true;
         told.standard_error = parameter.standard_error.or(Some(0.0));
+        told.by_group = parameter.by_group.as_ref().map(values_by_group);
     }
     study
 }

@@ -31,7 +31,7 @@ pub fn fitted(
             Ok(FitTask {
                 tightening: Cow::Borrowed(&one.tightening),
                 input: Cow::Owned(input(study, one)),
-                model: Cow::Owned(study.model.model(one.tightening.rig)?),
+                model: Cow::Owned(study.model_for(&one.tightening)?),
                 settings: Cow::Borrowed(&study.identify),
             })
         })
@@ -82,7 +82,7 @@ pub fn validated(
     estimate: &Estimate,
 ) -> Result<Evaluated, StudyError> {
     let tightening = &prepared.tightening;
-    let model = study.model.model(tightening.rig)?;
+    let model = study.model_for(tightening)?;
     let input = free_input(study, prepared);
     let mut estimate = estimate.clone();
     for parameter in &mut estimate.parameters {

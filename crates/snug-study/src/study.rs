@@ -4,10 +4,10 @@ use crate::position::Position;
 use crate::{DiagnosisSettings, StudyError, syntax};
 use ron::extensions::Extensions;
 use serde::{Deserialize, Serialize};
-use snug_campaign::{Intersample, Quantity, Rig};
+use snug_campaign::{Factor, Intersample, Quantity, Rig, Tightening};
 use snug_identify::{ConstraintKind, IdentifyError, IdentifySettings};
 use snug_ingest::Source;
-use snug_model::{ModelError, ModelSettings};
+use snug_model::{Model, ModelError, ModelSettings, ParameterSettings};
 use snug_preprocess::{PreprocessSettings, Preset};
 use snug_record::RecordSettings;
 use std::path::{Path, PathBuf};
@@ -172,6 +172,20 @@ impl Study {
             }
         }
         Ok(())
+    }
+
+    /// The model of one tightening, with what its groups have of the sizes.
+    pub(crate) fn model_for(&self, tightening: &Tightening) -> Result<Model, ModelError> {
+        let group = |factor: Factor| factor.level(tightening).map(|level| level.name);
+        self.model.model_of_group(tightening.rig, &group)
+    }
+
+    /// The parameters that differ between groups of tightenings, and what groups these.
+    pub(crate) fn sizes_by_group(&self) -> Vec<(String, Factor)> {
+        let by_group = |(name, told): (&String, &ParameterSettings)| {
+            Some((name.clone(), told.by_group.as_ref()?.factor))
+        };
+        self.model.parameters.iter().filter_map(by_group).collect()
     }
 
     /// Its rig with nothing on it: a model's parameters do not depend on what a tightening knows of the inertia.

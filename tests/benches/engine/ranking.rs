@@ -80,6 +80,7 @@ fn diagnose(cases: &[FitTask<'_>]) -> usize {
     let question = Question {
         cases,
         effects: Vec::new(),
+        by_group: vec![],
         custom: Vec::new(),
         goal: Goal::Diagnose,
     };

@@ -26,6 +26,7 @@ fn parameter(name: &str, unit: &str, value: f64, low: f64, high: f64) -> EffectP
         spread: None,
         minimum: -1e7,
         maximum: 1e7,
+        by_group: None,
     }
 }
 

@@ -15,7 +15,7 @@ pub struct Size {
     pub interval: Option<String>,
     /// The unit, empty for a pure number.
     pub unit: String,
-    /// That every tightening has its own.
+    /// That every tightening has its own, or whose it is.
     pub own: Option<String>,
     /// That it lies beyond what is plausible.
     pub beyond: Option<String>,
@@ -47,9 +47,12 @@ impl EffectParameter {
             },
             value: shown.value,
             interval: shown.interval,
-            own: self
-                .per_tightening
-                .then(|| "on average".to_owned() + &self.spread.map_or_else(String::new, spread)),
+            own: match &self.by_group {
+                Some(sizes) => Some(format!("on average; {}", sizes.sentence(&self.unit))),
+                None => self.per_tightening.then(|| {
+                    "on average".to_owned() + &self.spread.map_or_else(String::new, spread)
+                }),
+            },
             beyond: (!self.is_plausible()).then(|| {
                 format!(
                     "beyond the plausible {} to {}",

@@ -180,6 +180,7 @@ mod tests {
             let question = Question {
                 cases: &cases,
                 effects: vec![],
+                by_group: vec![],
                 custom: vec![],
                 goal: Goal::Diagnose,
             };

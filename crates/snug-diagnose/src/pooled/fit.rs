@@ -5,18 +5,31 @@ use crate::data::clusters::Clusters;
 use crate::error::DiagnoseError;
 use crate::pooled::fitted::Fitted;
 use crate::pooled::long_record;
-use crate::pooled::model::{PooledModel, Start};
+use crate::pooled::model::PooledModel;
+use crate::pooled::sharing::Sharing;
 use snug_least_squares::PooledSettings;
 use snug_model::Effect;
 
-/// Fits exactly these effects, from where `from` ended where it is given.
+/// Fits exactly these effects, from where `from` ended where it is given; sizes that differ between groups there, differ here.
 pub(crate) fn fit_effects(
     cases: Cases<'_>,
     effects: &[Effect],
     from: Option<&Fitted>,
     clusters: Clusters,
 ) -> Result<Fitted, DiagnoseError> {
-    let mut pooled = PooledModel::new(cases, effects)?;
+    let sharing = from.map_or_else(Sharing::default, |from| from.sharing.clone());
+    fit_sharing(cases, effects, &sharing, from, clusters)
+}
+
+/// The same, sizes shared as `sharing` says.
+pub(crate) fn fit_sharing(
+    cases: Cases<'_>,
+    effects: &[Effect],
+    sharing: &Sharing,
+    from: Option<&Fitted>,
+    clusters: Clusters,
+) -> Result<Fitted, DiagnoseError> {
+    let mut pooled = PooledModel::shared_by(cases, effects, sharing)?;
     let start = from.map(|fitted| fitted.start(&pooled));
     let end = match (clusters.are_whole(), start) {
         (true, start) => {
@@ -36,11 +49,8 @@ pub(crate) fn fit_part(
     fitted: &Fitted,
     clusters: Clusters,
 ) -> Result<Fitted, DiagnoseError> {
-    let mut pooled = PooledModel::new(cases, &fitted.effects)?;
-    let start = Start {
-        own: fitted.own.clone(),
-        shared: fitted.shared.clone(),
-    };
-    let end = pooled.fit(&start.of_members(members), &PooledSettings::default())?;
+    let mut pooled = PooledModel::shared_by(cases, &fitted.effects, &fitted.sharing)?;
+    let start = fitted.start_of(&pooled, members);
+    let end = pooled.fit(&start, &PooledSettings::default())?;
     Ok(Fitted::new(&pooled, end, &clusters))
 }

@@ -1,15 +1,16 @@
 //! A pooled model after its fit: sizes, errors, and what it is worth in data that took no part.
 
 use crate::data::clusters::Clusters;
-use crate::pooled::model::{PooledModel, Room, Start, first_parameter, index_among};
-use crate::pooled::thresholds::{AT_FLOOR, HARDLY};
+use crate::pooled::model::{PooledModel, Room, Start, effect_of, first_parameter, index_among};
+use crate::pooled::sharing::{SharedSize, Sharing, differs_by_group};
+use crate::pooled::thresholds::{AT_FLOOR, HARDLY, NOISE_AND_A_LITTLE};
 use crate::pooled::torque_noise::passed_on;
 use crate::settings::DiagnoseSettings;
-use snug_least_squares::PooledFit;
 use snug_least_squares::matrix::{SymmetricMatrix, inner_product as dot};
+use snug_least_squares::{PooledFit, Profile};
 use snug_model::{BASE_PARAMETERS, Effect};
 use snug_statistics::descriptive::median;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// What a cluster says about the parameters around the optimum: squared residual, gradient and curvature.
 #[derive(Debug, Clone)]
@@ -18,7 +19,7 @@ pub(crate) struct Block {
     pub squares: f64,
     /// Number of residuals.
     pub count: usize,
-    /// Jᵀr; over the shared parameters where the cluster is a whole tightening, else over own and shared.
+    /// Jᵀr; over the tightening's shared parameters where the cluster is a whole one, else over own and shared.
     pub(super) gradient: Vec<f64>,
     /// JᵀJ likewise.
     curvature: SymmetricMatrix,
@@ -28,11 +29,15 @@ pub(crate) struct Block {
 #[derive(Debug, Clone)]
 pub(crate) struct Fitted {
     pub effects: Vec<Effect>,
+    /// Which of their sizes differ from group to group.
+    pub sharing: Sharing,
     own_names: Vec<String>,
     shared_names: Vec<String>,
     /// Which of the model's parameters these are.
     own_indices: Vec<usize>,
-    shared_indices: Vec<usize>,
+    shared_sizes: Vec<SharedSize>,
+    /// Which of the shared sizes are each tightening's.
+    shared_of: Vec<Vec<usize>>,
     pub own: Vec<Vec<f64>>,
     pub shared: Vec<f64>,
     pub converged: bool,
@@ -47,7 +52,7 @@ pub(crate) struct Fitted {
     pub is_weighted: bool,
     /// Per tightening curvature over own and shared (only where clusters are stretches).
     pub(super) member_curvature: Vec<SymmetricMatrix>,
-    /// Per tightening projected curvature and gradient over the shared parameters.
+    /// Per tightening projected curvature and gradient over its shared parameters.
     profiles: Vec<(SymmetricMatrix, Vec<f64>)>,
     /// Parameters that every tightening has of its own, beyond the base model's.
     pub own_effect_count: usize,
@@ -56,23 +61,20 @@ pub(crate) struct Fitted {
 impl Fitted {
     /// A fit with what follows from it.
     pub fn new(pooled: &PooledModel<'_>, fit: PooledFit, clusters: &Clusters) -> Self {
-        let p = pooled.shared.len();
-        let profiles = fit
-            .profiles
-            .iter()
-            .map(|profile| {
-                (
-                    SymmetricMatrix::new(p, profile.curvature.clone()),
-                    profile.gradient.clone(),
-                )
-            })
-            .collect();
+        let of_shared = |profile: &Profile| {
+            let curvature = SymmetricMatrix::new(profile.shared.len(), profile.curvature.clone());
+            (curvature, profile.gradient.clone())
+        };
+        let profiles = fit.profiles.iter().map(of_shared).collect();
+        let indices: Vec<usize> = pooled.shared.iter().map(|size| size.index).collect();
         let mut fitted = Self {
             effects: pooled.effects.clone(),
+            sharing: pooled.sharing.clone(),
             own_names: pooled.names(&pooled.own),
-            shared_names: pooled.names(&pooled.shared),
+            shared_names: pooled.names(&indices),
             own_indices: pooled.own.clone(),
-            shared_indices: pooled.shared.clone(),
+            shared_sizes: pooled.shared.clone(),
+            shared_of: pooled.shared_of.clone(),
             converged: fit.converged,
             blocks: Vec::new(),
             members: Vec::new(),
@@ -95,35 +97,50 @@ impl Fitted {
 
     /// Where this fit ended as a start for `pooled`, which may hold other effects; those begin as usual.
     pub fn start(&self, pooled: &PooledModel<'_>) -> Start {
+        let all: Vec<usize> = (0..self.own.len()).collect();
+        self.start_of(pooled, &all)
+    }
+
+    /// The same for a model of these of the tightenings.
+    pub fn start_of(&self, pooled: &PooledModel<'_>, members: &[usize]) -> Start {
         let mut start = pooled.usual_start();
-        let take = |places: &[usize], to: &mut [f64], known: &[usize], from: &[f64]| {
-            for (&place, to) in places.iter().zip(to) {
-                let index = index_among(&self.effects, &pooled.effects, place);
-                if let Some(column) = known.iter().position(|&known| Some(known) == index) {
-                    *to = from[column];
-                }
-            }
+        let index = |place: usize| index_among(&self.effects, &pooled.effects, place);
+        let column = |&place: &usize| {
+            let index = index(place)?;
+            self.own_indices.iter().position(|&known| known == index)
         };
-        for (to, from) in start.own.iter_mut().zip(&self.own) {
-            take(&pooled.own, to, &self.own_indices, from);
+        let columns: Vec<Option<usize>> = pooled.own.iter().map(column).collect();
+        for (to, &member) in start.own.iter_mut().zip(members) {
+            for (to, column) in to.iter_mut().zip(&columns) {
+                *to = column.map_or(*to, |column| self.own[member][column]);
+            }
         }
-        take(
-            &pooled.shared,
-            &mut start.shared,
-            &self.shared_indices,
-            &self.shared,
-        );
+        for (size, to) in pooled.shared.iter().zip(&mut start.shared) {
+            if let Some(value) = index(size.index).and_then(|index| self.shared_value(index, size))
+            {
+                *to = value;
+            }
+        }
         start
     }
 
-    fn work_out_blocks(
-        &mut self,
-        pooled: &PooledModel<'_>,
-        profiles: &[snug_least_squares::Profile],
-    ) {
+    /// What it says of the shared parameter number `index`: of that group, of all, or the mean over its groups.
+    fn shared_value(&self, index: usize, of: &SharedSize) -> Option<f64> {
+        let known = || {
+            let all = self.shared_sizes.iter().zip(&self.shared);
+            all.filter(move |(known, _)| known.index == index)
+        };
+        if let Some((_, value)) = known().find(|(known, _)| known.level == of.level) {
+            return Some(*value);
+        }
+        let values: Vec<f64> = known().map(|(_, value)| *value).collect();
+        (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
+    }
+
+    fn work_out_blocks(&mut self, pooled: &PooledModel<'_>, profiles: &[Profile]) {
         let order: Vec<usize> = match self.clusters.are_whole() {
             true => Vec::new(),
-            false => [pooled.own.as_slice(), &pooled.shared].concat(),
+            false => pooled.order(),
         };
         let mut room = Room::default();
         let values: Vec<Vec<f64>> = (self.own.iter().enumerate())
@@ -209,6 +226,11 @@ impl Fitted {
         self.is_weighted && self.error() < AT_FLOOR
     }
 
+    /// Whether it leaves no more than the noise and a little.
+    pub fn is_noise(&self) -> bool {
+        self.is_weighted && self.scale() < NOISE_AND_A_LITTLE
+    }
+
     /// Smallest share of the squared residual that an effect must remove to matter beside this model.
     pub fn smallest_gain(&self, settings: &DiagnoseSettings) -> f64 {
         match self.is_at_floor() {
@@ -232,7 +254,9 @@ impl Fitted {
 
     /// What one tightening has of its own and shares.
     pub fn all_named(&self, member: usize) -> Vec<(String, f64)> {
-        [self.own_named(member), self.shared_named()].concat()
+        let shared = self.shared_of[member].iter();
+        let shared = shared.map(|&place| (self.shared_names[place].clone(), self.shared[place]));
+        self.own_named(member).into_iter().chain(shared).collect()
     }
 
     pub fn shared_named(&self) -> Vec<(String, f64)> {
@@ -268,8 +292,8 @@ impl Fitted {
     /// Names and values of what all share of the base model.
     fn shared_base(&self) -> impl Iterator<Item = (&String, f64)> {
         let shared = self.shared_names.iter().zip(&self.shared);
-        (shared.zip(&self.shared_indices))
-            .filter(|(_, index)| **index < BASE_PARAMETERS.len())
+        (shared.zip(&self.shared_sizes))
+            .filter(|(_, size)| size.index < BASE_PARAMETERS.len())
             .map(|((name, value), _)| (name, *value))
     }
 
@@ -299,13 +323,56 @@ impl Fitted {
     /// tightening has its own.
     pub fn size(&self, effect: Effect) -> f64 {
         let index = first_parameter(&self.effects, effect);
-        let column = self.shared_indices.iter().position(|&known| known == index);
-        column.map_or(0.0, |column| self.shared[column])
+        let all = SharedSize { index, level: None };
+        self.shared_value(index, &all).unwrap_or(0.0)
     }
 
-    /// Which of the model's parameters are shared, in their order.
-    pub fn shared_indices(&self) -> &[usize] {
-        &self.shared_indices
+    /// Where the sizes of `effect` stand that could differ from group to group and that all share.
+    pub fn places_that_may_differ(&self, effect: Effect) -> Vec<usize> {
+        let may = |size: &SharedSize| {
+            let of = effect_of(&self.effects, size.index);
+            size.level.is_none()
+                && of.is_some_and(|(of, offset)| of == effect && differs_by_group(of, offset))
+        };
+        (0..self.shared_sizes.len())
+            .filter(|&place| may(&self.shared_sizes[place]))
+            .collect()
+    }
+
+    /// Curvature and gradient over the shared sizes at `places` that these whole tightenings add up to; `None` where one of them
+    /// does not have them.
+    pub fn of_sizes(
+        &self,
+        members: &[usize],
+        places: &[usize],
+    ) -> Option<(SymmetricMatrix, Vec<f64>)> {
+        let mut curvature = SymmetricMatrix::zero(places.len());
+        let mut gradient = vec![0.0; places.len()];
+        for &member in members {
+            let own = &self.shared_of[member];
+            let at: Option<Vec<usize>> = (places.iter())
+                .map(|place| own.iter().position(|known| known == place))
+                .collect();
+            let at = at?;
+            let (of_one, g) = &self.profiles[member];
+            for (i, &row) in at.iter().enumerate() {
+                gradient[i] += g[row];
+                for (j, &column) in at.iter().enumerate() {
+                    curvature.set(i, j, curvature.at(i, j) + of_one.at(row, column));
+                }
+            }
+        }
+        Some((curvature, gradient))
+    }
+
+    /// What is shared, and by which tightenings.
+    pub fn shared_sizes(&self) -> &[SharedSize] {
+        &self.shared_sizes
+    }
+
+    /// Which of it one tightening has.
+    pub fn shared_of(&self, member: usize) -> &[usize] {
+        &self.shared_of[member]
     }
 
     /// Which of the model's parameters each tightening has of its own, in their order.
@@ -316,30 +383,39 @@ impl Fitted {
     /// Projected curvature over the shared parameters, all tightenings together.
     pub fn shared_curvature(&self) -> SymmetricMatrix {
         let mut sum = SymmetricMatrix::zero(self.shared.len());
-        for (curvature, _) in &self.profiles {
-            sum.add(curvature);
+        for ((curvature, _), places) in self.profiles.iter().zip(&self.shared_of) {
+            add_in(&mut sum, curvature, places);
         }
         sum
+    }
+
+    /// What one tightening says of the shared parameters, as a vector over all of them.
+    pub fn of_all_shared(&self, member: usize, gradient: &[f64]) -> Vec<f64> {
+        let mut all = vec![0.0; self.shared.len()];
+        for (&place, value) in self.shared_of[member].iter().zip(gradient) {
+            all[place] = *value;
+        }
+        all
     }
 
     /// Curvature and the gradient of each cluster, whose last entries belong to the shared parameters. Stretches of one
     /// tightening speak of its own parameters, too.
     pub fn shared_evidence(&self) -> (SymmetricMatrix, Vec<Vec<f64>>) {
-        let gradients = |scale: &dyn Fn(usize) -> bool| -> Vec<Vec<f64>> {
-            let clusters = (0..self.blocks.len()).filter(|&cluster| scale(cluster));
-            clusters
-                .map(|cluster| self.blocks[cluster].gradient.clone())
+        let of_blocks = || {
+            self.blocks
+                .iter()
+                .map(|block| block.gradient.clone())
+                .collect()
+        };
+        let of_profiles = || {
+            let all = self.profiles.iter().enumerate();
+            all.map(|(member, (_, gradient))| self.of_all_shared(member, gradient))
                 .collect()
         };
         match self.member_curvature.first() {
-            Some(whole) if self.own.len() == 1 => (whole.clone(), gradients(&|_| true)),
-            _ if self.clusters.are_whole() || self.shares_all() => {
-                (self.shared_curvature(), gradients(&|_| true))
-            }
-            _ => {
-                let profiles = self.profiles.iter().map(|(_, gradient)| gradient.clone());
-                (self.shared_curvature(), profiles.collect())
-            }
+            Some(whole) if self.own.len() == 1 => (whole.clone(), of_blocks()),
+            Some(_) if self.shares_all() => (self.shared_curvature(), of_blocks()),
+            _ => (self.shared_curvature(), of_profiles()),
         }
     }
 
@@ -372,8 +448,11 @@ impl Fitted {
         }
         let mut squares: Vec<f64> = vec![0.0; self.blocks.len()];
         let all = self.shared_curvature();
+        let inverse = self.sharing.is_by_group().then(|| all.inverse()).flatten();
         for clusters in groups.values() {
-            if self.clusters.are_whole() {
+            if let Some(inverse) = &inverse {
+                self.hold_out_of_groups(clusters, inverse, &mut squares);
+            } else if self.clusters.are_whole() {
                 self.hold_out(clusters, all.clone(), &mut squares);
             } else {
                 self.hold_out_stretches(clusters, &mut squares);
@@ -405,6 +484,77 @@ impl Fitted {
         }
     }
 
+    /// Whole tightenings of which each shares some parameters only: what all others say of these, `inverse` their covariance. A
+    /// group that is held out as a whole is expected to be as the others are on average.
+    fn hold_out_of_groups(
+        &self,
+        clusters: &[usize],
+        inverse: &SymmetricMatrix,
+        squares: &mut [f64],
+    ) {
+        let all = clusters
+            .iter()
+            .flat_map(|&cluster| &self.shared_of[cluster]);
+        let places: Vec<usize> = all.copied().collect::<BTreeSet<_>>().into_iter().collect();
+        let mut covariance = SymmetricMatrix::zero(places.len());
+        for (i, &from) in places.iter().enumerate() {
+            for (j, &to) in places.iter().enumerate() {
+                covariance.set(i, j, inverse.at(from, to));
+            }
+        }
+        let Some(mut rest) = covariance.inverse() else {
+            clusters
+                .iter()
+                .for_each(|&cluster| squares[cluster] = self.blocks[cluster].squares);
+            return;
+        };
+        let mut gradient = vec![0.0; places.len()];
+        for &cluster in clusters {
+            let own = self.among(&places, cluster);
+            take_from(&mut rest, &self.blocks[cluster].curvature, &own);
+            for (&place, g) in own.iter().zip(&self.blocks[cluster].gradient) {
+                gradient[place] += g;
+            }
+        }
+        let mut shift = rest
+            .solve_scaled(&gradient)
+            .unwrap_or_else(|| vec![0.0; places.len()]);
+        for (shift, &place) in shift.iter_mut().zip(&places) {
+            if let Some(others) = self.mean_without(place, clusters) {
+                *shift = others - self.shared[place];
+            }
+        }
+        for &cluster in clusters {
+            let block = &self.blocks[cluster];
+            let own = self.among(&places, cluster);
+            let shift: Vec<f64> = own.iter().map(|&place| shift[place]).collect();
+            squares[cluster] = block.squares
+                + 2.0 * dot(&block.gradient, &shift)
+                + block.curvature.quadratic(&shift);
+        }
+    }
+
+    /// Where among `places` those of one tightening stand.
+    fn among(&self, places: &[usize], member: usize) -> Vec<usize> {
+        let own = self.shared_of[member].iter();
+        own.filter_map(|place| places.binary_search(place).ok())
+            .collect()
+    }
+
+    /// The mean size of the other groups, where nobody of this one is left without `clusters`.
+    fn mean_without(&self, place: usize, clusters: &[usize]) -> Option<f64> {
+        let size = &self.shared_sizes[place];
+        size.level.as_ref()?;
+        let mut members = (0..self.own.len()).filter(|member| !clusters.contains(member));
+        if members.any(|member| self.shared_of[member].contains(&place)) {
+            return None;
+        }
+        let others = self.shared_sizes.iter().zip(&self.shared);
+        let others = others.filter(|(other, _)| other.index == size.index && *other != size);
+        let values: Vec<f64> = others.map(|(_, value)| *value).collect();
+        (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
+    }
+
     /// Own parameters are fixed by the other stretches of the same tightening, the shared ones by everything else.
     fn hold_out_stretches(&self, clusters: &[usize], squares: &mut [f64]) {
         let mut by_member: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
@@ -423,6 +573,24 @@ impl Fitted {
                 }
             }
             self.hold_out(&own_clusters, total, squares);
+        }
+    }
+}
+
+/// Adds a matrix over `places` to one over all.
+fn add_in(sum: &mut SymmetricMatrix, part: &SymmetricMatrix, places: &[usize]) {
+    for (i, &row) in places.iter().enumerate() {
+        for (j, &column) in places.iter().enumerate() {
+            sum.set(row, column, sum.at(row, column) + part.at(i, j));
+        }
+    }
+}
+
+/// Takes a matrix over `places` from one over all.
+fn take_from(sum: &mut SymmetricMatrix, part: &SymmetricMatrix, places: &[usize]) {
+    for (i, &row) in places.iter().enumerate() {
+        for (j, &column) in places.iter().enumerate() {
+            sum.set(row, column, sum.at(row, column) - part.at(i, j));
         }
     }
 }

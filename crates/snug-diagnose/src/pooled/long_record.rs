@@ -150,6 +150,6 @@ fn further(pooled: &PooledModel<'_>, from: &Start) -> Option<Start> {
     };
     Some(Start {
         own: vec![pick(&pooled.own)?],
-        shared: pick(&pooled.shared)?,
+        shared: pick(&pooled.common)?,
     })
 }

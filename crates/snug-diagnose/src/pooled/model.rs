@@ -4,6 +4,7 @@
 use crate::data::cases::Cases;
 use crate::data::simulation::{Asked, Simulated, simulate};
 use crate::error::DiagnoseError;
+use crate::pooled::sharing::{SharedSize, Sharing, shared_sizes};
 use snug_identify::{FitTask, Whitening, convex_set, identify_all, smooth};
 use snug_least_squares::{
     Constraints, EvaluationError, PooledFit, PooledResidual, PooledSettings, Trial, solve_pooled,
@@ -14,12 +15,17 @@ use snug_model::{BASE_PARAMETERS, Effect, Law, Model, Scope};
 pub(crate) struct PooledModel<'a> {
     pub cases: Cases<'a>,
     pub effects: Vec<Effect>,
+    pub sharing: Sharing,
     pub models: Vec<Model>,
     whitenings: Vec<Option<Whitening>>,
     /// Indices (into the model's parameters) of what every tightening has of its own.
     pub own: Vec<usize>,
-    /// Indices of what all share.
-    pub shared: Vec<usize>,
+    /// Indices of what is shared, whether by all or by the tightenings of a group.
+    pub common: Vec<usize>,
+    /// What is shared: each of the common parameters, where a group has its own once for every group.
+    pub shared: Vec<SharedSize>,
+    /// Which of these are each member's, one for each of the common parameters in their order.
+    pub shared_of: Vec<Vec<usize>>,
     own_sets: Vec<Constraints>,
     shared_set: Constraints,
     room: Room,
@@ -50,14 +56,6 @@ impl Start {
             shared: fit.shared.clone(),
         }
     }
-
-    /// The same for some of the members only.
-    pub fn of_members(&self, members: &[usize]) -> Self {
-        Self {
-            own: pick(&self.own, members),
-            shared: self.shared.clone(),
-        }
-    }
 }
 
 /// What some members have of their own.
@@ -66,67 +64,87 @@ pub(crate) fn pick(own: &[Vec<f64>], members: &[usize]) -> Vec<Vec<f64>> {
 }
 
 impl<'a> PooledModel<'a> {
-    /// The study's base model with exactly these effects.
+    /// The study's base model with exactly these effects, each size the same for all.
     pub fn new(cases: Cases<'a>, effects: &[Effect]) -> Result<Self, DiagnoseError> {
+        Self::shared_by(cases, effects, &Sharing::default())
+    }
+
+    /// The study's base model with exactly these effects, their sizes shared as `sharing` says.
+    pub fn shared_by(
+        cases: Cases<'a>,
+        effects: &[Effect],
+        sharing: &Sharing,
+    ) -> Result<Self, DiagnoseError> {
         let models = cases
             .iter()
             .map(|case| case.model_with(effects))
             .collect::<Result<Vec<_>, _>>()?;
         let first = &models[0];
         let base: Vec<usize> = (0..BASE_PARAMETERS.len()).collect();
-        let (mut own, mut shared) = match cases.are_of_one_machine() {
+        let (mut own, mut common) = match cases.are_of_one_machine() {
             true => (Vec::new(), base),
             false => (base, Vec::new()),
         };
-        let mut index = BASE_PARAMETERS.len();
         for effect in effects {
-            for spec in effect.description().parameters {
+            let index = first_parameter(effects, *effect);
+            for (offset, spec) in effect.description().parameters.iter().enumerate() {
                 match spec.scope {
-                    Scope::Shared => shared.push(index),
-                    Scope::PerTightening => own.push(index),
+                    Scope::Shared => common.push(index + offset),
+                    Scope::PerTightening => own.push(index + offset),
                 }
-                index += 1;
             }
         }
         own.retain(|&index| !first.parameters()[index].fixed);
-        shared.retain(|&index| !first.parameters()[index].fixed);
-        let without = |model: &Model, held: &[usize]| {
-            let mut model = model.clone();
-            for &index in held {
-                model.parameters_mut()[index].fixed = true;
-            }
-            model
-        };
-        let held: Vec<usize> = match cases.are_of_one_machine() {
-            true => own.clone(),
-            false => (0..BASE_PARAMETERS.len()).chain(own.clone()).collect(),
-        };
-        let kinds = match cases.are_of_one_machine() {
+        common.retain(|&index| !first.parameters()[index].fixed);
+        let of_all = match cases.are_of_one_machine() {
             true => cases[0].settings.constraints.as_slice(),
             false => &[],
         };
-        let shared_set = convex_set(&without(first, &held), kinds);
+        let (shared, shared_of) = shared_sizes(&cases, effects, sharing, &common);
+        let shared_set = match sharing.is_by_group() {
+            false => convex_set(&held_but(first, &common), of_all),
+            true => bounds(first, &shared),
+        };
         let own_sets = (models.iter().zip(cases.iter()))
             .map(|(model, case)| {
-                let kinds = match cases.are_of_one_machine() {
+                let of_each = match cases.are_of_one_machine() {
                     true => &[],
                     false => case.settings.constraints.as_slice(),
                 };
-                convex_set(&without(model, &shared), kinds)
+                convex_set(&held_but(model, &own), of_each)
             })
             .collect();
         Ok(Self {
             whitenings: cases.iter().map(FitTask::whitening).collect(),
             cases,
             effects: effects.to_vec(),
+            sharing: sharing.among(effects),
             models,
             own,
+            common,
             shared,
+            shared_of,
             own_sets,
             shared_set,
             room: Room::default(),
             reach: 0,
         })
+    }
+
+    /// The same model of other tightenings.
+    pub fn with_cases<'b>(&self, all: &'b [FitTask<'b>]) -> Result<PooledModel<'b>, DiagnoseError>
+    where
+        'a: 'b,
+    {
+        PooledModel::shared_by(self.cases.others(all), &self.effects, &self.sharing)
+    }
+
+    /// The sizes that all of these tightenings share with those of `other`, which end there at `from`, put in place of `to`.
+    pub fn take_shared(&self, to: &mut [f64], other: &PooledModel<'_>, from: &[f64]) {
+        for (size, to) in self.shared.iter().zip(to) {
+            let place = other.shared.iter().position(|known| known == size);
+            *to = place.map_or(*to, |place| from[place]);
+        }
     }
 
     /// Whether all residuals are in units of a measured noise.
@@ -136,16 +154,32 @@ impl<'a> PooledModel<'a> {
 
     /// Where the parameters begin by themselves: the study's values, the effects' usual starts.
     pub fn usual_start(&self) -> Start {
-        let pick = |model: &Model, indices: &[usize]| -> Vec<f64> {
-            indices
-                .iter()
-                .map(|&index| model.parameters()[index].value)
-                .collect()
-        };
+        let value = |model: &Model, index: usize| model.parameters()[index].value;
+        let own = |model: &Model| self.own.iter().map(|&index| value(model, index)).collect();
         Start {
-            own: self.models.iter().map(|m| pick(m, &self.own)).collect(),
-            shared: pick(&self.models[0], &self.shared),
+            own: self.models.iter().map(own).collect(),
+            shared: self.usual_shared(),
         }
+    }
+
+    /// What is shared as the first tightening that has it begins.
+    fn usual_shared(&self) -> Vec<f64> {
+        let has = |place: usize| self.shared_of.iter().position(|own| own.contains(&place));
+        (self.shared.iter().enumerate())
+            .map(|(place, size)| {
+                let model = &self.models[has(place).unwrap_or(0)];
+                model.parameters()[size.index].value
+            })
+            .collect()
+    }
+
+    /// What all share, as a model has it.
+    fn shared_values(&self, model: &Model) -> Vec<f64> {
+        let values = self
+            .shared
+            .iter()
+            .map(|size| model.parameters()[size.index].value);
+        values.collect()
     }
 
     /// Where the parameters begin by themselves, one start for each record where all share mass, damping and stiffness: what one
@@ -158,9 +192,7 @@ impl<'a> PooledModel<'a> {
         (self.models.iter())
             .map(|model| Start {
                 own: usual.own.clone(),
-                shared: (self.shared.iter())
-                    .map(|&index| model.parameters()[index].value)
-                    .collect(),
+                shared: self.shared_values(model),
             })
             .collect()
     }
@@ -168,8 +200,8 @@ impl<'a> PooledModel<'a> {
     /// The sizes of `start` with the study's own mass, damping and stiffness as they usually begin.
     pub fn with_base_afresh(&self, start: &Start) -> Start {
         let Start { own, mut shared } = self.usual_start();
-        for ((to, from), &index) in shared.iter_mut().zip(&start.shared).zip(&self.shared) {
-            if index >= BASE_PARAMETERS.len() {
+        for ((to, from), size) in shared.iter_mut().zip(&start.shared).zip(&self.shared) {
+            if size.index >= BASE_PARAMETERS.len() {
                 *to = *from;
             }
         }
@@ -185,20 +217,33 @@ impl<'a> PooledModel<'a> {
             .collect()
     }
 
+    /// What one member has of the shared sizes, in the order of the common parameters.
+    pub fn part(&self, member: usize, shared: &[f64]) -> Vec<f64> {
+        self.shared_of[member]
+            .iter()
+            .map(|&place| shared[place])
+            .collect()
+    }
+
     /// All parameters of one member's model.
     pub fn values(&self, member: usize, own: &[f64], shared: &[f64]) -> Vec<f64> {
-        let mut values: Vec<f64> = self.models[member]
-            .parameters()
-            .iter()
-            .map(|parameter| parameter.value)
-            .collect();
-        for (&index, &value) in self.own.iter().zip(own) {
-            values[index] = value;
-        }
-        for (&index, &value) in self.shared.iter().zip(shared) {
+        self.values_of(member, own, &self.part(member, shared))
+    }
+
+    /// All parameters of one member's model, given its own and its [part](Self::part) of the shared ones.
+    fn values_of(&self, member: usize, own: &[f64], part: &[f64]) -> Vec<f64> {
+        let parameters = self.models[member].parameters().iter();
+        let mut values: Vec<f64> = parameters.map(|parameter| parameter.value).collect();
+        let free = self.own.iter().zip(own).chain(self.common.iter().zip(part));
+        for (&index, &value) in free {
             values[index] = value;
         }
         values
+    }
+
+    /// Indices of every member's free parameters: its own, then its part of the shared ones.
+    pub fn order(&self) -> Vec<usize> {
+        [self.own.as_slice(), &self.common].concat()
     }
 
     /// Fits from one start.
@@ -270,7 +315,7 @@ impl<'a> PooledModel<'a> {
         for (parameter, value) in model.parameters_mut().iter_mut().zip(values) {
             parameter.value = value;
         }
-        for &index in &self.shared {
+        for &index in &self.common {
             model.parameters_mut()[index].fixed = true;
         }
         model
@@ -361,6 +406,30 @@ impl<'a> PooledModel<'a> {
     }
 }
 
+/// A model of which only these parameters are free, as far as they were.
+fn held_but(model: &Model, free: &[usize]) -> Model {
+    let mut model = model.clone();
+    for (index, parameter) in model.parameters_mut().iter_mut().enumerate() {
+        parameter.fixed |= !free.contains(&index);
+    }
+    model
+}
+
+/// The bounds of shared sizes.
+fn bounds(model: &Model, shared: &[SharedSize]) -> Constraints {
+    let mut set = Constraints::new(shared.len());
+    for (column, size) in shared.iter().enumerate() {
+        let parameter = &model.parameters()[size.index];
+        set.bound(
+            column,
+            parameter.minimum,
+            parameter.maximum,
+            &parameter.name,
+        );
+    }
+    set
+}
+
 /// Number of weighted residuals of a case.
 fn scored(case: &FitTask<'_>, whitening: Option<&Whitening>) -> usize {
     let lost = whitening.map_or(0, Whitening::order);
@@ -380,9 +449,16 @@ pub(crate) fn index_among(to: &[Effect], from: &[Effect], index: usize) -> Optio
     if index < BASE_PARAMETERS.len() {
         return Some(index);
     }
-    let first = |effect: &Effect| first_parameter(from, *effect);
-    let effect = from.iter().rfind(|effect| first(effect) <= index)?;
-    (to.contains(effect)).then(|| first_parameter(to, *effect) + index - first(effect))
+    let (effect, offset) = effect_of(from, index)?;
+    (to.contains(&effect)).then(|| first_parameter(to, effect) + offset)
+}
+
+/// The effect whose parameter is number `index` in a model that has `effects`, and which of its parameters it is; `None` of the
+/// base model's.
+pub(crate) fn effect_of(effects: &[Effect], index: usize) -> Option<(Effect, usize)> {
+    let first = |effect: &Effect| first_parameter(effects, *effect);
+    let effect = effects.iter().rfind(|effect| first(effect) <= index)?;
+    Some((*effect, index - first(effect)))
 }
 
 /// Index of an effect's first parameter in a model that has `effects`.
@@ -407,13 +483,17 @@ impl PooledResidual for PooledModel<'_> {
         self.shared.len()
     }
 
+    fn shared_of(&self, member: usize) -> Vec<usize> {
+        self.shared_of[member].clone()
+    }
+
     fn linearize(&mut self, trials: &mut [Trial<'_>]) -> Result<(), EvaluationError> {
-        let order = [self.own.as_slice(), &self.shared].concat();
+        let order = self.order();
         let mut room = std::mem::take(&mut self.room);
         let values: Vec<Vec<f64>> = (trials.iter())
             .map(|trial| {
-                let (own, shared) = trial.parameters.split_at(self.own.len());
-                self.values(trial.member, own, shared)
+                let (own, part) = trial.parameters.split_at(self.own.len());
+                self.values_of(trial.member, own, part)
             })
             .collect();
         let asked: Vec<Asked<'_>> = (trials.iter().zip(&values))

@@ -6,6 +6,7 @@
 
 use crate::library::is_unlisted;
 use crate::pooled::fitted::Fitted;
+use crate::pooled::group_sizes;
 use crate::pooled::model::first_parameter;
 use snug_campaign::EffectParameter;
 use snug_identify::FitTask;
@@ -43,7 +44,11 @@ pub(crate) fn parameters(
                 maximum: range.maximum.min(limits.1),
                 ..described(spec)
             };
-            if let Some(column) = column(fitted.shared_indices()) {
+            let mut shared = (0..fitted.shared.len())
+                .filter(|&column| fitted.shared_sizes()[column].index == index);
+            if let Some(groups) = group_sizes::of(cases, fitted, index, effect, offset) {
+                groups.tell(&mut size);
+            } else if let Some(column) = shared.next() {
                 size.value = fitted.shared[column];
                 let inside = size.value > limits.0 && size.value < limits.1;
                 let error = errors.as_ref().map(|e| e[column]);
@@ -79,6 +84,10 @@ pub(crate) fn is_told_from_nothing(cases: &[FitTask<'_>], fitted: &Fitted, effec
     let sizes = parameters(cases, fitted, effect);
     let excludes = |(offset, size): (usize, &EffectParameter)| {
         let nothing = nothing(offset)?;
+        // What some group has is there, whatever the mean.
+        if let Some(by_group) = &size.by_group {
+            return Some(by_group.groups.iter().any(|group| group.present));
+        }
         // What scatters between tightenings is there, whatever its mean.
         if size.per_tightening && fitted.own.len() > 1 {
             return Some(true);
@@ -126,11 +135,12 @@ pub(crate) fn described(spec: &ParameterSpec) -> EffectParameter {
         spread: None,
         minimum: spec.minimum,
         maximum: spec.maximum,
+        by_group: None,
     }
 }
 
 /// 97.5 % quantile of Student's t with one degree of freedom less than there are clusters.
-fn student(clusters: usize) -> f64 {
+pub(crate) fn student(clusters: usize) -> f64 {
     let freedom = clusters.saturating_sub(1).max(1) as f64;
     StudentsT::new(0.0, 1.0, freedom).map_or(1.96, |t| t.inverse_cdf(0.975))
 }
@@ -171,6 +181,35 @@ impl Fitted {
         Some(errors[skipped..].to_vec())
     }
 
+    /// Standard errors of one shared parameter that differs between groups, in their order, at `places`: that of unit noise,
+    /// times what the scatter of the tightenings within all groups together adds to it. A group alone has too few.
+    pub fn group_errors(&self, places: &[usize]) -> Option<Vec<f64>> {
+        let (curvature, gradients) = self.shared_evidence();
+        let inverse = curvature.inverse()?;
+        let sandwich = |place: usize| -> f64 {
+            let row: Vec<f64> = (0..curvature.size())
+                .map(|j| inverse.at(place, j))
+                .collect();
+            gradients.iter().map(|g| dot(&row, g).powi(2)).sum()
+        };
+        let known: Vec<usize> = (places.iter().copied())
+            .filter(|&place| inverse.at(place, place) > 0.0)
+            .collect();
+        let ratios = known
+            .iter()
+            .map(|&place| sandwich(place) / inverse.at(place, place));
+        let clusters = gradients.len() as f64;
+        let correction = clusters / (clusters - self.shared.len() as f64).max(1.0);
+        let ratio = correction * ratios.sum::<f64>() / known.len().max(1) as f64;
+        let factor = if self.is_weighted {
+            ratio.max(1.0)
+        } else {
+            ratio
+        };
+        let error = |&place: &usize| (factor * inverse.at(place, place)).sqrt();
+        Some(places.iter().map(error).collect())
+    }
+
     /// Standard errors of a single long record's own parameters; `None` of whole tightenings and of several records, where the
     /// scatter between them says it.
     fn errors_of_one_record(&self) -> Option<Vec<f64>> {
@@ -207,9 +246,15 @@ impl Fitted {
 }
 
 /// The model of one case with everything but its own parameters held, known as well as `errors` say.
-pub(crate) fn held(case: &FitTask<'_>, fitted: &Fitted, errors: Option<&[f64]>) -> Option<Model> {
+pub(crate) fn held(
+    case: &FitTask<'_>,
+    fitted: &Fitted,
+    member: usize,
+    errors: Option<&[f64]>,
+) -> Option<Model> {
     let mut model = case.model_with(&fitted.effects).ok()?;
-    for (column, &index) in fitted.shared_indices().iter().enumerate() {
+    for &column in fitted.shared_of(member) {
+        let index = fitted.shared_sizes()[column].index;
         let parameter = &mut model.parameters_mut()[index];
         parameter.value = fitted.shared[column];
         // Of one machine's recordings each has its own mass, damping and stiffness again once it is looked at alone.

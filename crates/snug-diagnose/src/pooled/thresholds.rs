@@ -5,12 +5,17 @@ use snug_least_squares::PooledSettings;
 
 /// Share of a parameter's size beside other effects that is hardly anything \[–\]. Chosen.
 pub(crate) const HARDLY: f64 = 0.1;
+/// Share of the groups said to have an effect that may be without it \[–\]. As is usual.
+pub(crate) const FALSE_DISCOVERIES: f64 = 0.05;
 /// Error over noise (root mean square) below which nothing but noise is left to look for \[–\]. Chosen.
 pub(crate) const AT_FLOOR: f64 = 1.02;
 /// Share of the squared error with one mass, damping and stiffness for all recordings that is left where each has its own, below
 /// which they are not of one machine in one state \[–\]. Chosen: four tests of a motor that lacks friction leave 0.86, torque steps of
 /// a rig that turns harder one way than the other 0.36.
 pub(crate) const ONE_MACHINE: f64 = 0.6;
+/// Mean squared residual, in units of the noise's variance, that is the noise and a little: half as much beyond the noise as
+/// `AT_FLOOR`, which is of the root mean square. Chosen.
+pub(crate) const NOISE_AND_A_LITTLE: f64 = 1.02;
 /// Samples of all records together up to which they are soon simulated. Chosen.
 pub(crate) const SOON: usize = 30_000;
 /// Share of a record's squared output that its beginning holds, where records take long to simulate \[–\]. Chosen; with it

@@ -3,18 +3,23 @@
 use crate::data::cases::Cases;
 use crate::data::clusters::Clusters;
 use crate::error::DiagnoseError;
+use crate::library::is_unlisted;
 use crate::pooled::fit::fit_effects;
 use crate::pooled::fitted::Fitted;
 use crate::pooled::long_record;
 use crate::pooled::model::PooledModel;
+use crate::pooled::sharing::Groups;
 use crate::pooled::sizes::is_told_from_nothing;
+use crate::ranking::by_group::{by_group, promised};
 use crate::ranking::max_t::Family;
 use crate::ranking::paired_gain::{chance, clearness, spread_of_sum};
 use crate::ranking::pairs::{Pair, promising_pairs};
 use crate::ranking::refit::{followed, refit};
 use crate::ranking::score_test::{Control, Scored, Scorer};
 use crate::ranking::sensitivity::Column;
-use crate::ranking::thresholds::{BEST, BEST_OF_LONG, CONTROL_FLIPS, SHAPES_TRIED, STRICTER};
+use crate::ranking::thresholds::{
+    BEST, BEST_BY_GROUP, BEST_OF_LONG, CONTROL_FLIPS, SHAPES_TRIED, STRICTER,
+};
 use crate::settings::DiagnoseSettings;
 use crate::watch::{Pieces, Watch};
 use rayon::prelude::*;
@@ -55,6 +60,11 @@ impl Candidate {
         self.gains = gains(heldout, &self.fitted);
         self.is_told_from_nothing = is_told_from_nothing(&cases, &self.fitted, self.effect);
         Ok(())
+    }
+
+    /// What it would explain if groups of tightenings had sizes of their own.
+    fn promise_by_group(&self, groupings: &[Groups]) -> f64 {
+        self.gain() + promised(&self.fitted, self.effect, groupings)
     }
 
     /// Standard deviations by which that sum exceeds 0.
@@ -115,7 +125,7 @@ pub(crate) fn rank(
 ) -> Result<Ranking, DiagnoseError> {
     cases.tally().ranking();
     watch.pieces(Pieces::Of(candidates.len()));
-    let pooled = PooledModel::new(cases, &current.effects)?;
+    let pooled = PooledModel::shared_by(cases, &current.effects, &current.sharing)?;
     let control = Control {
         campaigns: control_campaigns,
         seed: settings.seed,
@@ -156,7 +166,15 @@ pub(crate) fn rank(
     let impossible = outcomes.filter(|(_, outcome)| outcome.is_none());
     let impossible = impossible.map(|(&effect, _)| effect).collect();
     let mut candidates: Vec<Candidate> = refitted.into_iter().flatten().collect();
-    follow_best(cases, current, &mut candidates, clusters, watch)?;
+    follow_best(
+        cases,
+        &heldout,
+        current.is_at_floor(),
+        &mut candidates,
+        clusters,
+        watch,
+    )?;
+    try_by_group(cases, &heldout, &mut candidates, clusters, settings, watch)?;
     Ok(Ranking {
         candidates,
         impossible,
@@ -169,28 +187,70 @@ pub(crate) fn rank(
 /// Follows the best to their ends, judges every gain by chance too, and sorts.
 fn follow_best(
     cases: Cases<'_>,
-    current: &Fitted,
+    heldout: &[f64],
+    is_at_floor: bool,
     candidates: &mut [Candidate],
     clusters: Clusters,
     watch: &Watch<'_>,
 ) -> Result<(), DiagnoseError> {
-    let heldout = current.heldout_beyond_torque_noise();
     sort(candidates);
     let followed = match clusters.are_whole() {
-        true if !current.is_at_floor() => BEST,
+        true if !is_at_floor => BEST,
         false if long_record::take_long(&cases) => BEST_OF_LONG,
         _ => 0,
     };
     let best = candidates.par_iter_mut().take(followed);
     best.try_for_each(|candidate| {
         watch.go_on()?;
-        candidate.settle(cases, clusters, &heldout)
+        candidate.settle(cases, clusters, heldout)
     })?;
     let family_size = candidates.len() * STRICTER;
     for candidate in &mut *candidates {
         let p = candidate.p_family.min(candidate.p_of_gain(family_size));
         candidate.p_family = (p * shapes_tried(candidate.effect)).min(1.0);
     }
+    sort(candidates);
+    Ok(())
+}
+
+/// Lets the sizes of the best differ between groups of tightenings where that leaves no more than the noise, and sorts again: what
+/// people, joints or tools have more or less of is explained better by that than by what another effect makes of it. Where more
+/// is left, sizes that differ may stand in for another effect that is missing, too.
+fn try_by_group(
+    cases: Cases<'_>,
+    heldout: &[f64],
+    candidates: &mut [Candidate],
+    clusters: Clusters,
+    settings: &DiagnoseSettings,
+    watch: &Watch<'_>,
+) -> Result<(), DiagnoseError> {
+    if !clusters.are_whole() {
+        return Ok(());
+    }
+    let groupings = Groups::worth_trying(&cases);
+    let family = candidates.len();
+    // Those that promise most, wherever they stand with one size for all: what few have is little of everyone.
+    let mut promising: Vec<(f64, &mut Candidate)> = (candidates.iter_mut())
+        .filter(|candidate| !is_unlisted(candidate.effect))
+        .map(|candidate| (candidate.promise_by_group(&groupings), candidate))
+        .collect();
+    promising.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let best = promising.into_par_iter().take(BEST_BY_GROUP);
+    best.try_for_each(|(_, candidate)| {
+        watch.go_on()?;
+        let (fitted, effect) = (&candidate.fitted, candidate.effect);
+        let found = by_group(
+            cases, fitted, effect, &groupings, family, clusters, settings,
+        )?;
+        if let Some(fitted) = found.filter(Fitted::is_noise) {
+            candidate.gains = gains(heldout, &fitted);
+            candidate.is_told_from_nothing = is_told_from_nothing(&cases, &fitted, effect);
+            candidate.fitted = fitted;
+            let forms = family * (1 + groupings.len());
+            candidate.p_family = candidate.p_family.min(candidate.p_of_gain(forms));
+        }
+        Ok::<(), DiagnoseError>(())
+    })?;
     sort(candidates);
     Ok(())
 }

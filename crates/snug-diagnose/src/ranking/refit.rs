@@ -39,7 +39,7 @@ pub(crate) fn refit(
         false => settings.starts,
     };
     let starts = promising(effect, columns, most);
-    let mut pooled = PooledModel::new(cases, &effects)?;
+    let mut pooled = PooledModel::shared_by(cases, &effects, &current.sharing)?;
     let starts: Vec<Start> = (read_off.iter().map(Vec::as_slice).chain(starts))
         .map(|values| with_effect(&pooled, current, effect, values))
         .collect();
@@ -76,7 +76,7 @@ pub(crate) fn followed(
     fitted: &Fitted,
     clusters: Clusters,
 ) -> Result<Fitted, DiagnoseError> {
-    let mut pooled = PooledModel::new(cases, &fitted.effects)?;
+    let mut pooled = PooledModel::shared_by(cases, &fitted.effects, &fitted.sharing)?;
     let end = pooled.fit(&fitted.start(&pooled), &CANDIDATE)?;
     Ok(Fitted::new(&pooled, end, &clusters))
 }
@@ -153,8 +153,17 @@ fn rough(
 ) -> Result<Start, DiagnoseError> {
     let few = current.spread(FEW);
     let some = pooled.cases.some(&few);
-    let mut there = PooledModel::new(pooled.cases.others(&some), &pooled.effects)?;
-    let of_few: Vec<Start> = starts.iter().map(|start| start.of_members(&few)).collect();
+    let mut there = pooled.with_cases(&some)?;
+    let of_few: Vec<Start> = (starts.iter())
+        .map(|start| {
+            let mut of_few = Start {
+                own: pick(&start.own, &few),
+                ..there.usual_start()
+            };
+            there.take_shared(&mut of_few.shared, pooled, &start.shared);
+            of_few
+        })
+        .collect();
     let led = match current.is_at_floor() {
         true => None,
         false => led_along_motion(&there, &of_few)?,
@@ -168,7 +177,7 @@ fn rough(
     let factors = astray(pooled, &end.own, &of_few[0].own);
     let mut start = starts[0].clone();
     start.own.iter_mut().for_each(|own| times(own, &factors));
-    start.shared = end.shared;
+    pooled.take_shared(&mut start.shared, &there, &end.shared);
     Ok(start)
 }
 
@@ -185,7 +194,7 @@ fn led_along_motion(
     let Some(led) = led else {
         return Ok(None);
     };
-    let mut there = PooledModel::new(pooled.cases.others(&led), &pooled.effects)?;
+    let mut there = pooled.with_cases(&led)?;
     let ends = starts
         .iter()
         .filter_map(|start| there.fit_averaged(start, &LED, LED_REACH).ok());
@@ -289,9 +298,9 @@ fn with_effect(
         let index = first + offset;
         match spec.scope {
             Scope::Shared => {
-                if let Some(column) = pooled.shared.iter().position(|&i| i == index) {
-                    start.shared[column] = value;
-                }
+                let sizes = pooled.shared.iter().zip(&mut start.shared);
+                let own = sizes.filter(|(size, _)| size.index == index);
+                own.for_each(|(_, size)| *size = value);
             }
             Scope::PerTightening => {
                 if let Some(column) = pooled.own.iter().position(|&i| i == index) {

@@ -210,9 +210,9 @@ impl<'a, 'h> Scorer<'a, 'h> {
         // Stretches of one tightening share everything with each other.
         let own_count = match self.is_joint() {
             true => pooled.own.len(),
-            false => pooled.own.len() + pooled.shared.len(),
+            false => pooled.own.len() + pooled.common.len(),
         };
-        let order = [pooled.own.as_slice(), &pooled.shared].concat();
+        let order = pooled.order();
         let values = self.values(member);
         let mut room = Room::default();
         let (residual, jacobian) = pooled.weighted(member, &values, &order, &mut room);
@@ -250,15 +250,20 @@ impl<'a, 'h> Scorer<'a, 'h> {
                 information += squares;
             }
             // The Jacobian is that of the residual: minus the output's.
-            let cross = shared.chunks_exact(count).map(|shared| -dot(shared, &z));
-            contribution.cross.push(cross.collect());
+            let cross: Vec<f64> = shared
+                .chunks_exact(count)
+                .map(|shared| -dot(shared, &z))
+                .collect();
+            contribution.cross.push(self.of_all_shared(member, cross));
             contribution.scores.push(scores);
             contribution.variances.push(variances);
             contribution.information.push(information);
             if self.control.campaigns > 0 {
                 along_bias.push(bias.as_ref().map_or(0.0, |bias| dot(&z, bias)));
             }
-            signatures.push(z);
+            if self.control.campaigns > 0 || !self.clusters.are_whole() {
+                signatures.push(z);
+            }
         }
         if !self.clusters.are_whole() {
             contribution.gram = Some(gram(&signatures));
@@ -269,8 +274,20 @@ impl<'a, 'h> Scorer<'a, 'h> {
                 signatures.push(column.to_vec());
             }
             contribution.control = self.draw(member, &signatures, &along_bias);
+            for draw in &mut contribution.control {
+                let gradient = draw.split_off(of_columns.len());
+                draw.extend(self.of_all_shared(member, gradient));
+            }
         }
         contribution
+    }
+
+    /// What one tightening says of its shared parameters, told of all of them where they are taken out together.
+    fn of_all_shared(&self, member: usize, part: Vec<f64>) -> Vec<f64> {
+        match self.is_joint() {
+            true => self.fitted.of_all_shared(member, &part),
+            false => part,
+        }
     }
 
     /// Scores of campaigns that hold nothing but noise: white noise, seen through what the signatures span.

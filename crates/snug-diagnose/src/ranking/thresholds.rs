@@ -22,6 +22,12 @@ pub(crate) const PAIRS: usize = 6;
 pub(crate) const BEYOND_BOTH: f64 = 1.5;
 /// Share of its own power \[–\] that a signature must keep beside another for both to be two. Chosen.
 pub(crate) const UNLIKE: f64 = 1e-3;
+/// Factors, the most promising, by which the size of one effect is tried to differ. Chosen.
+pub(crate) const GROUPINGS_TRIED: usize = 2;
+/// Candidates, the best, whose sizes are tried to differ between groups. Chosen.
+pub(crate) const BEST_BY_GROUP: usize = 6;
+/// Standard deviations of the held-out gain from which sizes are said to differ: about 95 %.
+pub(crate) const CLEARLY: f64 = 2.0;
 /// Sign flips behind a p in the negative control: a p of 0.05 is then the tenth of 200. Chosen.
 pub(crate) const CONTROL_FLIPS: usize = 199;
 /// Samples on either side over which the torque is averaged for the signatures. Chosen.

@@ -104,6 +104,7 @@ fn does_as_well(
 mod tests {
     use super::*;
     use crate::data::cases::{Cases, Tally};
+    use crate::pooled::sharing::Sharing;
     use crate::selection::path::Addition;
     use crate::tests::made_up::{WHOLE, custom_force, noisy, quick, silent};
     use snug_identify::FitTask;
@@ -123,6 +124,7 @@ mod tests {
         let selection = ModelSelection {
             cases: Cases::new(&cases, &tally),
             own: &[],
+            sharing: &Sharing::default(),
             custom: &[],
             clusters: WHOLE,
             settings: &settings,

@@ -22,7 +22,12 @@ impl ModelSelection<'_> {
                 path.stopped = Some(Stop::Full);
                 break;
             }
-            let best = match justified(&path.ranking, path.last(), &path.rungs[0], self.settings) {
+            let next = justified(&path.ranking, path.last(), &path.rungs[0], self.settings);
+            if let Some(by_group) = self.last_by_group(path, next.ok())? {
+                path.replace_last(by_group);
+                continue;
+            }
+            let best = match next {
                 Ok(best) => best,
                 Err(stop) => match self.two_at_once(path)? {
                     Some(steps) => {
@@ -55,6 +60,7 @@ impl ModelSelection<'_> {
 mod tests {
     use super::*;
     use crate::data::cases::{Cases, Tally};
+    use crate::pooled::sharing::Sharing;
     use crate::tests::made_up::{WHOLE, close, noisy, quick};
     use crate::watch::Watch;
     use snug_identify::FitTask;
@@ -75,6 +81,7 @@ mod tests {
         let selection = ModelSelection {
             cases: Cases::new(&cases, &tally),
             own: &[],
+            sharing: &Sharing::default(),
             custom: &[],
             clusters: WHOLE,
             settings: &settings,

@@ -4,24 +4,30 @@ use crate::data::cases::Cases;
 use crate::data::clusters::Clusters;
 use crate::error::DiagnoseError;
 use crate::library::is_unlisted;
-use crate::pooled::fit::{fit_effects, fit_part};
+use crate::pooled::fit::{fit_effects, fit_part, fit_sharing};
 use crate::pooled::fitted::Fitted;
+use crate::pooled::model::PooledModel;
+use crate::pooled::sharing::{Groups, Sharing};
 use crate::ranking::applicability::candidates;
+use crate::ranking::by_group::{by_group, explains_more};
 use crate::ranking::rank::{Candidate, Ranking, gains, rank};
 use crate::selection::path::{Addition, SelectionPath, justified, misfit, twins};
 use crate::selection::thresholds::{
-    ENOUGH_AHEAD, EQUAL, ESCAPED, LITTLE_LEFT, MOST_EFFECTS, MOST_ESCAPES, MUCH_LEFT,
-    NOISE_AND_A_LITTLE, SEEDS,
+    ENOUGH_AHEAD, EQUAL, ESCAPED, JUST_AS_MUCH, LITTLE_LEFT, MOST_EFFECTS, MOST_ESCAPES, MUCH_LEFT,
+    SEEDS,
 };
 use crate::settings::DiagnoseSettings;
 use crate::watch::Watch;
-use snug_model::Effect;
+use snug_least_squares::PooledSettings;
+use snug_model::{Effect, Law};
 
 /// What stays the same while effects are looked for.
 pub(crate) struct ModelSelection<'a> {
     pub cases: Cases<'a>,
     /// Effects of the study's own model.
     pub own: &'a [Effect],
+    /// Which of their sizes differ between groups.
+    pub sharing: &'a Sharing,
     /// Effects that the study declares but does not use: candidates, too.
     pub custom: &'a [Effect],
     pub clusters: Clusters,
@@ -32,7 +38,7 @@ pub(crate) struct ModelSelection<'a> {
 impl ModelSelection<'_> {
     /// The study's own model, nothing ranked beside it.
     pub fn compare(&self) -> Result<SelectionPath, DiagnoseError> {
-        let fitted = fit_effects(self.cases, self.own, None, self.clusters)?;
+        let fitted = fit_sharing(self.cases, self.own, self.sharing, None, self.clusters)?;
         Ok(SelectionPath::only(fitted))
     }
 
@@ -144,9 +150,60 @@ impl ModelSelection<'_> {
         Ok(best)
     }
 
-    /// The same effects, fitted from there to the end.
+    /// The same effects, fitted from there to the end; sizes that differed between groups are one again where what was added makes
+    /// them alike.
     pub fn settled(&self, fitted: &Fitted) -> Result<Fitted, DiagnoseError> {
-        fit_effects(self.cases, &fitted.effects, Some(fitted), self.clusters)
+        let fit =
+            |fitted: &Fitted| fit_effects(self.cases, &fitted.effects, Some(fitted), self.clusters);
+        let mut settled = fit(fitted)?;
+        for effect in settled.effects.clone() {
+            if settled.sharing.factor(effect).is_some()
+                && let Some(one) = self.with_one_size(&settled, effect)?
+            {
+                settled = fit(&one)?;
+            }
+        }
+        Ok(settled)
+    }
+
+    /// The last model with sizes of one of its effects that differ between groups, where that explains as much of what is left as
+    /// `next`, the candidate that would come in otherwise: before another effect is blamed, this one may be larger for some.
+    pub fn last_by_group(
+        &self,
+        path: &SelectionPath,
+        next: Option<usize>,
+    ) -> Result<Option<Fitted>, DiagnoseError> {
+        let last = path.last();
+        let groupings = Groups::worth_trying(&self.cases);
+        let (family, heldout) = (last.effects.len(), last.heldout_beyond_torque_noise());
+        let gain = |fitted: &Fitted| gains(&heldout, fitted).iter().sum::<f64>();
+        let mut best: Option<Fitted> = None;
+        for &effect in &last.effects {
+            let (cases, clusters, settings) = (self.cases, self.clusters, self.settings);
+            let found = by_group(cases, last, effect, &groupings, family, clusters, settings)?;
+            let known = best.as_ref().map_or(0.0, gain);
+            best = found.filter(|found| gain(found) > known).or(best);
+        }
+        let other = next.map_or(0.0, |next| path.ranking.candidates[next].gain());
+        let best = best.filter(|best| gain(best) >= other);
+        best.map(|best| self.settled(&best)).transpose()
+    }
+
+    /// The fit with one size of `effect` for all, where the groups' own do not plainly explain more.
+    fn with_one_size(
+        &self,
+        fitted: &Fitted,
+        effect: Effect,
+    ) -> Result<Option<Fitted>, DiagnoseError> {
+        let sharing = fitted.sharing.with(effect, None);
+        let mut pooled = PooledModel::shared_by(self.cases, &fitted.effects, &sharing)?;
+        let start = fitted.start(&pooled);
+        let Ok(end) = pooled.fit(&start, &PooledSettings::default()) else {
+            return Ok(None);
+        };
+        let one = Fitted::new(&pooled, end, &self.clusters);
+        let least = one.smallest_gain(self.settings) * one.squares();
+        Ok((!explains_more(&one, fitted, least)).then_some(one))
     }
 
     /// The ranking, with `effect` among the candidates whatever it is.
@@ -187,11 +244,21 @@ impl ModelSelection<'_> {
         likeliest.unwrap_or(best)
     }
 
-    /// The first supported effect of the catalogue.
+    /// The first supported effect of the catalogue, or of those that explain as much the one with the fewest sizes and shapes to do
+    /// it with: a law that holds a simpler one as a special case explains all that that does.
     fn listed(&self, ranking: &Ranking) -> Option<usize> {
         let all = &ranking.candidates;
-        all.iter()
-            .position(|c| !is_unlisted(c.effect) && c.is_supported(self.settings))
+        let is_listed = |c: &Candidate| !is_unlisted(c.effect) && c.is_supported(self.settings);
+        let first = all.iter().position(is_listed)?;
+        let explains_as_much = |&other: &usize| {
+            is_listed(&all[other])
+                && all[other].gain() > JUST_AS_MUCH * all[first].gain()
+                && all[other].keeps_up_with(&all[first], &self.clusters)
+        };
+        let parameters = |&other: &usize| all[other].effect.description().parameters.len();
+        (first..all.len())
+            .filter(explains_as_much)
+            .min_by_key(parameters)
     }
 
     /// What to add: one effect, or, where one leaves much, the two that together leave least. Of equals a catalogue
@@ -249,12 +316,12 @@ impl ModelSelection<'_> {
 
     /// Whether `left` is far from the noise for a model that should explain what `current` misses.
     fn leaves_much(&self, left: &Fitted, current: &Fitted) -> bool {
-        misfit(left) > MUCH_LEFT * misfit(current) && !is_noise(left)
+        misfit(left) > MUCH_LEFT * misfit(current) && !left.is_noise()
     }
 
     /// Whether `left` is next to nothing of what `current` misses, so that no others could be far ahead.
     fn completes(&self, left: &Fitted, current: &Fitted) -> bool {
-        misfit(left) < LITTLE_LEFT * misfit(current) && is_noise(left)
+        misfit(left) < LITTLE_LEFT * misfit(current) && left.is_noise()
     }
 
     /// The two catalogue effects that together explain most: where the first stands in the ranking, both, the second.
@@ -371,11 +438,6 @@ impl ModelSelection<'_> {
 
 /// What is added, and the model with it.
 pub(crate) type Step = (Addition, Fitted);
-
-/// Whether `left` leaves no more than the noise and a little.
-fn is_noise(left: &Fitted) -> bool {
-    left.is_weighted && left.scale() < NOISE_AND_A_LITTLE
-}
 
 fn list(effects: &[Effect]) -> String {
     match effects {

@@ -9,6 +9,8 @@ pub(crate) const GOOD_PART: f64 = 0.2;
 pub(crate) const EQUAL: f64 = 2.0;
 /// Share of what a candidate explains that another must explain, too, to keep up with it \[–\]. Chosen.
 pub(crate) const AS_MUCH: f64 = 0.5;
+/// The same of a simpler effect, to be named in its place \[–\]. Chosen.
+pub(crate) const JUST_AS_MUCH: f64 = 0.98;
 /// Growth of the squared residual of a long record that is no matter of chance \[–\]. Chosen.
 pub(crate) const PLAINLY_MORE: f64 = 1.3;
 /// Share of the squared error of the study's own model below which, where the noise is not known, an effect is told as small and
@@ -18,9 +20,6 @@ pub(crate) const SMALL: f64 = 0.01;
 pub(crate) const TRIFLE: f64 = 0.001;
 /// Effects a model can be extended by before the search is called off. Chosen.
 pub(crate) const MOST_EFFECTS: usize = 5;
-/// Mean squared residual, in units of the noise's variance, that is the noise and a little: half as much beyond the noise as
-/// `AT_FLOOR`, which is of the root mean square. Chosen.
-pub(crate) const NOISE_AND_A_LITTLE: f64 = 1.02;
 /// Share of the misfit left by one effect beyond which two are tried together \[–\]. Chosen.
 pub(crate) const MUCH_LEFT: f64 = 0.02;
 /// Share of the misfit left by two effects below which no other two are looked for \[–\]. Chosen; with it two rankings in five

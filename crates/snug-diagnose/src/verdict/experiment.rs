@@ -119,7 +119,7 @@ fn simulated<'a>(
     member: usize,
     change: &Change,
 ) -> Option<FitTask<'a>> {
-    let model = held(case, first, None)?;
+    let model = held(case, first, member, None)?;
     let samples = case.tightening.torque_nm.len();
     let interval_s = case.tightening.time_base.interval_s;
     let onset = case.tightening.onset.unwrap_or(0);

@@ -57,14 +57,16 @@ pub(crate) fn rung(cases: &[FitTask<'_>], fitted: &Fitted) -> Rung {
 fn rms_residual(cases: &[FitTask<'_>], fitted: &Fitted) -> f64 {
     let (mut squares, mut count) = (0.0, 0_usize);
     for (member, case) in cases.iter().enumerate() {
-        let Some(model) = held(case, fitted, None) else {
+        let Some(model) = held(case, fitted, member, None) else {
             continue;
         };
         let mut values: Vec<f64> = model.parameters().iter().map(|p| p.value).collect();
         let own = fitted.own_indices().iter().zip(&fitted.own[member]);
-        let shared = fitted.shared_indices().iter().zip(&fitted.shared);
-        for (&index, &value) in own.chain(shared) {
+        for (&index, &value) in own {
             values[index] = value;
+        }
+        for &place in fitted.shared_of(member) {
+            values[fitted.shared_sizes()[place].index] = fitted.shared[place];
         }
         let mut output = vec![0.0; case.measured().len()];
         model.output(&values, &case.input, case.quantity(), &mut output);

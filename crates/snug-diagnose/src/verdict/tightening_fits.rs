@@ -51,8 +51,11 @@ fn fits(
     fitted: &Fitted,
     errors: Option<&[f64]>,
 ) -> Result<Vec<(Estimate, Motion)>, DiagnoseError> {
-    let models: Vec<Cow<'_, Model>> = (cases.iter())
-        .map(|case| held(case, fitted, errors).map_or(Cow::Borrowed(&*case.model), Cow::Owned))
+    let models: Vec<Cow<'_, Model>> = (cases.iter().enumerate())
+        .map(|(member, case)| {
+            let held = held(case, fitted, member, errors);
+            held.map_or(Cow::Borrowed(&*case.model), Cow::Owned)
+        })
         .collect();
     let tasks: Vec<FitTask<'_>> = (cases.iter().zip(&models))
         .map(|(case, model)| case.with_model(model))

@@ -6,7 +6,7 @@ use crate::custom::settings::CustomEffectSettings;
 use crate::effects::Effect;
 use crate::error::ModelError;
 use serde::{Deserialize, Serialize};
-use snug_campaign::{Intersample, ParameterSource, Rig};
+use snug_campaign::{Factor, Intersample, ParameterSource, Rig};
 use std::collections::BTreeMap;
 
 /// What a study says about the model.
@@ -28,7 +28,7 @@ pub struct ModelSettings {
 }
 
 /// What a study says about one parameter; what it leaves out keeps its default.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct ParameterSettings {
     /// Starting value, or the value of a fixed parameter, in the parameter's unit.
@@ -41,6 +41,31 @@ pub struct ParameterSettings {
     pub fixed: bool,
     /// Standard error of a fixed value that was found elsewhere, in the parameter's unit: it widens the intervals of what
     /// is identified beside it. Default none: the value is known exactly.
+    pub standard_error: Option<f64>,
+    /// Other values for groups of tightenings, for example `(factor: participant, values: {"TP3": (value: 4.0)})`; a group that is
+    /// not named has `value`. Default none: all have the same.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub by_group: Option<ValuesByGroup>,
+}
+
+/// Values of a parameter that differ between groups of tightenings.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ValuesByGroup {
+    /// What groups the tightenings: `participant`, `strategy`, `joint`, `pace`, `target_torque` or `file`.
+    pub factor: Factor,
+    /// By the group's name.
+    pub values: BTreeMap<String, GroupValue>,
+}
+
+/// The value of a parameter in one group.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct GroupValue {
+    /// In the parameter's unit.
+    pub value: f64,
+    /// Its standard error where it is fixed and was found elsewhere. Default none: the value is known exactly.
+    #[serde(default)]
     pub standard_error: Option<f64>,
 }
 
@@ -62,12 +87,24 @@ impl ModelSettings {
         self.intersample.unwrap_or(Intersample::Linear)
     }
 
-    /// The model these settings describe, for one rig.
+    /// The model these settings describe, for one rig and no group of tightenings.
     ///
     /// # Errors
     /// [`ModelError::UnknownEffect`], [`ModelError::UnknownParameter`] and [`ModelError::ParameterRange`] name what the
     /// settings got wrong and what is allowed; otherwise as [`Model::new`] and [`ModelSettings::custom_effects`].
     pub fn model(&self, rig: Rig) -> Result<Model, ModelError> {
+        self.model_of_group(rig, &|_| None)
+    }
+
+    /// The same for tightenings of which `group` says the group by each factor.
+    ///
+    /// # Errors
+    /// As [`ModelSettings::model`].
+    pub fn model_of_group(
+        &self,
+        rig: Rig,
+        group: &dyn Fn(Factor) -> Option<String>,
+    ) -> Result<Model, ModelError> {
         let custom = self.custom_effects()?;
         let effects = self
             .effects
@@ -76,7 +113,8 @@ impl ModelSettings {
             .collect::<Result<Vec<_>, _>>()?;
         let mut model = Model::scaled(rig, &effects, self.scale)?;
         for (name, settings) in &self.parameters {
-            settings.apply(name, &mut model)?;
+            settings.of_group(group).apply(name, &mut model)?;
+            settings.check_groups(name, &model)?;
         }
         Ok(model)
     }
@@ -121,6 +159,44 @@ fn named(name: &str, custom: &[Effect]) -> Result<Effect, ModelError> {
 }
 
 impl ParameterSettings {
+    /// What it says of tightenings of which `group` says the group by each factor.
+    fn of_group(&self, group: &dyn Fn(Factor) -> Option<String>) -> Self {
+        let own = self.by_group.as_ref().and_then(|by_group| {
+            let name = group(by_group.factor)?;
+            by_group.values.get(&name).copied()
+        });
+        match own {
+            Some(own) => Self {
+                value: Some(own.value),
+                standard_error: own.standard_error.or(self.standard_error),
+                ..self.clone()
+            },
+            None => self.clone(),
+        }
+    }
+
+    /// Refuses the value of a group that the parameter may not have.
+    fn check_groups(&self, name: &str, model: &Model) -> Result<(), ModelError> {
+        let Some(by_group) = &self.by_group else {
+            return Ok(());
+        };
+        let all = model.parameters().iter().find(|p| p.name == name);
+        let (minimum, maximum) = all.map_or((0.0, 0.0), |p| (p.minimum, p.maximum));
+        let values = by_group.values.values().map(|group| group.value);
+        match values
+            .into_iter()
+            .find(|value| !(minimum..=maximum).contains(value))
+        {
+            Some(value) => Err(ModelError::ParameterRange {
+                name: name.to_owned(),
+                value,
+                minimum,
+                maximum,
+            }),
+            None => Ok(()),
+        }
+    }
+
     fn apply(&self, name: &str, model: &mut Model) -> Result<(), ModelError> {
         let known: Vec<String> = model.parameters().iter().map(|p| p.name.clone()).collect();
         let Some(parameter) = model.parameters_mut().iter_mut().find(|p| p.name == name) else {

@@ -45,6 +45,7 @@ fn candidate(effect: &str, gain: f64) -> RankedEffect {
             spread: None,
             minimum: -5e6,
             maximum: 5e6,
+            by_group: None,
         }],
         score: 11.0,
         p_family: 0.001,

@@ -2,6 +2,7 @@
 
 use super::{Render, Section};
 use crate::effect_words::{sentence, sizes};
+use crate::group_strip::group_strips;
 use crate::number::{fixed, percent, significant};
 use maud::{Markup, html};
 use snug_campaign::words::chance::{by_chance, share_with_error};
@@ -44,6 +45,7 @@ fn added(effect: &AddedEffect, diagnosis: &Diagnosis, result: &CampaignResult) -
         div.effect {
             h4 { (called(&effect.effect, effect.expression.as_ref())) " " span.nature { (effect.kind) } }
             p.sizes { (sizes(&effect.parameters, result)) }
+            (group_strips(&effect.parameters))
             @if let Some(gain) = effect.heldout_gain {
                 p { "It removes " strong { (fixed(100.0 * gain.min(1.0), 0)) "\u{a0}%" } " of the misfit in data that its size was not fitted to." }
             }
@@ -115,6 +117,7 @@ fn candidate(one: &RankedEffect, result: &CampaignResult) -> Markup {
         div.effect {
             h4 { (effect_name(&one.effect)) " " span.nature { (one.kind) } }
             p.sizes { (sizes(&one.parameters, result)) }
+            (group_strips(&one.parameters))
             p { "It removes " strong { (share_with_error(one.heldout_gain, one.heldout_gain_error)) }
                 " of the misfit in data that its size was not fitted to." }
             p { "How sure: " (by_chance(one.p_family)) "." }

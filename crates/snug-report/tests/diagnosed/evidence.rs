@@ -16,6 +16,7 @@ pub fn parameter(name: &str, unit: &str, value: f64, standard_error: f64) -> Eff
         spread: None,
         minimum: -5.0 * value.abs(),
         maximum: 5.0 * value.abs(),
+        by_group: None,
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::{Block, Fitted};
 use crate::data::clusters::Clusters;
+use crate::pooled::sharing::{SharedSize, Sharing};
 use snug_least_squares::matrix::SymmetricMatrix;
 use snug_model::Effect;
 
@@ -21,7 +22,9 @@ impl Fitted {
             own_names: Vec::new(),
             shared_names: Vec::new(),
             own_indices: Vec::new(),
-            shared_indices: Vec::new(),
+            shared_sizes: Vec::new(),
+            shared_of: vec![Vec::new(); squares.len()],
+            sharing: Sharing::default(),
             own: vec![Vec::new(); squares.len()],
             shared: Vec::new(),
             converged: true,
@@ -59,7 +62,8 @@ impl Fitted {
         evidence: &[(f64, f64)],
     ) -> Self {
         self.shared_names = vec![name.to_owned()];
-        self.shared_indices = vec![index];
+        self.shared_sizes = vec![SharedSize { index, level: None }];
+        self.shared_of = vec![vec![0]; evidence.len()];
         self.shared = vec![value];
         let of = |&(curvature, gradient): &(f64, f64)| {
             (SymmetricMatrix::new(1, vec![curvature]), vec![gradient])

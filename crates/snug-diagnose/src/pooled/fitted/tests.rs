@@ -70,6 +70,7 @@ fn two_lines() -> Fitted {
     fitted.members = vec![0, 0, 0, 1, 1, 1];
     fitted.clusters = Clusters { per_case: 3 };
     fitted.shared = vec![1.7];
+    fitted.shared_of = vec![vec![0]; 2];
     fitted.shared_names = vec!["k3_n_per_m3".to_owned()];
     let of_squares = |squares| SymmetricMatrix::new(2, vec![3.0, 0.0, 0.0, squares]);
     fitted.member_curvature = vec![of_squares(2.0), of_squares(8.0)];

@@ -149,7 +149,7 @@ fn one_tightening_alone_has_no_interval_of_its_own_size() {
 #[test]
 fn what_all_share_is_held_in_each_model_and_known_as_well_as_stated() {
     let case = exact(0, &[], &[]);
-    let model = held(&case, &cubic(0.1), Some(&[0.5])).expect("the effects go together");
+    let model = held(&case, &cubic(0.1), 0, Some(&[0.5])).expect("the effects go together");
     let cubic = &model.parameters()[3];
     assert_eq!((cubic.value, cubic.fixed), (1000.0, true));
     assert_eq!(cubic.standard_error, Some(0.5));

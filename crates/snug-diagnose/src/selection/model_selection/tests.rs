@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::data::cases::Tally;
+use crate::pooled::sharing::Sharing;
 use crate::tests::made_up::{WHOLE, candidate, close, noisy, ranking, silent, term};
 use snug_identify::FitTask;
 use snug_model::Effect::{
@@ -14,6 +15,7 @@ fn with_selection<T>(cases: &[FitTask<'_>], look: impl FnOnce(&ModelSelection<'_
     look(&ModelSelection {
         cases: Cases::new(cases, &tally),
         own: &[],
+        sharing: &Sharing::default(),
         custom: &[],
         clusters: WHOLE,
         settings: &settings,

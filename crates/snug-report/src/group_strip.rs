@@ -1,0 +1,101 @@
+//! Whose effect it is: the size of every group with its interval, one row a group.
+
+use crate::figure::{Axis, Dot, Figure, Mark, Segment, captioned, legend, linear_range};
+use crate::number::significant;
+use maud::{Markup, html};
+use snug_campaign::words::effect_name::unit_text;
+use snug_campaign::{EffectParameter, GroupSize, GroupSizes};
+
+/// Groups that a strip draws; of more those with most of the effect. Chosen.
+const DRAWN: usize = 40;
+
+/// A strip for each of the sizes that differ between groups; nothing where none does.
+pub fn group_strips(parameters: &[EffectParameter]) -> Markup {
+    html! {
+        @for parameter in parameters {
+            @if let Some(sizes) = &parameter.by_group { (strip(parameter, sizes)) }
+        }
+    }
+}
+
+fn strip(parameter: &EffectParameter, sizes: &GroupSizes) -> Markup {
+    let mut drawn: Vec<&GroupSize> = sizes.groups.iter().collect();
+    if drawn.len() > DRAWN {
+        drawn.sort_by(|a, b| b.value.abs().total_cmp(&a.value.abs()));
+        drawn.truncate(DRAWN);
+    }
+    let unit = unit_text(&parameter.unit);
+    let ends = drawn.iter().flat_map(|one| {
+        [
+            one.low.unwrap_or(one.value),
+            one.high.unwrap_or(one.value),
+            0.0,
+        ]
+    });
+    let (low, high) = linear_range(ends, 0.05);
+    let bottom = 0.5 - drawn.len() as f64;
+    let mut marks = vec![Mark::rule("c-zero", (0.0, 0.0), (0.5, bottom))];
+    marks.extend(rows_of("c-quiet", &drawn, false, &unit));
+    marks.extend(rows_of("c-selected", &drawn, true, &unit));
+    let name = parameter.size().name;
+    let rows: Vec<(String, bool)> = drawn.iter().map(|one| (one.group.clone(), false)).collect();
+    let label = match unit.as_str() {
+        "" => name.clone(),
+        unit => format!("{name} [{unit}]"),
+    };
+    let figure = Figure {
+        description: format!("{name} of every {} with its 95 % interval", sizes.factor),
+        width: 440.0,
+        height: 56.0 + 17.0 * rows.len() as f64,
+        x: Axis::linear(label, low, high, 5),
+        y: Axis::rows(&rows),
+        marks,
+    };
+    let note = (drawn.len() < sizes.groups.len()).then(|| {
+        format!(
+            "The {DRAWN} of {} with most of it are drawn.",
+            sizes.groups.len()
+        )
+    });
+    captioned(
+        &format!(
+            "{} by {}",
+            crate::quantity::capitalised(&name),
+            sizes.factor
+        ),
+        html! {
+            (figure.svg())
+            (legend(&[("c-selected", "has it"), ("c-quiet", "not told from nothing")]))
+        },
+        note.as_deref(),
+    )
+}
+
+/// Whiskers and dots of the groups that have it, or of those that have not.
+fn rows_of(class: &'static str, drawn: &[&GroupSize], present: bool, unit: &str) -> [Mark; 2] {
+    let chosen = || {
+        let rows = drawn.iter().enumerate();
+        rows.filter(move |(_, one)| one.present == present)
+            .map(|(row, one)| (-(row as f64), one))
+    };
+    let segments = chosen().filter_map(|(y, one)| {
+        Some(Segment {
+            x: (one.low?, one.high?),
+            y: (y, y),
+        })
+    });
+    let dots = chosen().map(|(y, one)| Dot {
+        x: one.value,
+        y,
+        title: format!(
+            "{}: {} {unit} in {} tightenings",
+            one.group,
+            significant(one.value, 3),
+            one.tightenings
+        ),
+    });
+    [
+        Mark::Segments(class, segments.collect()),
+        Mark::Dots(class, dots.collect()),
+    ]
+}
