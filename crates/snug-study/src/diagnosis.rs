@@ -9,9 +9,11 @@ use crate::rungs::Ladder;
 use crate::settling::{Settled, settle};
 use crate::{ProgressEvent, Study, StudyError};
 use serde::{Deserialize, Serialize};
+use snug_campaign::words::number::significant;
 use snug_campaign::{GroupSize, GroupSizes};
 use snug_diagnose::{Answer, DiagnoseError, Goal, Pieces, Question, RungModel, Watch, examine};
-use snug_identify::FitTask;
+use snug_identify::{FitTask, IdentifyError};
+use snug_least_squares::SolveError;
 use snug_model::{Effect, GroupValue, ParameterSettings, ValuesByGroup};
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -264,7 +266,25 @@ impl Search<'_> {
             Pieces::Done => progress(ProgressEvent::CandidateDone),
         };
         let watch = Watch::new(&tell).counting(&count).until(self.interrupted);
-        Ok(examine(question, self.settings, &watch)?)
+        examine(question, self.settings, &watch).map_err(|error| nothing_fits(error, question))
+    }
+}
+
+/// Where not a single fit could begin, what was tried and what to check.
+fn nothing_fits(error: DiagnoseError, question: &Question<'_>) -> StudyError {
+    match (error, question.cases.first()) {
+        (
+            DiagnoseError::Solve(SolveError::NoStart)
+            | DiagnoseError::Identify(IdentifyError::Solve(SolveError::NoStart)),
+            Some(case),
+        ) => StudyError::NothingFits {
+            tightenings: question.cases.len(),
+            output: case.quantity().name(),
+            starts: (case.model.parameters().iter())
+                .map(|one| format!("{} {}", one.name, significant(one.value, 3)))
+                .collect(),
+        },
+        (error, _) => error.into(),
     }
 }
 

@@ -74,6 +74,26 @@ pub enum StudyError {
     /// The diagnosis could not be made.
     #[error(transparent)]
     Diagnose(#[from] DiagnoseError),
+    /// Not a single fit could begin.
+    #[error(
+        "no model could be fitted: with what it was begun with ({}) the {output} of the {tightenings} tightenings or recordings \
+         could not be simulated to the end, or misses them beyond all numbers. Check in the study, in this order:\n  \
+         source.channels: which column is input and which is {output}, their signs, units and scale; neither may stand still\n  \
+         source.sampling: the rate or the column of time\n  \
+         preprocess.rig: lever_arm_m and known_inertia of this rig\n  \
+         model.parameters: without values, mass, damping and stiffness start where the spectra put them\n  \
+         model.effects: fewer of them, or none\n\
+         `cargo xtask init FILES` shows every column as a small picture",
+        starts.join(", ")
+    )]
+    NothingFits {
+        /// Tightenings that were to be fitted.
+        tightenings: usize,
+        /// The quantity to be fitted.
+        output: &'static str,
+        /// Each parameter and what it started at.
+        starts: Vec<String>,
+    },
     /// An effect is to be added that the model has already.
     #[error("the model has {effect} already")]
     AlreadyInModel {
@@ -259,7 +279,10 @@ impl StudyError {
 
     /// Whether the data are not there, or none of them can be read as the study says.
     pub fn is_about_data(&self) -> bool {
-        matches!(self, Self::Ingest(_) | Self::Diagnose(_))
+        matches!(
+            self,
+            Self::Ingest(_) | Self::Diagnose(_) | Self::NothingFits { .. }
+        )
     }
 
     /// Whether whoever watches ended it.

@@ -41,7 +41,7 @@ pub fn evaluate_file(
     let file = match read {
         Ok(file) => file,
         Err(error) => {
-            tracing::warn!(%error, "the file is left out");
+            tracing::debug!(%error, "the file is left out");
             return Ok(FileEvaluation {
                 findings: vec![error.finding()],
                 ..FileEvaluation::nothing(study, ladder)

@@ -239,6 +239,7 @@ impl Run<'_> {
         collected.note(listing.findings, &mut output)?;
         collected.note(std::mem::take(&mut self.task.notes), &mut output)?;
         let left = self.evaluate(&listing.files, &mut collected, &mut output)?;
+        warn_of_files(&collected.findings);
         collected.note(not_reached(left), &mut output)?;
 
         progress(ProgressEvent::Writing { what: "statistics" });
@@ -300,6 +301,27 @@ impl Run<'_> {
             }
         }
         Ok(&[])
+    }
+}
+
+/// Warns of files that are left out: of those that are for one reason once, with their number.
+fn warn_of_files(findings: &[Finding]) {
+    let mut alike: BTreeMap<&str, Vec<&Finding>> = BTreeMap::new();
+    let left_out = findings
+        .iter()
+        .filter(|finding| finding.severity == Severity::LeftOut && finding.tightening.is_none());
+    for finding in left_out {
+        alike.entry(&finding.code).or_default().push(finding);
+    }
+    for (reason, files) in alike {
+        let (count, first) = (files.len(), files[0]);
+        tracing::warn!(
+            reason,
+            count,
+            first = first.file,
+            message_of_first = first.message,
+            "files left out; findings.json names each"
+        );
     }
 }
 
