@@ -10,6 +10,7 @@ use ranking::ranking;
 use snug_campaign::words::chance::by_chance;
 use snug_campaign::words::effect_name::{called, names_in};
 use snug_campaign::words::size::sizes;
+use snug_campaign::words::vocabulary::Vocabulary;
 use snug_campaign::{Diagnosis, Location, RankedEffect, Verdict};
 use std::fmt::Write as _;
 use std::io::IsTerminal as _;
@@ -25,15 +26,22 @@ pub struct Following<'a> {
 }
 
 /// A diagnosis as it is printed on standard output.
-pub fn of(diagnosis: &Diagnosis, following: &Following<'_>) -> String {
-    text(diagnosis, following, std::io::stdout().is_terminal())
+pub fn of(diagnosis: &Diagnosis, following: &Following<'_>, vocabulary: Vocabulary) -> String {
+    let terminal = std::io::stdout().is_terminal();
+    text(diagnosis, following, vocabulary, terminal)
 }
 
 /// The text; `terminal` allows block characters and bold type.
-fn text(diagnosis: &Diagnosis, following: &Following<'_>, terminal: bool) -> String {
+fn text(
+    diagnosis: &Diagnosis,
+    following: &Following<'_>,
+    vocabulary: Vocabulary,
+    terminal: bool,
+) -> String {
     let mut page = Page {
         text: String::new(),
         terminal,
+        vocabulary,
     };
     verdict(&mut page, diagnosis);
     missing(&mut page, diagnosis);
@@ -49,6 +57,7 @@ fn text(diagnosis: &Diagnosis, following: &Following<'_>, terminal: bool) -> Str
 struct Page {
     text: String,
     terminal: bool,
+    vocabulary: Vocabulary,
 }
 
 impl Page {
@@ -58,6 +67,7 @@ impl Page {
     }
 
     fn heading(&mut self, heading: &str) {
+        let heading = self.vocabulary.says(heading);
         if self.terminal {
             self.line(&format!("\n\u{1b}[1m{heading}\u{1b}[0m"));
         } else {
@@ -70,7 +80,7 @@ impl Page {
         let indent = " ".repeat(lead.chars().count());
         let mut line = lead.to_owned();
         // A number and its percent sign stay on one line.
-        let words = words.replace(" %", "\u{a0}%");
+        let words = self.vocabulary.says(words).replace(" %", "\u{a0}%");
         for word in words.split([' ', '\n']).filter(|word| !word.is_empty()) {
             let used = line.chars().count();
             if used > indent.len() && used + 1 + word.chars().count() > WIDTH {

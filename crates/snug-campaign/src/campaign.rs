@@ -1,5 +1,6 @@
 //! What an evaluated campaign hands to report and recording: presets compared, tightenings, conditions, tests.
 
+use crate::words::vocabulary::Vocabulary;
 use crate::{
     Diagnosis, Finding, Interval, Rejection, SignalUnits, TighteningId, TighteningResult, Traces,
 };
@@ -173,6 +174,8 @@ pub struct CampaignResult {
     pub fitted_output: String,
     /// In which units input and output are shown.
     pub units: SignalUnits,
+    /// In whose words it is told.
+    pub vocabulary: Vocabulary,
     /// Names of the effects in the model; empty for the base model.
     pub effects: Vec<String>,
     /// What their parameters are.

@@ -37,11 +37,16 @@ pub struct DiagnosisSummary<'a> {
 impl Diagnosis {
     /// What every file says of it.
     pub fn summary(&self) -> DiagnosisSummary<'_> {
+        self.summary_with(self)
+    }
+
+    /// The same, its sentences those of `told`, which is the same diagnosis in other words.
+    pub fn summary_with<'a>(&'a self, told: &'a Self) -> DiagnosisSummary<'a> {
         DiagnosisSummary {
             verdict: self.verdict.name(),
-            headline: &self.headline,
-            reasons: &self.reasons,
-            stopped: self.stopped.as_ref(),
+            headline: &told.headline,
+            reasons: &told.reasons,
+            stopped: told.stopped.as_ref(),
             level: self.level,
             interrupted: self.interrupted,
             verb: &self.verb,

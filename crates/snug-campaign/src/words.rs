@@ -15,6 +15,7 @@ pub mod size;
 pub mod statement;
 pub mod stopped;
 pub mod suspicion;
+pub mod vocabulary;
 
 /// `a`, `a and b`, `a, b and c`.
 pub fn joined(names: &[String]) -> String {

@@ -109,6 +109,17 @@ macro_rules! state {
 }
 pub(crate) use state;
 
+/// What an effect's texts are on a rig that nobody holds, as far as they differ from those of a hand on a tool.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+pub struct OnMachine {
+    /// In place of the summary.
+    pub summary: Option<&'static str>,
+    /// In place of how it shows.
+    pub shows_as: Option<&'static str>,
+    /// What to check at the bench.
+    pub check: &'static str,
+}
+
 /// What people read about an effect; the catalogue's text, bounds, columns and help all come from here.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct Description {
@@ -134,6 +145,8 @@ pub struct Description {
     pub shows_as: &'static str,
     /// What to check at the bench when it is suspected.
     pub check: &'static str,
+    /// What is said instead on a machine, where that differs.
+    pub on_machine: Option<OnMachine>,
     /// What the law holds for and where it stops: amplitude, time scale, rig.
     pub valid_for: &'static str,
     /// Where it comes from in the literature.
@@ -141,6 +154,19 @@ pub struct Description {
 }
 
 impl Description {
+    /// The same in the words of a machine.
+    pub fn of_machine(self) -> Self {
+        match self.on_machine {
+            Some(words) => Self {
+                summary: words.summary.unwrap_or(self.summary),
+                shows_as: words.shows_as.unwrap_or(self.shows_as),
+                check: words.check,
+                ..self
+            },
+            None => self,
+        }
+    }
+
     /// Whether its sizes are accelerations, or it comes of how an acceleration is measured.
     pub fn of_accelerometer(&self) -> bool {
         let is_acceleration = |spec: &ParameterSpec| spec.unit == "rad/s^2";

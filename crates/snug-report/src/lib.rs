@@ -8,6 +8,7 @@ mod findings_json;
 mod group_strip;
 mod grouping;
 mod json;
+mod machine_words;
 mod number;
 mod outcome;
 mod page;
@@ -38,7 +39,7 @@ pub fn files(result: &CampaignResult) -> Vec<(&'static str, String)> {
         ("findings.json", findings_json(result)),
     ];
     if let Some(diagnosis) = &result.diagnosis {
-        files.push(("verdict.json", verdict_json(diagnosis)));
+        files.push(("verdict.json", verdict_json(diagnosis, result.vocabulary)));
     }
     files
 }

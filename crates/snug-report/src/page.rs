@@ -1,8 +1,10 @@
 //! `report.html`: the page around the sections.
 
+use crate::machine_words;
 use crate::section::{Section, rendered};
 use maud::{DOCTYPE, Markup, PreEscaped, html as markup};
 use snug_campaign::CampaignResult;
+use snug_campaign::words::vocabulary::Vocabulary;
 
 const STYLE: &str = concat!(
     include_str!("assets/page.css"),
@@ -21,7 +23,20 @@ const SCRIPT: &str = concat!(
 ///
 /// Text from the campaign is escaped; the page works without JavaScript, which only adds stepping, zoom, values under
 /// the cursor, sorting and filtering.
+///
+/// Of a machine it is told in a machine's words.
 pub fn html(result: &CampaignResult) -> String {
+    if result.vocabulary == Vocabulary::Hand {
+        return page(result);
+    }
+    let told = CampaignResult {
+        diagnosis: (result.diagnosis.as_ref()).map(|one| result.vocabulary.told(one)),
+        ..result.clone()
+    };
+    machine_words::markup(&page(&told), result.vocabulary)
+}
+
+fn page(result: &CampaignResult) -> String {
     let sections = rendered(result);
     let page = markup! {
         (DOCTYPE)

@@ -5,11 +5,16 @@ mod diagnosed;
 mod specimen;
 
 use serde_json::Value;
+use snug_campaign::words::vocabulary::Vocabulary;
 use snug_campaign::{CampaignResult, EffectParameter};
 use snug_report::{files, verdict_json};
 
 fn verdict(result: &CampaignResult) -> Value {
-    serde_json::from_str(&verdict_json(result.diagnosis.as_ref().unwrap())).unwrap()
+    serde_json::from_str(&verdict_json(
+        result.diagnosis.as_ref().unwrap(),
+        result.vocabulary,
+    ))
+    .unwrap()
 }
 
 #[derive(Clone, Copy)]
@@ -175,7 +180,7 @@ fn what_is_not_finite_is_null() {
     diagnosis.ladder[0].rms_fitted_output = f64::INFINITY;
     diagnosis.added[0].parameters[0].high = Some(f64::INFINITY);
     diagnosis.location.force_map.force_n[30] = Some(f64::NAN);
-    let text = verdict_json(diagnosis);
+    let text = verdict_json(diagnosis, Vocabulary::Hand);
     for word in ["NaN", "inf", "Infinity"] {
         assert!(!text.contains(&format!(": {word}")), "{word}");
     }

@@ -80,7 +80,7 @@ fn shortened(value: Value) -> Value {
 }
 
 fn verdict(result: &CampaignResult) -> String {
-    let json = verdict_json(result.diagnosis.as_ref().unwrap());
+    let json = verdict_json(result.diagnosis.as_ref().unwrap(), result.vocabulary);
     serde_json::to_string_pretty(&shortened(serde_json::from_str(&json).unwrap())).unwrap()
 }
 

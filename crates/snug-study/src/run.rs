@@ -11,13 +11,14 @@ use crate::settling::{leaves_open, settle};
 use crate::{ProgressEvent, Study, StudyError, statistics};
 use rayon::prelude::*;
 use snug_campaign::words::reason::Reason;
+use snug_campaign::words::vocabulary::Vocabulary;
 use snug_campaign::{
     CampaignResult, Finding, ParameterMeaning, PresetSummary, Rejection, RejectionCount, Severity,
-    TighteningId, TighteningResult,
+    SignalUnits, TighteningId, TighteningResult,
 };
 use snug_files::{Disk, Host};
 use snug_ingest::Listing;
-use snug_model::{BASE_PARAMETERS, Law, Model};
+use snug_model::{BASE_PARAMETERS, Law, Model, Scale};
 use snug_record::Recorder;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -395,6 +396,7 @@ impl Collected {
             study_ron,
             preset: study.preprocess.preset.name().to_owned(),
             fitted_output: study.identify.fitted_output.name().to_owned(),
+            vocabulary: vocabulary(study, &units),
             units,
             effects: study.model.effects.clone(),
             meanings: meanings(&model),
@@ -406,6 +408,14 @@ impl Collected {
             examples: self.examples.into_kept(),
             diagnosis: None,
         })
+    }
+}
+
+/// Whether the results are told of a hand or of a machine, and whether that turns or slides.
+fn vocabulary(study: &Study, units: &SignalUnits) -> Vocabulary {
+    match study.model.scale {
+        Scale::Rig { .. } => Vocabulary::of_machine(units, study.preprocess.rig.lever_arm_m),
+        _ => Vocabulary::Hand,
     }
 }
 

@@ -6,6 +6,7 @@ use snug_campaign::words::effect_name::Named;
 use snug_campaign::words::headline::{Fall, Headline, Left};
 use snug_campaign::words::reason::Reason;
 use snug_campaign::words::remark::Remark;
+use snug_campaign::words::vocabulary::Vocabulary;
 use snug_campaign::*;
 
 const FOLLOWING: Following = Following {
@@ -158,7 +159,7 @@ fn blocks(text: &str, line: &str) -> usize {
 
 #[test]
 fn the_verdict_leads_and_the_next_command_closes() {
-    let text = text(&missing(), &FOLLOWING, false);
+    let text = text(&missing(), &FOLLOWING, Vocabulary::Hand, false);
     let first = text.trim_start().lines().next().unwrap();
     assert_eq!(first, "Verdict: an effect is missing");
     assert!(text.contains("    cargo xtask add effect_0 --study rig.ron\n"));
@@ -171,17 +172,17 @@ fn the_verdict_leads_and_the_next_command_closes() {
 
 #[test]
 fn lines_keep_their_width_and_plain_text_has_no_colours() {
-    let plain = text(&missing(), &FOLLOWING, false);
+    let plain = text(&missing(), &FOLLOWING, Vocabulary::Hand, false);
     for line in plain.lines() {
         assert!(line.chars().count() <= WIDTH + 2, "{line}");
     }
     assert!(!plain.contains('\u{1b}') && !plain.contains('█'));
-    assert!(text(&missing(), &FOLLOWING, true).contains('\u{1b}'));
+    assert!(text(&missing(), &FOLLOWING, Vocabulary::Hand, true).contains('\u{1b}'));
 }
 
 #[test]
 fn sizes_stand_with_unit_and_interval() {
-    let text = text(&missing(), &FOLLOWING, false);
+    let text = text(&missing(), &FOLLOWING, Vocabulary::Hand, false);
     assert!(text.contains("cubic stiffness 9.90 × 10⁵ [9.61, 10.19] × 10⁵ N/m³"));
     assert!(text.contains("83 ± 4 %"));
     assert!(text.contains("< 0.001"));
@@ -195,7 +196,7 @@ fn what_is_missing_is_explained() {
     let mut diagnosis = missing();
     diagnosis.ranking[0].explanation = vec!["The hand's spring becomes stiffer.".into()];
     diagnosis.ranking[0].heldout_gain = 1.73;
-    let text = text(&diagnosis, &FOLLOWING, false);
+    let text = text(&diagnosis, &FOLLOWING, Vocabulary::Hand, false);
     assert!(text.contains("What effect 0 is\n  - The hand's spring becomes stiffer.\n"));
     assert_eq!(text.matches("cannot be told from").count(), 1);
     assert!(text.contains("100 ± 4 %") && !text.contains("173"));
@@ -227,7 +228,7 @@ fn terms_in_no_catalogue_stand_only_among_the_first_and_unsure_shares_are_no_per
     }
     diagnosis.ranking[0].heldout_gain = 0.72;
     diagnosis.ranking[0].heldout_gain_error = 6.17;
-    let text = text(&diagnosis, &FOLLOWING, false);
+    let text = text(&diagnosis, &FOLLOWING, Vocabulary::Hand, false);
     assert!(text.contains("  force p*x^1 "));
     assert!(!text.contains("p*x^4") && !text.contains("p*x^6"));
     assert!(text.contains("3 of the candidates are simple forces"));
@@ -236,7 +237,7 @@ fn terms_in_no_catalogue_stand_only_among_the_first_and_unsure_shares_are_no_per
 
 #[test]
 fn bars_shrink_to_nothing_at_the_floor() {
-    let text = text(&missing(), &FOLLOWING, false);
+    let text = text(&missing(), &FOLLOWING, Vocabulary::Hand, false);
     let base = blocks(&text, "base model");
     let middle = blocks(&text, "+ cubic_stiffness");
     assert_eq!(base, 36);
@@ -249,7 +250,7 @@ fn bars_shrink_to_nothing_at_the_floor() {
 fn without_noise_the_error_has_the_output_s_name() {
     let mut diagnosis = missing();
     diagnosis.ladder = vec![rung(&[], None, 1.0), rung(&["sin"], None, 0.5)];
-    let text = text(&diagnosis, &FOLLOWING, false);
+    let text = text(&diagnosis, &FOLLOWING, Vocabulary::Hand, false);
     assert!(text.contains("residual of the acceleration"));
     assert_eq!(blocks(&text, "base model"), 36);
     assert_eq!(blocks(&text, "+ sin"), 18);
@@ -269,29 +270,34 @@ fn every_verdict_says_what_to_do() {
     let mut diagnosis = missing();
     diagnosis.verb = "compare".into();
     assert!(
-        text(&diagnosis, &FOLLOWING, false)
+        text(&diagnosis, &FOLLOWING, Vocabulary::Hand, false)
             .trim_end()
             .ends_with("cargo xtask diagnose --study rig.ron")
     );
     diagnosis.verdict = Verdict::Undecided;
-    let compared = text(&diagnosis, &FOLLOWING, false);
+    let compared = text(&diagnosis, &FOLLOWING, Vocabulary::Hand, false);
     assert!(compared.contains("Verdict: the model leaves more than the noise"));
     assert!(!compared.contains("too little data"));
     diagnosis.verb = "improve".into();
     diagnosis.verdict = Verdict::Adequate;
-    assert!(text(&diagnosis, &FOLLOWING, false).contains("Nothing needs to be added"));
+    assert!(
+        text(&diagnosis, &FOLLOWING, Vocabulary::Hand, false).contains("Nothing needs to be added")
+    );
     diagnosis.verdict = Verdict::Undecided;
-    assert!(text(&diagnosis, &FOLLOWING, false).contains("how much more would decide"));
+    assert!(
+        text(&diagnosis, &FOLLOWING, Vocabulary::Hand, false)
+            .contains("how much more would decide")
+    );
     diagnosis.verdict = Verdict::UnlistedEffect;
     diagnosis.unlisted = Some(damping_with_x2());
-    let found = text(&diagnosis, &FOLLOWING, false);
+    let found = text(&diagnosis, &FOLLOWING, Vocabulary::Hand, false);
     assert!(found.contains("    (name: \"x2v\")\n"));
     assert!(
         !found.contains("cargo xtask improve"),
         "it was already asked to"
     );
     diagnosis.verb = "diagnose".into();
-    let found = text(&diagnosis, &FOLLOWING, false);
+    let found = text(&diagnosis, &FOLLOWING, Vocabulary::Hand, false);
     let last = "cargo xtask improve --study rig.ron";
     assert!(found.trim_end().ends_with(last));
 }
@@ -304,11 +310,11 @@ fn only_a_law_that_is_still_missing_is_explained() {
     diagnosis.unlisted = Some(damping_with_x2());
     diagnosis.ranking[0].unlisted = true;
     diagnosis.ranking[0].expression = Some("p*v^3".into());
-    let added = text(&diagnosis, &FOLLOWING, false);
+    let added = text(&diagnosis, &FOLLOWING, Vocabulary::Hand, false);
     assert!(!added.contains("What force") && added.contains("What else was tried"));
     diagnosis.ranking[2].unlisted = true;
     diagnosis.ranking[2].expression = Some("p*x^2*v".into());
-    let named = text(&diagnosis, &FOLLOWING, false);
+    let named = text(&diagnosis, &FOLLOWING, Vocabulary::Hand, false);
     assert!(named.contains("What force p*x^2*v is") && !named.contains("What force p*v^3 is"));
     assert!(!named.contains("What else was tried"));
 }
@@ -320,7 +326,7 @@ fn a_climb_that_was_stopped_says_so_and_how_to_go_on() {
     diagnosis.verb = "improve".into();
     diagnosis.verdict = Verdict::Undecided;
     diagnosis.interrupted = true;
-    let text = text(&diagnosis, &FOLLOWING, false);
+    let text = text(&diagnosis, &FOLLOWING, Vocabulary::Hand, false);
     assert!(
         text.contains("Verdict: stopped by you before there was a verdict"),
         "{text}"
@@ -337,7 +343,7 @@ fn every_verdict_word_for_word() {
     let told = |change: fn(&mut Diagnosis)| {
         let mut diagnosis = missing();
         change(&mut diagnosis);
-        text(&diagnosis, &FOLLOWING, false)
+        text(&diagnosis, &FOLLOWING, Vocabulary::Hand, false)
     };
     insta::assert_snapshot!("missing", told(|_| ()));
     insta::assert_snapshot!(

@@ -101,9 +101,12 @@ fn told(outcome: &Outcome, options: &RunOptions, next: &str) -> String {
         options: next,
         written: &written.to_string_lossy(),
     };
+    let vocabulary = outcome.result.vocabulary;
     let mut text = match &outcome.result.diagnosis {
-        Some(diagnosis) => diagnosis_summary::of(diagnosis, &following),
-        None => summary::of_run(outcome),
+        Some(diagnosis) => {
+            diagnosis_summary::of(&vocabulary.told(diagnosis), &following, vocabulary)
+        }
+        None => vocabulary.says(&summary::of_run(outcome)),
     };
     text.push_str(&summary::of_results(outcome));
     text

@@ -39,6 +39,11 @@ pub enum MoreData {
     Longer(f64),
 }
 
+/// Tightenings beyond which nobody would make so many more to decide a verdict.
+const MOST_TIGHTENINGS: f64 = 500.0;
+/// Times as long as a record is beyond which nobody would take a longer one.
+const MOST_TIMES: f64 = 50.0;
+
 /// One reason for a verdict.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Reason {
@@ -258,6 +263,12 @@ fn would_decide(
     let (effect, chance) = (effect.spoken(), by_chance(p_family));
     write!(f, "The best candidate is {effect} ({chance}). ")?;
     match more {
+        MoreData::Tightenings(count) if count > MOST_TIGHTENINGS => f.write_str(
+            "These data cannot decide it, nor would any number of tightenings like these that could be made: look at what differs between them, or change what is measured.",
+        ),
+        MoreData::Longer(times) if times > MOST_TIMES => f.write_str(
+            "These data cannot decide it, nor would a longer record like this: change what drives the rig, or what is measured.",
+        ),
         MoreData::Tightenings(count) => {
             write!(f, "About {count} tightenings like these would decide.")
         }

@@ -14,7 +14,9 @@ use crate::selection::path::{Addition, SelectionPath, misfit, misfits, twins};
 use crate::settings::DiagnoseSettings;
 use crate::verdict::earned;
 use crate::verdict::experiment::separating_experiment;
-use crate::verdict::reasons::{Situation, explanation, headline, paste, reasons, removal, stopped};
+use crate::verdict::reasons::{
+    Held, Situation, explanation, headline, paste, reasons, removal, stopped,
+};
 use crate::verdict::thresholds::{BESIDE_EFFECTS, REPEATS, WHITE};
 use crate::verdict::tightening_fits::TighteningFits;
 use crate::verdict::trend::trends;
@@ -181,6 +183,7 @@ impl Examination<'_> {
             stopped: path.stopped,
             impossible: &path.ranking.impossible,
             corrected,
+            rig: Held::of(self.question.cases),
             settings: self.settings,
             explained: None,
             suspicions: &[],
@@ -318,7 +321,11 @@ impl Examination<'_> {
             twins: twins.iter().map(|twin| twin.name().to_owned()).collect(),
             plausible: candidate.fitted.converged
                 && sizes.iter().all(EffectParameter::is_plausible),
-            explanation: explanation(candidate.effect, &candidate.fitted),
+            explanation: explanation(
+                candidate.effect,
+                &candidate.fitted,
+                Held::of(self.question.cases),
+            ),
             parameters: sizes,
         }
     }
@@ -354,7 +361,7 @@ impl Examination<'_> {
                     needed: (self.path.attempts.iter())
                         .find(|attempt| attempt.effect == effect)
                         .map(|attempt| attempt.loss / last.squares()),
-                    explanation: explanation(effect, last),
+                    explanation: explanation(effect, last, Held::of(cases)),
                     parameters: sizes,
                 }
             })

@@ -1,5 +1,6 @@
 //! What speaks for a verdict, as data: the sentences stand in `snug_campaign::words`.
 
+use crate::data::cases::is_machine;
 use crate::data::clusters::Clusters;
 use crate::library::{declaration, in_words};
 use crate::pooled::fitted::Fitted;
@@ -15,6 +16,7 @@ use snug_campaign::words::statement;
 use snug_campaign::words::stopped::Stopped;
 use snug_campaign::words::suspicion::Suspicion;
 use snug_campaign::{CorrectedEffect, EffectParameter, RankedEffect, Removal, Verdict};
+use snug_identify::FitTask;
 use snug_model::{CustomEffectSettings, Description, Effect, Law, TRENDS};
 
 /// What a verdict rests on.
@@ -37,6 +39,7 @@ pub(crate) struct Situation<'a> {
     pub impossible: &'a [Effect],
     /// What preparation took out.
     pub corrected: &'a [CorrectedEffect],
+    pub rig: Held,
     pub settings: &'a DiagnoseSettings,
     /// How much the last model explains, where no noise says what is enough.
     pub explained: Option<Explained>,
@@ -159,7 +162,7 @@ pub(crate) fn reasons(situation: &Situation<'_>) -> Vec<Reason> {
     );
     reasons.extend(what_speaks_for_the_chosen(situation));
     reasons.extend(trends(situation));
-    reasons.extend(situation.corrected.iter().map(taken_out));
+    reasons.extend((situation.corrected.iter()).map(|one| taken_out(one, situation.rig)));
     if !situation.impossible.is_empty() {
         reasons.push(Reason::NotSimulated(all_named(situation.impossible)));
     }
@@ -215,11 +218,11 @@ fn trends(situation: &Situation<'_>) -> impl Iterator<Item = Reason> {
 }
 
 /// What preparation took out; where that is the rule and not the exception, with what to check.
-fn taken_out(corrected: &CorrectedEffect) -> Reason {
+fn taken_out(corrected: &CorrectedEffect, rig: Held) -> Reason {
     let effect = Effect::named(&corrected.effect).filter(|_| corrected.share > 0.5);
     Reason::TakenOut {
         corrected: corrected.clone(),
-        check: effect.map(|effect| effect.description().check),
+        check: effect.map(|effect| rig.described(effect.description()).check),
     }
 }
 
@@ -264,16 +267,40 @@ pub(crate) fn stopped(situation: &Situation<'_>) -> Option<Stopped> {
     })
 }
 
+/// Whether somebody holds the rig: the texts differ.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Held {
+    ByHand,
+    Machine,
+}
+
+impl Held {
+    pub fn of(cases: &[FitTask<'_>]) -> Self {
+        match cases.iter().any(is_machine) {
+            true => Self::Machine,
+            false => Self::ByHand,
+        }
+    }
+
+    fn described(self, description: &Description) -> Description {
+        match self {
+            Self::ByHand => *description,
+            Self::Machine => description.of_machine(),
+        }
+    }
+}
+
 /// What an effect of `fitted` is, how it shows, what to check at the bench.
-pub(crate) fn explanation(effect: Effect, fitted: &Fitted) -> Vec<String> {
+pub(crate) fn explanation(effect: Effect, fitted: &Fitted, rig: Held) -> Vec<String> {
     match declaration(effect.name()).zip(in_words(effect, fitted.size(effect))) {
         Some((declared, says)) => statement::described_unlisted(&declared.expression, says),
-        None => described(effect.description()),
+        None => described(effect.description(), rig),
     }
 }
 
 /// What the catalogue says about an effect or a trend.
-pub(crate) fn described(description: &Description) -> Vec<String> {
+pub(crate) fn described(description: &Description, rig: Held) -> Vec<String> {
+    let description = rig.described(description);
     statement::described(description.summary, description.shows_as, description.check)
 }
 

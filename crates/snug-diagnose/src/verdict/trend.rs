@@ -2,7 +2,7 @@
 
 use crate::locate::drift::{number_range, per_tightening};
 use crate::pooled::sizes::described;
-use crate::verdict::reasons::described as explanation;
+use crate::verdict::reasons::{Held, described as explanation};
 use snug_campaign::{Drift, EffectParameter, RankedEffect};
 use snug_identify::FitTask;
 use snug_model::{BASE_PARAMETERS, Description, TRENDS};
@@ -69,7 +69,7 @@ fn candidate(
         behind_first: 0.0,
         twins: Vec::new(),
         plausible: parameters.iter().all(EffectParameter::is_plausible),
-        explanation: explanation(description),
+        explanation: explanation(description, Held::of(cases)),
         parameters,
     })
 }

@@ -239,6 +239,7 @@ fn describe(settings: &CustomEffectSettings, program: &Program) -> &'static Desc
         },
         shows_as: kept(format!("misfit that follows {expression}")),
         check: "Whether anything at the rig acts as this law says: the study's author knows what is meant.",
+        on_machine: None,
         valid_for: "what the study's author means it for",
         source: "the study file",
     }))

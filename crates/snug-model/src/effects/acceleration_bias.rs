@@ -9,7 +9,7 @@
 //!
 //! Source: sensor zero offset, temperature drift.
 
-use crate::description::{ActsOn, Description, Kind, ParameterSpec, Scope, state};
+use crate::description::{ActsOn, Description, Kind, OnMachine, ParameterSpec, Scope, state};
 use crate::law::{Kinematics, Law};
 use crate::numeric::number::Number;
 
@@ -44,6 +44,11 @@ impl Law for AccelerationBias {
             excited_by: "nothing: it is there at rest",
             shows_as: "a constant in the acceleration, a parabola in the displacement",
             check: "Read the accelerometer with the tool at rest, cold and warm: it must show zero; if not, record a quiet part before each pulse.",
+            on_machine: Some(OnMachine {
+                summary: None,
+                shows_as: None,
+                check: "Read the accelerometer with the rig at rest, cold and warm: it must show zero; if not, record a quiet part before each start.",
+            }),
             valid_for: "a zero that does not drift from the beginning of the integration to the end of the window",
             source: "sensor zero offset",
         }

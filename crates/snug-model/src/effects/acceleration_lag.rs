@@ -42,6 +42,7 @@ impl Law for AccelerationLag {
             excited_by: "fast torque changes: shut-off, hard joints",
             shows_as: "misfit that follows the acceleration's slope",
             check: "Look up the low-pass filter of the acceleration channel, and compare its step response with the torque channel's.",
+            on_machine: None,
             valid_for: "filters of first order, velocity and displacement integrated from this very acceleration; any amplitude",
             source: "low-pass filter of the accelerometer",
         }

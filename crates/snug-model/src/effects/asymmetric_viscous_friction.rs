@@ -43,6 +43,7 @@ impl Law for AsymmetricViscousFriction {
             excited_by: "motion both ways, at several speeds",
             shows_as: "misfit to one side that grows with the speed, whichever way it turns",
             check: "Let the drive run at the same speed one way and the other and compare the torque it takes: worm gears, seals and brushes can differ by direction.",
+            on_machine: None,
             valid_for: "abs(d) <= c and motion both ways; it has no time scale",
             source: "identification of drives with a coefficient per direction (Armstrong 1991, Kozlowski 1998)",
         }

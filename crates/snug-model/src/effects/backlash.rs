@@ -14,7 +14,7 @@
 //!
 //! Source: dead zone with contact damping.
 
-use crate::description::{ActsOn, Description, Kind, ParameterSpec, Scope, state};
+use crate::description::{ActsOn, Description, Kind, OnMachine, ParameterSpec, Scope, state};
 use crate::law::{Deflection, Law};
 use crate::numeric::number::Number;
 
@@ -54,6 +54,13 @@ impl Law for Backlash {
             excited_by: "any motion; relatively strongest in weak pulses",
             shows_as: "misfit at the onset and at every passage through rest, where the tool moves as if free",
             check: "With the tool off, rock the handle and look for free play between tool, reaction bar, mounting and palm.",
+            on_machine: Some(OnMachine {
+                summary: Some(
+                    "The moving part runs freely through a gap before the spring and damper act.",
+                ),
+                shows_as: None,
+                check: "With the power off, rock the moving part and feel for free play in gears, couplings, keys and mounting.",
+            }),
             valid_for: "play of the same size to both sides of rest, gaps far above 1 um, records at some 10 kHz",
             source: "dead zone with contact damping",
         }

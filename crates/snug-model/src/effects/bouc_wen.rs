@@ -12,7 +12,7 @@
 //!
 //! Source: Bouc (1967) and Wen (1976) with n = 1, β = γ.
 
-use crate::description::{ActsOn, Description, Kind, ParameterSpec, Scope, state};
+use crate::description::{ActsOn, Description, Kind, OnMachine, ParameterSpec, Scope, state};
 use crate::law::{Instant, Law};
 use crate::numeric::number::Number;
 use crate::numeric::real::Real;
@@ -61,6 +61,13 @@ impl Law for BoucWen {
             excited_by: "reversals: a window that goes on long enough",
             shows_as: "misfit that steps at every reversal and builds up over a short way",
             check: "Repeat with a bare hand and with a thick glove: soft tissue and padding give way and leave a loop at every reversal.",
+            on_machine: Some(OnMachine {
+                summary: Some(
+                    "Something sticks first and then gives way at a constant force, with a loop at every reversal.",
+                ),
+                shows_as: None,
+                check: "Push slowly to and fro over a short way with the power off and draw force over way: what gives way leaves a loop at every reversal (cables, seals, belts, rubber).",
+            }),
             valid_for: "travel from about z_max on, for less it is a spring k_h; the loop does not depend on speed",
             source: "Bouc 1967, Wen 1976",
         }

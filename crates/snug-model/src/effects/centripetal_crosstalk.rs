@@ -9,7 +9,7 @@
 //!
 //! Source: transverse sensitivity and mounting of the accelerometer.
 
-use crate::description::{ActsOn, Description, Kind, ParameterSpec, Scope, state};
+use crate::description::{ActsOn, Description, Kind, OnMachine, ParameterSpec, Scope, state};
 use crate::law::{Instant, Kinematics, Law};
 use crate::numeric::number::Number;
 
@@ -44,6 +44,11 @@ impl Law for CentripetalCrosstalk {
             excited_by: "fast rotation: high target torque, light arms",
             shows_as: "misfit that follows the square of the velocity, the same sign on the way out and back",
             check: "Check that the accelerometer's axis lies along the circle on which it moves: turned towards the joint, it feels the rotation itself.",
+            on_machine: Some(OnMachine {
+                summary: None,
+                shows_as: None,
+                check: "Check that the accelerometer's axis lies along the circle on which it moves: turned towards the axis of rotation, it feels the rotation itself.",
+            }),
             valid_for: "a sensor fixed to the tool, velocity and displacement integrated from this very acceleration",
             source: "transverse sensitivity of the accelerometer",
         }

@@ -48,6 +48,7 @@ impl Law for CoContraction {
             excited_by: "displacement that lasts beyond the reaction time",
             shows_as: "late misfit in proportion to the displacement: the way back is quicker than the way out",
             check: "Ask the operator to grip as firmly before the pulse as during it (watch the grip force): the stiffening should go away.",
+            on_machine: None,
             valid_for: "one rise per tightening, r > -1, while the hand is still displaced after t_on; any amplitude",
             source: "Hogan 1984, antagonist co-activation",
         }

@@ -7,7 +7,7 @@
 //!
 //! Source: Coulomb friction, smoothed as usual in identification so that it is differentiable.
 
-use crate::description::{ActsOn, Description, Kind, ParameterSpec, Scope, state};
+use crate::description::{ActsOn, Description, Kind, OnMachine, ParameterSpec, Scope, state};
 use crate::law::{Instant, Law};
 use crate::numeric::number::Number;
 
@@ -45,6 +45,11 @@ impl Law for CoulombFriction {
             excited_by: "any motion; relatively strongest in weak pulses",
             shows_as: "misfit that follows the sign of the velocity, with a step at every reversal",
             check: "Move the handle slowly by hand with the tool off and feel or measure whether it needs a small force to move at all: look for rubbing sleeves, cables, hoses and the suspension.",
+            on_machine: Some(OnMachine {
+                summary: None,
+                shows_as: None,
+                check: "Move the rig slowly with the power off and feel or measure whether it needs a small force to move at all: look for rubbing seals, bearings, guides and cables.",
+            }),
             valid_for: "speeds far above 0.01 m/s; below, it is a damper and nothing sticks",
             source: "Coulomb friction, smoothed",
         }

@@ -9,7 +9,7 @@
 //!
 //! Source: Duffing oscillator; muscle and tissue stiffening with stretch.
 
-use crate::description::{ActsOn, Description, Kind, ParameterSpec, Scope, state};
+use crate::description::{ActsOn, Description, Kind, OnMachine, ParameterSpec, Scope, state};
 use crate::law::{Instant, Law};
 use crate::numeric::number::Number;
 
@@ -44,6 +44,13 @@ impl Law for CubicStiffness {
             excited_by: "large displacements: high target torque, soft grip",
             shows_as: "misfit around the peak that grows as x^3 and only at big targets; fitted stiffness drifts with amplitude",
             check: "Tighten at a low, a middle and a high target torque with the same grip: a spring that hardens gives a fitted stiffness that rises with the target.",
+            on_machine: Some(OnMachine {
+                summary: Some("The spring becomes stiffer (or softer) the further it is pushed."),
+                shows_as: Some(
+                    "misfit around the peak that grows as x^3 and only in large motion; fitted stiffness drifts with amplitude",
+                ),
+                check: "Drive the rig at a small, a middle and a large amplitude: a spring that hardens gives a fitted stiffness that rises with the amplitude.",
+            }),
             valid_for: "displacements well below sqrt(k / (3 abs(k3))) when it softens, where its force is largest; it has no time scale",
             source: "Duffing oscillator",
         }

@@ -44,6 +44,7 @@ impl Law for DirectionalDamping {
             excited_by: "the rebound after the peak: a window that goes on long enough",
             shows_as: "misfit that starts at the peak displacement and follows the velocity on the way back only",
             check: "Watch the handle come back after shut-off, on a film or in the recorded velocity: the hand brakes the return differently from the push.",
+            on_machine: None,
             valid_for: "pulses that push to positive x, with c + c_r >= 0; it has no time scale",
             source: "Hill, force-velocity relation of muscle",
         }

@@ -8,7 +8,7 @@
 //!
 //! Source: Fung (1967), elasticity of soft tissues in simple elongation.
 
-use crate::description::{ActsOn, Description, Kind, ParameterSpec, Scope, state};
+use crate::description::{ActsOn, Description, Kind, OnMachine, ParameterSpec, Scope, state};
 use crate::law::{Instant, Law};
 use crate::numeric::number::Number;
 use crate::numeric::real::Real;
@@ -60,6 +60,15 @@ impl Law for ExponentialStiffness {
             excited_by: "large displacements: high target torque, soft grip",
             shows_as: "misfit around the peak that is nothing at small targets and grows steeply with the largest",
             check: "Tighten at a low, a middle, a high and a very high target torque with the same grip: the fitted stiffness rises ever faster, not in proportion to the square of the displacement.",
+            on_machine: Some(OnMachine {
+                summary: Some(
+                    "The spring stiffens ever faster the further it is pulled, as rubber or a stop does.",
+                ),
+                shows_as: Some(
+                    "misfit around the peak that is nothing in small motion and grows steeply with the largest",
+                ),
+                check: "Drive the rig at several amplitudes up to the largest: the fitted stiffness rises ever faster, not in proportion to the square of the displacement.",
+            }),
             valid_for: "travel from about x0 to 10 x0, for less it is a spring f0 / x0; it has no time scale",
             source: "Fung 1967, soft tissue in elongation",
         }

@@ -8,7 +8,7 @@
 //!
 //! Source: muscle stiffness falls and posture sags as muscles tire.
 
-use crate::description::{ActsOn, Description, Kind, ParameterSpec, Scope};
+use crate::description::{ActsOn, Description, Kind, OnMachine, ParameterSpec, Scope};
 
 const fn slope(name: &'static str, meaning: &'static str) -> ParameterSpec {
     ParameterSpec {
@@ -41,6 +41,15 @@ pub const DESCRIPTION: Description = Description {
     excited_by: "many tightenings in a row by the same person",
     shows_as: "no misfit within a tightening; the fitted mass, damping and stiffness drift with its number",
     check: "Repeat the first tightenings after a rest: values that come back to where they began show fatigue, values that stay show learning or a changed setup.",
+    on_machine: Some(OnMachine {
+        summary: Some(
+            "The rig changes with time: mass, damping and stiffness drift from one recording to the next.",
+        ),
+        shows_as: Some(
+            "no misfit within a recording; the fitted mass, damping and stiffness drift with its number",
+        ),
+        check: "Repeat the first recordings after a pause: values that come back to where they began show warming, values that stay show wear or a changed setup.",
+    }),
     valid_for: "tightenings in a row by the same person, few enough that the trend stays straight and 1 + s n positive",
     source: "muscle fatigue; the pace of work and learning look alike",
 };

@@ -9,7 +9,7 @@
 //!
 //! Source: static sensitivity of accelerometers.
 
-use crate::description::{ActsOn, Description, Kind, ParameterSpec, Scope, state};
+use crate::description::{ActsOn, Description, Kind, OnMachine, ParameterSpec, Scope, state};
 use crate::law::{Instant, Kinematics, Law};
 use crate::numeric::number::Number;
 
@@ -44,6 +44,11 @@ impl Law for GravityLeakage {
             excited_by: "large displacements",
             shows_as: "misfit that follows the displacement, in the acceleration without a force",
             check: "Turn the tool slowly by hand and watch the acceleration: a reading that follows the angle is gravity, so look at how the sensor is mounted.",
+            on_machine: Some(OnMachine {
+                summary: None,
+                shows_as: None,
+                check: "Turn the rig slowly with the power off and watch the acceleration: a reading that follows the angle is gravity, so look at how the sensor is mounted.",
+            }),
             valid_for: "any angle, counted from where gravity adds nothing to the reading: what it adds at rest is a bias",
             source: "static sensitivity of accelerometers",
         }

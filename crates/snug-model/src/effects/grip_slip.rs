@@ -43,6 +43,7 @@ impl Law for GripSlip {
             excited_by: "large forces: high target torque, weak grip",
             shows_as: "misfit where the force is largest: the tool goes further than the spring would let it",
             check: "Mark handle and glove with a line and look after a high-torque tightening whether it has moved; repeat with a firmer grip.",
+            on_machine: None,
             valid_for: "forces around F_max; it has no memory: the grip holds again at once, where it was before",
             source: "limit of friction, smoothed",
         }

@@ -8,7 +8,7 @@
 //!
 //! Source: preceding tightening, posture.
 
-use crate::description::{ActsOn, Description, Kind, ParameterSpec, Scope, state};
+use crate::description::{ActsOn, Description, Kind, OnMachine, ParameterSpec, Scope, state};
 use crate::law::Law;
 use crate::numeric::number::Number;
 
@@ -56,6 +56,11 @@ impl Law for InitialMotion {
             excited_by: "nothing: it is there at the start",
             shows_as: "a free, decaying oscillation from the first sample on, before the pulse",
             check: "Hold the tool still for a second before each start, and check that the window begins before the pulse does.",
+            on_machine: Some(OnMachine {
+                summary: Some("The rig is not at rest when the window begins."),
+                shows_as: None,
+                check: "Keep the rig still for a second before each start, and check that the recording begins before the input does.",
+            }),
             valid_for: "free motion before the window, without torque that the window does not hold",
             source: "initial conditions",
         }

@@ -8,7 +8,7 @@
 //!
 //! Source: standard linear solid (Zener); tissue relaxation.
 
-use crate::description::{ActsOn, Description, Kind, ParameterSpec, Scope, state};
+use crate::description::{ActsOn, Description, Kind, OnMachine, ParameterSpec, Scope, state};
 use crate::law::{Instant, Law};
 use crate::numeric::number::Number;
 
@@ -56,6 +56,13 @@ impl Law for MaxwellBranch {
             excited_by: "fast changes: hard joints, short pulses",
             shows_as: "misfit that follows the velocity and decays over tau after each change",
             check: "Repeat with a bare hand, with a glove and with another handle cover: a soft layer in between changes the misfit.",
+            on_machine: Some(OnMachine {
+                summary: Some(
+                    "Something that is stiff when pushed quickly and gives way within milliseconds: rubber, oil, a belt.",
+                ),
+                shows_as: None,
+                check: "Repeat without, or with other, rubber mounts, belts and couplings: a soft layer in between changes the misfit.",
+            }),
             valid_for: "motion that changes over times around tau: for slower it is a damper k_m tau, for quicker a spring k_m; any amplitude",
             source: "Zener, standard linear solid",
         }

@@ -7,7 +7,7 @@
 //!
 //! Source: sensor zero of the output channel.
 
-use crate::description::{ActsOn, Description, Kind, ParameterSpec, Scope, state};
+use crate::description::{ActsOn, Description, Kind, OnMachine, ParameterSpec, Scope, state};
 use crate::law::{Kinematics, Law};
 use crate::numeric::number::Number;
 use snug_campaign::Quantity;
@@ -43,6 +43,11 @@ impl Law for OutputOffset {
             excited_by: "nothing: it is there at rest",
             shows_as: "a constant in the fitted output",
             check: "Read the fitted channel with the tool at rest: it must show zero.",
+            on_machine: Some(OnMachine {
+                summary: None,
+                shows_as: None,
+                check: "Read the fitted channel with the rig at rest: it must show zero.",
+            }),
             valid_for: "a zero of the fitted channel that does not drift within a tightening",
             source: "sensor zero offset",
         }

@@ -8,7 +8,7 @@
 //!
 //! Source: velocity-squared damping (Nayfeh and Mook, Nonlinear Oscillations, 1979).
 
-use crate::description::{ActsOn, Description, Kind, ParameterSpec, Scope, state};
+use crate::description::{ActsOn, Description, Kind, OnMachine, ParameterSpec, Scope, state};
 use crate::law::{Instant, Law};
 use crate::numeric::number::Number;
 
@@ -43,6 +43,11 @@ impl Law for QuadraticDamping {
             excited_by: "fast motion: high target torque, hard joints",
             shows_as: "misfit that follows v abs(v), largest where the velocity peaks; fitted damping drifts with amplitude",
             check: "Compare a slow and a fast joint at the same target torque: damping of this kind grows with the speed of the handle, friction does not.",
+            on_machine: Some(OnMachine {
+                summary: Some("Fast motion is damped more than in proportion."),
+                shows_as: None,
+                check: "Drive the rig slowly and fast with the same force: damping of this kind grows with the speed, as air and oil resist; friction does not.",
+            }),
             valid_for: "speeds around and above c / c2; slower motion does not show it; it has no time scale",
             source: "velocity-squared damping",
         }

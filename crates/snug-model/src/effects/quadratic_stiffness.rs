@@ -8,7 +8,7 @@
 //!
 //! Source: asymmetric restoring force (Nayfeh and Mook, Nonlinear Oscillations, 1979).
 
-use crate::description::{ActsOn, Description, Kind, ParameterSpec, Scope, state};
+use crate::description::{ActsOn, Description, Kind, OnMachine, ParameterSpec, Scope, state};
 use crate::law::{Instant, Law};
 use crate::numeric::number::Number;
 
@@ -43,6 +43,11 @@ impl Law for QuadraticStiffness {
             excited_by: "large displacements: high target torque, soft grip",
             shows_as: "misfit around the peak that grows as x^2, with the same sign on both sides of rest",
             check: "Let the tool pull the hand in the other direction once (left-hand thread or reversed tool): an uneven spring is stiffer one way than the other.",
+            on_machine: Some(OnMachine {
+                summary: Some("The spring is stiffer in one direction than in the other."),
+                shows_as: None,
+                check: "Pull the rig the same way to either side with a spring scale: an uneven spring is stiffer one way than the other.",
+            }),
             valid_for: "displacements below k / (2 abs(k2)), where on the soft side its force is largest; it has no time scale",
             source: "asymmetric spring (Nayfeh and Mook 1979)",
         }

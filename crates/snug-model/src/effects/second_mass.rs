@@ -13,7 +13,7 @@
 //!
 //! Source: two-degree-of-freedom hand–arm models (ISO 10068).
 
-use crate::description::{ActsOn, Description, Kind, ParameterSpec, Scope, state};
+use crate::description::{ActsOn, Description, Kind, OnMachine, ParameterSpec, Scope, state};
 use crate::law::{Deflection, Instant, Law};
 use crate::numeric::number::Number;
 
@@ -72,6 +72,13 @@ impl Law for SecondMass {
             excited_by: "short pulses: hard joints, fast shut-off",
             shows_as: "ringing at a second frequency, in the acceleration most",
             check: "Repeat with the elbow supported and with the arm stretched out: ringing that changes comes from the forearm; ringing that stays comes from the mounting.",
+            on_machine: Some(OnMachine {
+                summary: Some(
+                    "What the spring stands on gives way too: a second mass on a second spring.",
+                ),
+                shows_as: None,
+                check: "Tap the rig and its base and compare the ringing; clamp the base more firmly and repeat: ringing that changes comes from there.",
+            }),
             valid_for: "pulses short enough to reach the second resonance, sqrt(k2 / m2); to slower motion only k and c seem other; any amplitude",
             source: "two-degree-of-freedom hand-arm models (ISO 10068)",
         }

@@ -75,6 +75,7 @@ impl Law for SecondMode {
             excited_by: "torque with power near the frequency of the mode: sweeps, steps, noise",
             shows_as: "ringing at a second frequency that the torque excites at once, or a dip between two resonances",
             check: "Tap the rig beside the sensor and at the drive and compare the ringing; clamp the sensor nearer to the drive and repeat.",
+            on_machine: None,
             valid_for: "small bending and one further mode; torque and sensor at the same places throughout; any amplitude",
             source: "modal superposition with residues of either sign (Ewins, Modal Testing)",
         }

@@ -57,6 +57,7 @@ impl Law for StretchReflex {
             excited_by: "pulses shorter than the delay, and a window much longer",
             shows_as: "misfit that starts a fixed 20 to 120 ms after the motion and repeats it",
             check: "Ask the operator to stay relaxed, then to resist: a reflex begins the same short time after the pulse and changes in size only.",
+            on_machine: None,
             valid_for: "pulses shorter than tau in windows much longer; for slower motion it is a spring; any amplitude, a fixed delay",
             source: "stretch reflex latencies of the arm",
         }

@@ -9,7 +9,7 @@
 //!
 //! Source: Stribeck (1902); Armstrong-Hélouvry, Dupont & Canudas de Wit (1994), with exponent 2.
 
-use crate::description::{ActsOn, Description, Kind, ParameterSpec, Scope, state};
+use crate::description::{ActsOn, Description, Kind, OnMachine, ParameterSpec, Scope, state};
 use crate::law::{Instant, Law};
 use crate::numeric::number::Number;
 
@@ -71,6 +71,11 @@ impl Law for StribeckFriction {
             excited_by: "motion that is slow for a while: reversals, weak pulses, slow drives",
             shows_as: "misfit that steps at every reversal and fades as the speed grows",
             check: "Pull the handle by hand with a spring scale, first very slowly, then faster, with the tool off: friction that sticks pulls hardest when slow; grease and seals change it.",
+            on_machine: Some(OnMachine {
+                summary: None,
+                shows_as: None,
+                check: "Pull the moving part with a spring scale with the power off, first very slowly, then faster: friction that sticks pulls hardest when slow; grease and seals change it.",
+            }),
             valid_for: "v_s well above 0.01 m/s, below which it is a damper and nothing sticks",
             source: "Stribeck 1902; Armstrong-Helouvry, Dupont & Canudas de Wit 1994",
         }

@@ -43,6 +43,7 @@ impl Law for TorqueDelay {
             excited_by: "fast torque changes: shut-off, hard joints",
             shows_as: "misfit that follows dT/dt",
             check: "Feed one pulse to both channels and compare their edges; look for different filters or acquisition cards.",
+            on_machine: None,
             valid_for: "a delay that is the same at all frequencies, torque sampled finely enough to be known between samples; any amplitude",
             source: "channel timing",
         }

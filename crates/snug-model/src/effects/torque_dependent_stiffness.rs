@@ -7,7 +7,7 @@
 //!
 //! Source: grip force, and stiffness with it, rises with the load.
 
-use crate::description::{ActsOn, Description, Kind, ParameterSpec, Scope, state};
+use crate::description::{ActsOn, Description, Kind, OnMachine, ParameterSpec, Scope, state};
 use crate::law::{Instant, Law};
 use crate::numeric::number::Number;
 
@@ -42,6 +42,13 @@ impl Law for TorqueDependentStiffness {
             excited_by: "displacement while torque acts: soft joints, high target torque",
             shows_as: "misfit in proportion to torque times displacement: none after shut-off",
             check: "Tighten at several target torques with the grip force recorded: if the hand stiffens with torque, grip force and torque rise together.",
+            on_machine: Some(OnMachine {
+                summary: Some("The spring is stiffer while the drive pulls."),
+                shows_as: Some(
+                    "misfit in proportion to input times displacement: none where nothing drives",
+                ),
+                check: "Deflect the rig by the same way at a small and a large input and compare the fitted stiffness: gears and couplings that are wound up stiffen.",
+            }),
             valid_for: "kappa abs(T) > -1; the hand follows the torque at once, without a reaction time",
             source: "grip force rises with load",
         }

@@ -43,6 +43,7 @@ impl Law for TorqueLag {
             excited_by: "fast torque changes: shut-off, hard joints",
             shows_as: "misfit that follows dT/dt",
             check: "Look up the low-pass filter of the torque channel, and compare its step response with the acceleration channel's.",
+            on_machine: None,
             valid_for: "filters of first order, torque that changes over more than a few samples; any amplitude",
             source: "low-pass filter of the torque channel",
         }

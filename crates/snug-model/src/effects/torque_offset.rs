@@ -42,6 +42,7 @@ impl Law for TorqueOffset {
             excited_by: "nothing: it is there at rest",
             shows_as: "a small free oscillation from the first sample on, around a constant angle",
             check: "Read the torque sensor with no load, before and after the run: it must show zero.",
+            on_machine: None,
             valid_for: "a zero that does not drift within a tightening",
             source: "sensor zero offset",
         }

@@ -14,7 +14,7 @@
 //!
 //! Source: cogging and ripple torque of drives, transmission error of gears: periodic in position.
 
-use crate::description::{ActsOn, Description, Kind, ParameterSpec, Scope, state};
+use crate::description::{ActsOn, Description, Kind, OnMachine, ParameterSpec, Scope, state};
 use crate::law::{Instant, Law};
 use crate::numeric::number::Number;
 use std::f64::consts::TAU;
@@ -74,6 +74,13 @@ impl Law for TorqueRipple {
             excited_by: "travel over several wavelengths: high targets, a soft grip, a drive that turns",
             shows_as: "a ripple in the acceleration whose frequency goes with the speed, at the same places in every tightening",
             check: "Turn the tool slowly by hand with the power off and feel for notches; count the teeth, slots or balls that pass in one turn.",
+            on_machine: Some(OnMachine {
+                summary: None,
+                shows_as: Some(
+                    "a ripple in the acceleration whose frequency goes with the speed, at the same places in every recording",
+                ),
+                check: "Turn the rig slowly with the power off and feel for notches; count the teeth, slots or balls that pass in one turn.",
+            }),
             valid_for: "travel of a wavelength or two at least, over less it is a curved spring; four samples per wavelength passed",
             source: "cogging and ripple torque of drives, transmission error of gears",
         }

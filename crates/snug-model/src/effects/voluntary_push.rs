@@ -47,6 +47,7 @@ impl Law for VoluntaryPush {
             excited_by: "nothing: it comes with the person",
             shows_as: "misfit that is one-sided, comes late and stays",
             check: "Let somebody else start the tool so that the operator does not know when: a push on purpose then comes later or not at all.",
+            on_machine: None,
             valid_for: "one push per tightening that then stays, in windows that last beyond t_on; whatever the motion",
             source: "voluntary reaction times",
         }

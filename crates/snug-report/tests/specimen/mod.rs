@@ -5,6 +5,7 @@ mod oscillator;
 mod summary;
 
 use oscillator::{Noise, Oscillator};
+use snug_campaign::words::vocabulary::Vocabulary;
 use snug_campaign::{
     CampaignResult, Conditions, Correction, Estimate, Finding, FitMeasures, FitStatus,
     Identifiability, Interval, NoiseFloor, NoiseSource, ParameterEstimate, ParameterMeaning,
@@ -34,6 +35,7 @@ pub fn campaign(count: usize) -> CampaignResult {
         preset: "snug".into(),
         fitted_output: "acceleration".into(),
         units: SignalUnits::default(),
+        vocabulary: Vocabulary::Hand,
         effects: vec!["cubic_stiffness".into()],
         meanings: vec![ParameterMeaning {
             name: "k3_n_per_m3".into(),
