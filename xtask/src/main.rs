@@ -4,6 +4,7 @@
 
 mod arguments;
 mod diagnosis_summary;
+mod estimates;
 mod logging;
 mod progress;
 mod signals;

@@ -1,5 +1,6 @@
 //! Units for display, for rigs whose input is a voltage or whose output is a length of the grip.
 
+use crate::Quantity;
 use serde::{Deserialize, Serialize};
 
 /// In which units a rig's input and output are shown; results themselves stay in SI units about the joint.
@@ -36,5 +37,30 @@ impl SignalUnits {
     /// Whether signals stand for an angle or a length, so that mass, damping and stiffness have their usual units.
     pub fn mechanical(&self) -> bool {
         matches!(self.input.as_str(), "Nm" | "N") && matches!(self.output.as_str(), "rad" | "m")
+    }
+
+    /// Unit of a motion: `rad/s²`, `m/s²`, `V/s²`.
+    pub fn motion(&self, quantity: Quantity) -> String {
+        let output = &self.output;
+        match quantity {
+            Quantity::Displacement => output.clone(),
+            Quantity::Velocity => format!("{output}/s"),
+            Quantity::Acceleration => format!("{output}/s²"),
+        }
+    }
+
+    /// Unit of m, c or k, by its column, where input or output are no mechanical quantities: input per output's derivative.
+    pub fn base_parameter(&self, column: &str) -> Option<String> {
+        let quantity = match column {
+            "mass_kg" => Quantity::Acceleration,
+            "damping_kg_per_s" => Quantity::Velocity,
+            "stiffness_n_per_m" => Quantity::Displacement,
+            _ => return None,
+        };
+        let output = self.motion(quantity);
+        (!self.mechanical()).then(|| match output.contains('/') {
+            true => format!("{}/({output})", self.input),
+            false => format!("{}/{output}", self.input),
+        })
     }
 }

@@ -66,7 +66,9 @@ fn as_declared(column: &str, result: &CampaignResult) -> QuantityName {
         return QuantityName {
             words: (*words).into(),
             symbol,
-            unit: signal_unit::base_parameter(&result.units, column)
+            unit: result
+                .units
+                .base_parameter(column)
                 .unwrap_or_else(|| (*unit).into()),
         };
     }

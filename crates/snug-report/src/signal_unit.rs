@@ -2,16 +2,6 @@
 
 use snug_campaign::{Quantity, SignalUnits};
 
-/// Unit of a motion: `rad/s²`, `m/s²`, `V/s²`.
-pub fn motion(units: &SignalUnits, quantity: Quantity) -> String {
-    let output = &units.output;
-    match quantity {
-        Quantity::Displacement => output.clone(),
-        Quantity::Velocity => format!("{output}/s"),
-        Quantity::Acceleration => format!("{output}/s²"),
-    }
-}
-
 /// Words, symbol and unit of a motion, for an axis: `angle θ [rad]`, `displacement [V]`.
 pub fn motion_axis(units: &SignalUnits, quantity: Quantity) -> String {
     let name = match (quantity, units.output.as_str()) {
@@ -25,22 +15,7 @@ pub fn motion_axis(units: &SignalUnits, quantity: Quantity) -> String {
         (Quantity::Acceleration, "m") => "acceleration of the grip",
         (Quantity::Acceleration, _) => "output's second derivative",
     };
-    format!("{name} [{}]", motion(units, quantity))
-}
-
-/// Unit of m, c or k where input or output are no mechanical quantities: input per output's derivative.
-pub fn base_parameter(units: &SignalUnits, column: &str) -> Option<String> {
-    let quantity = match column {
-        "mass_kg" => Quantity::Acceleration,
-        "damping_kg_per_s" => Quantity::Velocity,
-        "stiffness_n_per_m" => Quantity::Displacement,
-        _ => return None,
-    };
-    let output = motion(units, quantity);
-    (!units.mechanical()).then(|| match output.contains('/') {
-        true => format!("{}/({output})", units.input),
-        false => format!("{}/{output}", units.input),
-    })
+    format!("{name} [{}]", units.motion(quantity))
 }
 
 /// An effect parameter's unit with the declared input and output in place of Nm and rad.
@@ -71,17 +46,14 @@ mod tests {
     fn volts_are_never_called_radians() {
         let volts = units("V", "V");
         assert_eq!(motion_axis(&volts, Quantity::Displacement), "output [V]");
-        assert_eq!(motion(&volts, Quantity::Acceleration), "V/s²");
+        assert_eq!(volts.motion(Quantity::Acceleration), "V/s²");
+        assert_eq!(volts.base_parameter("mass_kg").as_deref(), Some("V/(V/s²)"));
         assert_eq!(
-            base_parameter(&volts, "mass_kg").as_deref(),
-            Some("V/(V/s²)")
-        );
-        assert_eq!(
-            base_parameter(&volts, "stiffness_n_per_m").as_deref(),
+            volts.base_parameter("stiffness_n_per_m").as_deref(),
             Some("V/V")
         );
         assert_eq!(effect_parameter(&volts, "rad".into()), "V");
-        assert_eq!(base_parameter(&SignalUnits::default(), "mass_kg"), None);
+        assert_eq!(SignalUnits::default().base_parameter("mass_kg"), None);
         assert_eq!(
             effect_parameter(&SignalUnits::default(), "rad".into()),
             "rad"

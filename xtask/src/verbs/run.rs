@@ -4,7 +4,7 @@ use crate::arguments::{PresetName, RunOptions};
 use crate::diagnosis_summary::Following;
 use crate::progress::Progress;
 use crate::terminal::complain;
-use crate::{diagnosis_summary, exit, signals, summary, terminal, workspace};
+use crate::{diagnosis_summary, estimates, exit, signals, summary, terminal, workspace};
 use snug_study::{Outcome, Preset, ProgressEvent, RunSettings, Study, StudyError};
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -108,6 +108,7 @@ fn told(outcome: &Outcome, options: &RunOptions, next: &str) -> String {
         }
         None => vocabulary.says(&summary::of_run(outcome)),
     };
+    text.push_str(&estimates::of(&outcome.result));
     text.push_str(&summary::of_results(outcome));
     text
 }

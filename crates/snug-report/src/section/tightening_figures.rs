@@ -5,7 +5,6 @@ use crate::curves::{Curves, STILL_POINTS, embedded};
 use crate::number::{between, rounded, short, significant};
 use crate::outcome::outcome_words;
 use crate::quantity;
-use crate::signal_unit;
 use crate::traces_json::{Example, Panel, examples, panels, residual_quantity};
 use maud::{Markup, PreEscaped, html};
 use serde_json::{Value, json};
@@ -129,7 +128,7 @@ fn note(example: &Example, tightening: &TighteningResult, result: &CampaignResul
         text += &format!(
             " Noise of the fitted output: standard deviation {} {}.",
             significant(noise.standard_deviation * result.units.output_per_rad, 3),
-            signal_unit::motion(&result.units, noise.quantity)
+            result.units.motion(noise.quantity)
         );
     }
     text
