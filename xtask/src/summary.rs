@@ -208,10 +208,17 @@ fn validation(text: &mut String, result: &CampaignResult) {
     let kept = |t: &&TighteningResult| t.selection.rejections.contains(&Rejection::Validation);
     for tightening in result.tightenings.iter().filter(kept) {
         if let Some(rms) = tightening.measures.rms_displacement_rad {
+            let fit = tightening.measures.fit_percent_fitted_output;
+            let fit = fit.map_or_else(String::new, |fit| {
+                format!(
+                    "; fit of the {} {fit:.1} % in a free run",
+                    result.fitted_output
+                )
+            });
             line(
                 text,
                 format_args!(
-                    "  validation {}: rms residual of the displacement {} {}",
+                    "  validation {}: rms residual of the displacement {} {}{fit}",
                     tightening.id,
                     four_digits(rms * result.units.output_per_rad),
                     result.units.output
