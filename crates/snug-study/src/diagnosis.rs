@@ -125,9 +125,13 @@ fn nothing_to_compare(
     interrupted: &AtomicBool,
 ) -> Result<Outcome, StudyError> {
     let outcome = run_with(Task::of(study), workplace, settings, progress, interrupted)?;
-    match outcome.result.tightenings.len() {
-        0 => Ok(outcome),
-        tightenings => Err(DiagnoseError::NothingToCompare {
+    match (
+        outcome.result.tightenings.len(),
+        outcome.nothing_identified(),
+    ) {
+        // The outcome says of the first why it could not be used.
+        (0, _) | (_, Some(_)) => Ok(outcome),
+        (tightenings, None) => Err(DiagnoseError::NothingToCompare {
             tightenings,
             reason: "each is faulty or kept for validation; findings.json says why",
         }

@@ -19,6 +19,7 @@ use snug_campaign::{
 use snug_files::{Disk, Host};
 use snug_ingest::Listing;
 use snug_model::{BASE_PARAMETERS, Law, Model, Scale};
+use snug_preprocess::Window;
 use snug_record::Recorder;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -413,9 +414,11 @@ impl Collected {
 
 /// Whether the results are told of a hand or of a machine, and whether that turns or slides.
 fn vocabulary(study: &Study, units: &SignalUnits) -> Vocabulary {
-    match study.model.scale {
-        Scale::Rig { .. } => Vocabulary::of_machine(units, study.preprocess.rig.lever_arm_m),
-        _ => Vocabulary::Hand,
+    let is_settled = matches!(study.model.scale, Scale::Rig { .. });
+    let is_open = study.model.scale == Scale::Automatic && study.preprocess.window == Window::Whole;
+    match is_settled || is_open {
+        true => Vocabulary::of_machine(units, study.preprocess.rig.lever_arm_m),
+        false => Vocabulary::Hand,
     }
 }
 

@@ -109,7 +109,7 @@ fn told(outcome: &Outcome, options: &RunOptions, next: &str) -> String {
         None => vocabulary.says(&summary::of_run(outcome)),
     };
     text.push_str(&estimates::of(&outcome.result));
-    text.push_str(&summary::of_results(outcome));
+    text.push_str(&vocabulary.says(&summary::of_results(outcome)));
     text
 }
 
@@ -120,7 +120,7 @@ fn exit_code(outcome: &Outcome, strict: bool, is_time_up: bool) -> ExitCode {
     if is_cut && !is_time_up {
         exit::interrupted()
     } else if let Some(why) = outcome.nothing_identified() {
-        complain(&why);
+        complain(&outcome.result.vocabulary.says(&why));
         exit::failed()
     } else if strict && outcome.left_out > 0 {
         exit::left_out()
