@@ -11,6 +11,8 @@ mod pipeline;
 mod study;
 
 use crate::mutation::Mutation;
+use snug_ingest::Source;
+use snug_study::Study;
 use std::path::Path;
 
 /// Something that reads a stranger's bytes.
@@ -37,3 +39,20 @@ pub const TARGETS: &[Target] = &[
     expression::TARGET,
     pipeline::TARGET,
 ];
+
+/// Length of the lever arm \[m\], by which lengths become angles.
+const LEVER_ARM_M: f64 = 0.33;
+
+/// The source of a study that declares this format.
+fn source(format: &str) -> Source {
+    let text = format!("(source: (format: {format}))");
+    Study::parse(&text, Path::new("study.ron")).unwrap().source
+}
+
+/// Looks at a file of which nothing is declared, and reads it in every declared way.
+fn look_and_read(file: &Path, declared: &[Source]) {
+    let _ = snug_ingest::survey::survey(file);
+    for source in declared {
+        let _ = snug_ingest::read(source, file, LEVER_ARM_M);
+    }
+}

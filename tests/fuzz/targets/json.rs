@@ -1,9 +1,8 @@
 //! JSON with declared paths.
 
-use super::Target;
+use super::{Target, look_and_read, source};
 use crate::mutation::Mutation;
 use snug_ingest::Source;
-use snug_study::Study;
 use std::path::Path;
 use std::sync::LazyLock;
 
@@ -21,15 +20,9 @@ static SOURCES: LazyLock<[Source; 3]> = LazyLock::new(|| {
         r#"Json(channels: [(path: "data", part: Column(1), signal: Force, unit: Newton), (path: "data", part: Column(0), signal: Velocity, unit: MetrePerSecond)], sampling: Rate(hz: 100.0))"#,
         r#"Json(channels: [(path: "samples[].t", signal: Torque, unit: NewtonMetre), (path: "samples[].w", signal: Velocity, unit: RadianPerSecond)], sampling: RateAt(path: "fs"))"#,
     ]
-    .map(|format| {
-        let text = format!("(source: (format: {format}))");
-        Study::parse(&text, Path::new("study.ron")).unwrap().source
-    })
+    .map(source)
 });
 
 fn attempt(file: &Path, _: &[u8]) {
-    let _ = snug_ingest::survey::survey(file);
-    for source in SOURCES.iter() {
-        let _ = snug_ingest::read(source, file, 0.33);
-    }
+    look_and_read(file, SOURCES.as_slice());
 }

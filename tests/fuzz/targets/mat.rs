@@ -1,9 +1,8 @@
 //! MAT files of every level, as a tree and in the layout of the thesis.
 
-use super::Target;
+use super::{LEVER_ARM_M, Target, look_and_read, source};
 use crate::mutation::Mutation;
 use snug_ingest::{Source, mat::MatFile};
-use snug_study::Study;
 use std::path::Path;
 use std::sync::LazyLock;
 
@@ -22,7 +21,8 @@ const fn level(name: &'static str) -> Target {
 
 /// Variables that the inputs hold, declared in every way: a sparse one, a field, a row and a column.
 static DECLARED: LazyLock<Source> = LazyLock::new(|| {
-    let text = r#"(source: (format: Mat(
+    source(
+        r#"Mat(
         channels: [
             (path: "Inline_Torque", signal: Torque, unit: NewtonMetre),
             (path: "angle_acc_Acc_FIR150", part: Column(0), signal: Acceleration, unit: RadianPerSecondSquared),
@@ -31,12 +31,9 @@ static DECLARED: LazyLock<Source> = LazyLock::new(|| {
             (path: "c[]", signal: GripForce, unit: Newton),
         ],
         sampling: Rate(hz: 1000.0),
-    )))"#;
-    Study::parse(text, Path::new("study.ron")).unwrap().source
+    )"#,
+    )
 });
-
-/// Length of the lever arm \[m\], by which lengths become angles.
-const LEVER_ARM_M: f64 = 0.33;
 
 pub fn attempt(file: &Path, input: &[u8]) {
     if let Ok(read) = MatFile::from_bytes(input.to_vec()) {
@@ -45,8 +42,7 @@ pub fn attempt(file: &Path, input: &[u8]) {
             let _ = (value.to_f64(), value.text(), value.rows(), value.describe());
         }
     }
-    let _ = snug_ingest::survey::survey(file);
-    let _ = snug_ingest::read(&DECLARED, file, LEVER_ARM_M);
+    look_and_read(file, std::slice::from_ref(&DECLARED));
     if let Ok(read) = snug_ingest::read(&Source::default(), file, LEVER_ARM_M) {
         for recording in read.recordings {
             assert!(!recording.torque_nm.is_empty());

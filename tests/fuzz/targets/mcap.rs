@@ -1,6 +1,6 @@
 //! Recordings: Snug's own and the numbers of any other; and what makes a cut one whole.
 
-use super::Target;
+use super::{LEVER_ARM_M, Target};
 use crate::mutation::Mutation;
 use snug_ingest::Source;
 use std::path::Path;
@@ -13,7 +13,7 @@ pub const TARGET: Target = Target {
 };
 
 pub fn attempt(file: &Path, input: &[u8]) {
-    let _ = snug_ingest::read(&Source::default(), file, 0.33);
+    let _ = snug_ingest::read(&Source::default(), file, LEVER_ARM_M);
     let _ = snug_record::read::numeric_channels(input);
     let mut whole = Vec::new();
     if let Ok(recovery) = snug_record::recover(input, &mut whole) {

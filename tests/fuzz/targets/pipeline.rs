@@ -1,6 +1,6 @@
 //! A whole run on one measurement file whose numbers and events are changed: what is odd is a finding.
 
-use super::Target;
+use super::{LEVER_ARM_M, Target};
 use crate::mutation::Mutation;
 use rand::Rng;
 use rand::seq::IndexedRandom;
@@ -29,7 +29,7 @@ static GOOD: LazyLock<Good> = LazyLock::new(|| {
     let file =
         Path::new(env!("CARGO_MANIFEST_DIR")).join("../fixtures/campaign/TP1_QS_Soft_5_01.mat");
     let source = Study::default().source;
-    let recording = snug_ingest::read(&source, &file, 0.33)
+    let recording = snug_ingest::read(&source, &file, LEVER_ARM_M)
         .unwrap()
         .recordings
         .remove(0);
