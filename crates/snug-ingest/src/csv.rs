@@ -114,13 +114,9 @@ pub enum Sampling {
         #[serde(default)]
         unit: TimeUnit,
         /// How far a sample may lie from the uniform grid, in intervals, before all are interpolated. Default 0.1.
-        #[serde(default = "default_tolerance_ratio")]
+        #[serde(default = "sampling::default_tolerance_ratio")]
         tolerance_ratio: f64,
     },
-}
-
-pub(crate) fn default_tolerance_ratio() -> f64 {
-    0.1
 }
 
 impl Default for Sampling {
@@ -128,7 +124,7 @@ impl Default for Sampling {
         Self::TimeColumn {
             column: Column::Name("time".to_owned()),
             unit: TimeUnit::default(),
-            tolerance_ratio: default_tolerance_ratio(),
+            tolerance_ratio: sampling::default_tolerance_ratio(),
         }
     }
 }
@@ -149,7 +145,8 @@ pub enum TimeUnit {
 }
 
 impl TimeUnit {
-    pub(crate) fn seconds(self) -> f64 {
+    /// How long it is \[s\].
+    pub fn seconds(self) -> f64 {
         match self {
             Self::Second => 1.0,
             Self::Millisecond => 1e-3,
@@ -173,9 +170,7 @@ impl Layout for CsvLayout {
                 tolerance_ratio, ..
             } => ("sampling.tolerance_ratio", *tolerance_ratio),
         };
-        if !(value.is_finite() && value > 0.0) {
-            return Err(IngestError::setting(field, value, "a positive number"));
-        }
+        layout::check_positive(field, value)?;
         if let Some(comment) = self.comment.filter(|comment| !comment.is_ascii()) {
             return Err(IngestError::setting(
                 "comment",
@@ -202,7 +197,7 @@ impl Layout for CsvLayout {
         lever_arm_m: f64,
         budget: &Budget,
     ) -> Result<Ingested, IngestError> {
-        let content = layout::content(input, budget, layout::check_text)?;
+        let content = layout::text(input, budget)?;
         if content.trim_ascii().is_empty() {
             return Err(IngestError::EmptyFile);
         }

@@ -10,9 +10,9 @@ pub use place::Part;
 pub(crate) use path::{DataPath, Segment, joined};
 pub(crate) use place::{Block, Order};
 
-use crate::csv::{TimeUnit, default_tolerance_ratio};
+use crate::csv::TimeUnit;
 use crate::finding_log::{About, FindingLog};
-use crate::layout::{self, Channel};
+use crate::layout::{self, Channel, Layout};
 use crate::memory::Budget;
 use crate::range::{self, Range};
 use crate::sampling::{self, Timed};
@@ -20,6 +20,7 @@ use crate::signal::{self, Signal, Unit};
 use crate::{ConditionPattern, IngestError, Ingested};
 use serde::{Deserialize, Serialize};
 use snug_campaign::TimeBase;
+use snug_files::Input;
 use std::path::Path;
 
 /// Which places of a file are which signals. One file is one recording.
@@ -81,7 +82,7 @@ pub enum DeclaredSampling {
         #[serde(default)]
         unit: TimeUnit,
         /// How far a sample may lie from the uniform grid, in intervals, before all are interpolated. Default 0.1.
-        #[serde(default = "default_tolerance_ratio")]
+        #[serde(default = "sampling::default_tolerance_ratio")]
         tolerance_ratio: f64,
     },
 }
@@ -92,7 +93,7 @@ impl Default for DeclaredSampling {
             path: "time".to_owned(),
             part: Part::default(),
             unit: TimeUnit::default(),
-            tolerance_ratio: default_tolerance_ratio(),
+            tolerance_ratio: sampling::default_tolerance_ratio(),
         }
     }
 }
@@ -107,10 +108,71 @@ pub(crate) struct Wanted {
 }
 
 /// What reading the places gave, in the order of [`DeclaredLayout::wanted`].
-pub(crate) type Found = Vec<Result<Vec<f64>, IngestError>>;
+type Found = Vec<Result<Vec<f64>, IngestError>>;
+
+/// A format that holds numbers at named places: what it has to say and do beyond its places to be a [`Layout`].
+trait Places {
+    /// As [`Layout::endings`].
+    const ENDINGS: &[&str];
+
+    /// The places.
+    fn places(&self) -> &DeclaredLayout;
+
+    /// Checks a path for what this format does not know.
+    ///
+    /// # Errors
+    /// [`IngestError::Setting`] naming the path.
+    fn check_path(_: &DataPath) -> Result<(), IngestError> {
+        Ok(())
+    }
+
+    /// Reads the wanted places.
+    ///
+    /// # Errors
+    /// As [`Layout::read`].
+    fn find(
+        wanted: &[Wanted],
+        input: &mut dyn Input,
+        budget: &Budget,
+        log: &mut FindingLog,
+    ) -> Result<Found, IngestError>;
+}
+
+impl<P: Places> Layout for P {
+    fn endings(&self) -> &'static [&'static str] {
+        P::ENDINGS
+    }
+
+    fn check(&self) -> Result<(), IngestError> {
+        self.places().check()?;
+        let wanted = self.places().wanted();
+        wanted.iter().try_for_each(|one| P::check_path(&one.path))
+    }
+
+    fn ranges(&self) -> &[Range] {
+        &self.places().ranges
+    }
+
+    fn declared(&self) -> Vec<(Signal, Unit, f64)> {
+        self.places().declared()
+    }
+
+    fn read(
+        &self,
+        input: &mut dyn Input,
+        path: &Path,
+        lever_arm_m: f64,
+        budget: &Budget,
+    ) -> Result<Ingested, IngestError> {
+        let mut log = FindingLog::new(path);
+        let places = self.places();
+        let found = P::find(&places.wanted(), input, budget, &mut log)?;
+        places.recording(found, path, lever_arm_m, budget, log)
+    }
+}
 
 impl DeclaredLayout {
-    pub(crate) fn check(&self) -> Result<(), IngestError> {
+    fn check(&self) -> Result<(), IngestError> {
         signal::check(&self.declared())?;
         range::check(&self.ranges)?;
         let (field, value) = match &self.sampling {
@@ -120,9 +182,7 @@ impl DeclaredLayout {
                 tolerance_ratio, ..
             } => ("sampling.tolerance_ratio", *tolerance_ratio),
         };
-        if !(value.is_finite() && value > 0.0) {
-            return Err(IngestError::setting(field, value, "a positive number"));
-        }
+        layout::check_positive(field, value)?;
         let channels = self.channels.iter();
         let paths = channels.map(|channel| ("channels.path", channel.path.as_str()));
         for (field, path) in paths.chain(self.sampling_path()) {
@@ -135,7 +195,7 @@ impl DeclaredLayout {
         Ok(())
     }
 
-    pub(crate) fn declared(&self) -> Vec<(Signal, Unit, f64)> {
+    fn declared(&self) -> Vec<(Signal, Unit, f64)> {
         let channels = self.channels.iter();
         channels.map(|c| (c.signal, c.unit, c.scale)).collect()
     }
@@ -150,7 +210,7 @@ impl DeclaredLayout {
     }
 
     /// The places to read: of the channels, then of times or rate where the file has them.
-    pub(crate) fn wanted(&self) -> Vec<Wanted> {
+    fn wanted(&self) -> Vec<Wanted> {
         let wanted = |what: String, path: &str, part: Part| {
             DataPath::parse(path).map(|path| Wanted { what, path, part })
         };
@@ -172,7 +232,7 @@ impl DeclaredLayout {
     ///
     /// # Errors
     /// The reason why the input, the times or the last of the motions cannot be read.
-    pub(crate) fn recording(
+    fn recording(
         &self,
         mut found: Found,
         path: &Path,

@@ -46,6 +46,17 @@ pub(crate) trait Layout {
     ) -> Result<Ingested, IngestError>;
 }
 
+/// Checks a setting that is a positive number.
+///
+/// # Errors
+/// [`IngestError::Setting`].
+pub(crate) fn check_positive(field: &'static str, value: f64) -> Result<(), IngestError> {
+    match value.is_finite() && value > 0.0 {
+        true => Ok(()),
+        false => Err(IngestError::setting(field, value, "a positive number")),
+    }
+}
+
 /// Bytes at the start of a file by which it is judged.
 pub(crate) const FIRST_BLOCK_BYTES: usize = 1 << 16;
 
@@ -75,8 +86,17 @@ pub(crate) fn content(
     Ok(content)
 }
 
+/// The whole content of a text file, without the mark that some programs put before UTF-8.
+pub(crate) fn text(input: &mut dyn Input, budget: &Budget) -> Result<Vec<u8>, IngestError> {
+    let mut content = content(input, budget, check_text)?;
+    if content.starts_with(b"\xEF\xBB\xBF") {
+        content.drain(..3);
+    }
+    Ok(content)
+}
+
 /// Whether the start of a file can be text: UTF-16, and whatever a broken disk leaves, has zero bytes.
-pub(crate) fn check_text(start: &[u8]) -> Result<(), IngestError> {
+fn check_text(start: &[u8]) -> Result<(), IngestError> {
     match start.iter().position(|&byte| byte == 0) {
         Some(offset) => Err(IngestError::NotText { offset }),
         None => Ok(()),

@@ -3,10 +3,10 @@
 #[cfg(feature = "mcap")]
 mod reading;
 
-use crate::csv::default_tolerance_ratio;
 use crate::layout::{self, Layout};
 use crate::memory::Budget;
 use crate::range::{self, Range};
+use crate::sampling;
 use crate::signal::{self, Signal, Unit};
 use crate::{ConditionPattern, IngestError, Ingested};
 use serde::{Deserialize, Serialize};
@@ -34,7 +34,7 @@ impl Default for McapLayout {
         Self {
             channels: Vec::new(),
             rate_hz: None,
-            tolerance_ratio: default_tolerance_ratio(),
+            tolerance_ratio: sampling::default_tolerance_ratio(),
             ranges: Vec::new(),
             conditions: None,
         }
@@ -68,16 +68,10 @@ impl Layout for McapLayout {
             signal::check(&self.declared())?;
         }
         range::check(&self.ranges)?;
-        for (field, value) in [
-            ("rate_hz", self.rate_hz),
-            ("tolerance_ratio", Some(self.tolerance_ratio)),
-        ] {
-            if value.is_some_and(|value| !(value.is_finite() && value > 0.0)) {
-                let value = value.unwrap_or_default();
-                return Err(IngestError::setting(field, value, "a positive number"));
-            }
+        if let Some(rate_hz) = self.rate_hz {
+            layout::check_positive("rate_hz", rate_hz)?;
         }
-        Ok(())
+        layout::check_positive("tolerance_ratio", self.tolerance_ratio)
     }
 
     fn ranges(&self) -> &[Range] {

@@ -8,6 +8,11 @@ use snug_campaign::TimeBase;
 /// A filled record may have this many times the measured samples.
 const LARGEST_FILL: f64 = 20.0;
 
+/// How far a sample may lie from the uniform grid, in intervals, where a study says nothing.
+pub(crate) fn default_tolerance_ratio() -> f64 {
+    0.1
+}
+
 /// Samples of several channels at common, measured times.
 pub(crate) struct Timed<'a> {
     /// Times \[s\], as measured.

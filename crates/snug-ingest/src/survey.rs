@@ -18,6 +18,9 @@ const FEWEST_SAMPLES: usize = 16;
 /// Rows or columns of a table that are looked at one by one at most.
 const MOST_COLUMNS: usize = 64;
 
+/// Elements of a list, a cell or a struct array that are looked into, where they are no samples.
+const MOST_ELEMENTS: usize = 4;
+
 /// What a file is written in, by its ending.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]

@@ -3,7 +3,7 @@
 mod events;
 
 use crate::finding_log::{About, FindingLog};
-use crate::layout::{Layout, name_and_stem};
+use crate::layout::{self, Layout, name_and_stem};
 use crate::mat::{self, Content, MatSelection, Value};
 use crate::mcap::McapLayout;
 use crate::memory::Budget;
@@ -64,10 +64,7 @@ impl Layout for ThesisLayout {
     }
 
     fn check(&self) -> Result<(), IngestError> {
-        if !(self.sample_rate_hz.is_finite() && self.sample_rate_hz > 0.0) {
-            let (rate, allowed) = (self.sample_rate_hz, "a positive number");
-            return Err(IngestError::setting("sample_rate_hz", rate, allowed));
-        }
+        layout::check_positive("sample_rate_hz", self.sample_rate_hz)?;
         for (field, names) in [
             ("acceleration", &self.acceleration),
             ("torque", &self.torque),

@@ -62,7 +62,6 @@ pub(super) fn read(
     budget: &Budget,
     log: &mut FindingLog,
 ) -> Result<Table, IngestError> {
-    let content = content.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(content);
     let mut rows = Rows::new(content, layout);
     let mut row = rows.next()?;
     let header = has_header(layout.header, wanted, row.as_ref(), layout);

@@ -4,17 +4,14 @@
 
 mod walk;
 
-use super::DeclaredLayout;
+use super::{DeclaredLayout, Found, Places, Wanted};
+use crate::IngestError;
 use crate::finding_log::{About, FindingLog};
-use crate::layout::{self, Layout};
+use crate::layout;
 use crate::memory::Budget;
-use crate::range::Range;
-use crate::signal::{Signal, Unit};
-use crate::{IngestError, Ingested};
 use serde::de::DeserializeSeed as _;
 use serde::{Deserialize, Serialize};
 use snug_files::Input;
-use std::path::Path;
 use walk::{Search, Walk};
 
 /// Which values of a JSON file are which signals.
@@ -25,37 +22,24 @@ pub struct JsonLayout(
     pub DeclaredLayout,
 );
 
-impl Layout for JsonLayout {
-    fn endings(&self) -> &'static [&'static str] {
-        &["json"]
+impl Places for JsonLayout {
+    const ENDINGS: &[&str] = &["json"];
+
+    fn places(&self) -> &DeclaredLayout {
+        &self.0
     }
 
-    fn check(&self) -> Result<(), IngestError> {
-        self.0.check()
-    }
-
-    fn ranges(&self) -> &[Range] {
-        &self.0.ranges
-    }
-
-    fn declared(&self) -> Vec<(Signal, Unit, f64)> {
-        self.0.declared()
-    }
-
-    fn read(
-        &self,
+    fn find(
+        wanted: &[Wanted],
         input: &mut dyn Input,
-        path: &Path,
-        lever_arm_m: f64,
         budget: &Budget,
-    ) -> Result<Ingested, IngestError> {
-        let content = layout::content(input, budget, layout::check_text)?;
-        let wanted = self.0.wanted();
-        let mut log = FindingLog::new(path);
-        let search = Search::new(&wanted, budget);
+        log: &mut FindingLog,
+    ) -> Result<Found, IngestError> {
+        let content = layout::text(input, budget)?;
+        let search = Search::new(wanted, budget);
         parse(&content, &search)?;
         let mut found = Vec::new();
-        for (place, wanted) in search.finish()?.into_iter().zip(&wanted) {
+        for (place, wanted) in search.finish().into_iter().zip(wanted) {
             if place.gaps > 0 && place.gaps < place.values.len() {
                 let message = format!(
                     "{} of {} values are no numbers and are read as NaN (null, for example)",
@@ -67,13 +51,12 @@ impl Layout for JsonLayout {
             }
             found.push(place.samples(wanted, budget));
         }
-        self.0.recording(found, path, lever_arm_m, budget, log)
+        Ok(found)
     }
 }
 
 /// Walks through the content once.
 fn parse(content: &[u8], search: &Search<'_>) -> Result<(), IngestError> {
-    let content = content.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(content);
     if content.trim_ascii().is_empty() {
         return Err(IngestError::EmptyFile);
     }

@@ -1,17 +1,13 @@
 //! MAT files of any level whose variables the study declares.
 
 use super::path::joined;
-use super::{Block, DeclaredLayout, Order, Segment, Wanted};
+use super::{Block, DataPath, DeclaredLayout, Found, Order, Places, Segment, Wanted};
+use crate::IngestError;
 use crate::finding_log::{About, FindingLog};
-use crate::layout::Layout;
 use crate::mat::{self, Content, MatSelection, Sparse, Value};
 use crate::memory::Budget;
-use crate::range::Range;
-use crate::signal::{Signal, Unit};
-use crate::{IngestError, Ingested};
 use serde::{Deserialize, Serialize};
 use snug_files::Input;
-use std::path::Path;
 
 /// Which variables of a MAT file, fields of structs, rows and columns are which signals.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -21,48 +17,34 @@ pub struct MatLayout(
     pub DeclaredLayout,
 );
 
-impl Layout for MatLayout {
-    fn endings(&self) -> &'static [&'static str] {
-        &["mat"]
+impl Places for MatLayout {
+    const ENDINGS: &[&str] = &["mat"];
+
+    fn places(&self) -> &DeclaredLayout {
+        &self.0
     }
 
-    fn check(&self) -> Result<(), IngestError> {
-        self.0.check()?;
-        for wanted in self.0.wanted() {
-            let matlabs = |segment: &Segment| matches!(segment, Segment::Key(key) if key.contains(['(', '{']));
-            if wanted.path.segments.iter().any(matlabs) {
-                let allowed = "places in square brackets, counted from 0: MATLAB's run(2).torque is run[1].torque";
-                return Err(IngestError::setting("path", wanted.path, allowed));
-            }
+    fn check_path(path: &DataPath) -> Result<(), IngestError> {
+        let matlabs =
+            |segment: &Segment| matches!(segment, Segment::Key(key) if key.contains(['(', '{']));
+        if path.segments.iter().any(matlabs) {
+            let allowed = "places in square brackets, counted from 0: MATLAB's run(2).torque is run[1].torque";
+            return Err(IngestError::setting("path", path, allowed));
         }
         Ok(())
     }
 
-    fn ranges(&self) -> &[Range] {
-        &self.0.ranges
-    }
-
-    fn declared(&self) -> Vec<(Signal, Unit, f64)> {
-        self.0.declared()
-    }
-
-    fn read(
-        &self,
+    fn find(
+        wanted: &[Wanted],
         input: &mut dyn Input,
-        path: &Path,
-        lever_arm_m: f64,
         budget: &Budget,
-    ) -> Result<Ingested, IngestError> {
-        let wanted = self.0.wanted();
+        log: &mut FindingLog,
+    ) -> Result<Found, IngestError> {
         let is_wanted = |name: &str| wanted.iter().any(|one| variable(one) == Some(name));
         let file = mat::select(input, &is_wanted, budget)?;
-        let mut log = FindingLog::new(path);
-        note_copies(&file, &wanted, &mut log);
-        let found = wanted
-            .iter()
-            .map(|one| samples(&file, one, budget))
-            .collect();
-        self.0.recording(found, path, lever_arm_m, budget, log)
+        note_copies(&file, wanted, log);
+        let numbers = wanted.iter().map(|one| samples(&file, one, budget));
+        Ok(numbers.collect())
     }
 }
 

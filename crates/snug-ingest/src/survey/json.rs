@@ -1,6 +1,6 @@
 //! Lists of numbers in a JSON file.
 
-use super::{FEWEST_SAMPLES, Survey};
+use super::{FEWEST_SAMPLES, MOST_ELEMENTS, Survey};
 use crate::declared::json::syntax;
 use crate::declared::{Part, Segment, joined};
 use crate::memory::Budget;
@@ -8,17 +8,13 @@ use crate::{IngestError, layout};
 use serde_json::Value;
 use snug_files::Input;
 
-/// Elements of a list of objects that are looked into, where they are no samples.
-const MOST_ELEMENTS: usize = 4;
-
 /// Memory that a tree takes per byte of text: an object of one number, `{"":1},`, takes 670 for its 8.
 const BYTES_PER_BYTE: usize = 100;
 
 pub(super) fn survey(input: &mut dyn Input, budget: &Budget) -> Result<Survey, IngestError> {
-    let content = layout::content(input, budget, layout::check_text)?;
+    let content = layout::text(input, budget)?;
     budget.spend_on::<[u8; BYTES_PER_BYTE]>("the file as a tree", content.len())?;
-    let text = content.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(&content);
-    let tree: Value = serde_json::from_slice(text).map_err(|error| syntax(text, &error))?;
+    let tree: Value = serde_json::from_slice(&content).map_err(|error| syntax(&content, &error))?;
     let mut survey = Survey::default();
     look(&mut survey, "", &tree);
     Ok(survey)

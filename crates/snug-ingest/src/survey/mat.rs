@@ -1,14 +1,11 @@
 //! Columns of a MAT file's variables.
 
-use super::{FEWEST_SAMPLES, Survey, is_thesis};
+use super::{FEWEST_SAMPLES, MOST_ELEMENTS, Survey, is_thesis};
 use crate::IngestError;
 use crate::declared::{Part, Segment, joined};
 use crate::mat::{self, Content, Value};
 use crate::memory::Budget;
 use snug_files::Input;
-
-/// Elements of a struct array or cell that are looked into.
-const MOST_ELEMENTS: usize = 4;
 
 pub(super) fn survey(input: &mut dyn Input, budget: &Budget) -> Result<Survey, IngestError> {
     let file = mat::select(input, &|_| true, budget)?;

@@ -10,10 +10,9 @@ use snug_files::Input;
 const FULL: f64 = 0.5;
 
 pub(super) fn survey(input: &mut dyn Input, budget: &Budget) -> Result<Survey, IngestError> {
-    let content = layout::content(input, budget, layout::check_text)?;
-    let content = content.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(&content);
+    let content = layout::text(input, budget)?;
     let csv = CsvLayout::default();
-    let mut rows = Rows::new(content, &csv);
+    let mut rows = Rows::new(&content, &csv);
     let Some((_, first)) = rows.next()? else {
         return Err(IngestError::EmptyFile);
     };

@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use super::*;
+use crate::layout::Layout as _;
 use snug_campaign::{Finding, Recording};
 
 fn read(

@@ -52,8 +52,9 @@ impl<'a> Search<'a> {
         self.failure.take()
     }
 
-    pub(super) fn finish(self) -> Result<Vec<Place>, IngestError> {
-        Ok(self.places.into_inner())
+    /// What was found, in the order of what is wanted.
+    pub(super) fn finish(self) -> Vec<Place> {
+        self.places.into_inner()
     }
 
     /// Adds a number to every place that `active` says.
@@ -74,11 +75,12 @@ impl<'a> Search<'a> {
         Ok(())
     }
 
-    /// Whether its path has come to its end.
+    /// Whether the walk is where its path ends, or in a list there.
     fn is_there(&self, active: &Active) -> bool {
         active.depth == self.wanted[active.target].path.segments.len()
     }
 
+    /// The next step of its path; `None` at its end.
     fn segment(&self, active: &Active) -> Option<&Segment> {
         self.wanted[active.target].path.segments.get(active.depth)
     }

@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use super::*;
+use crate::layout::Layout as _;
 use crate::mat::{Field, MatFormat, Numbers, UnreadableVariable, Variable};
 use snug_campaign::{Finding, Recording};
 
