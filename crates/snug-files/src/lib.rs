@@ -18,7 +18,7 @@ pub use error::{FilesError, remedy};
 pub use identity::Identity;
 pub use lock::{Lock, Waiting};
 pub use results::{Exchanged, Growing, Results};
-pub use whole_file::{WholeFile, write_whole};
+pub use whole_file::{WholeFile, write_new, write_whole};
 
 #[cfg(test)]
 mod tests;

@@ -3,7 +3,7 @@
 use crate::journal::exists;
 use crate::{Disk, FilesError, Output};
 use std::ffi::OsString;
-use std::io::{self, Write};
+use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
 /// A file that is written beside its place and takes it when it is whole. Dropped before, it leaves nothing.
@@ -48,29 +48,65 @@ impl<'d> WholeFile<'d> {
     /// # Errors
     /// [`FilesError::Refused`]; what stood there stands there still.
     pub fn put(mut self) -> Result<(), FilesError> {
-        let written = self.file.take().map_or(Ok(()), |mut file| {
-            file.flush()?;
-            file.sync()
-        });
         let permissions = || match std::fs::metadata(&self.place) {
             Ok(known) => std::fs::set_permissions(&self.part, known.permissions()),
             Err(_) => Ok(()),
         };
+        end(self.file.take())
+            .and_then(|()| permissions())
+            .and_then(|()| self.disk.rename(&self.part, &self.place))
+            .map_err(FilesError::refused("write", &self.place))?;
+        self.part.clear();
+        self.sync_folder();
+        Ok(())
+    }
+
+    /// The file takes its place unless there is something already.
+    fn put_new(mut self) -> Result<(), FilesError> {
+        end(self.file.take())
+            .and_then(|()| self.claim())
+            .map_err(FilesError::refused("write", &self.place))?;
+        self.sync_folder();
+        Ok(())
+    }
+
+    /// Gives what is whole its name, which nothing may have.
+    fn claim(&mut self) -> io::Result<()> {
+        match self.disk.link(&self.part, &self.place) {
+            Err(error) if error.kind() != ErrorKind::AlreadyExists => {}
+            // The name it was written by is taken away when this is dropped.
+            done => return done,
+        }
+        // Some file systems know no second names: there an empty file holds the name for a moment.
+        drop(self.disk.create(&self.place)?);
+        match self.disk.rename(&self.part, &self.place) {
+            Ok(()) => self.part.clear(),
+            Err(error) => {
+                self.disk.remove_file(&self.place).ok();
+                return Err(error);
+            }
+        }
+        Ok(())
+    }
+
+    fn sync_folder(&self) {
         let folder = self
             .place
             .parent()
             .filter(|folder| !folder.as_os_str().is_empty());
-        written
-            .and_then(|()| permissions())
-            .and_then(|()| self.disk.rename(&self.part, &self.place))
-            .map_err(FilesError::refused("write", &self.place))?;
         // It stands; only whether it would outlast a power cut is open.
         if let Err(error) = self.disk.sync_folder(folder.unwrap_or(Path::new("."))) {
             tracing::warn!(%error, path = %self.place.display(), "the folder could not be synchronised");
         }
-        self.part.clear();
-        Ok(())
     }
+}
+
+/// All of a file is on the medium.
+fn end(file: Option<Box<dyn Output>>) -> io::Result<()> {
+    file.map_or(Ok(()), |mut file| {
+        file.flush()?;
+        file.sync()
+    })
 }
 
 impl Write for WholeFile<'_> {
@@ -104,4 +140,18 @@ pub fn write_whole(disk: &dyn Disk, path: &Path, content: &[u8]) -> Result<(), F
     file.write_all(content)
         .map_err(FilesError::refused("write", path))?;
     file.put()
+}
+
+/// Writes a file that is not there yet whole or not at all.
+///
+/// # Errors
+/// [`FilesError::Refused`], of the kind [`ErrorKind::AlreadyExists`] where something is there, which stays as it is.
+pub fn write_new(disk: &dyn Disk, path: &Path, content: &[u8]) -> Result<(), FilesError> {
+    let refused = || FilesError::refused("write", path);
+    if exists(disk, path).map_err(refused())? {
+        return Err(refused()(ErrorKind::AlreadyExists.into()));
+    }
+    let mut file = WholeFile::create(disk, path)?;
+    file.write_all(content).map_err(refused())?;
+    file.put_new()
 }

@@ -11,13 +11,14 @@ mod units;
 
 use crate::{Study, StudyError};
 use choice::Choice;
-use events::Pulse;
+use events::{Flanks, Pulse};
 use snug_campaign::Recording;
-use snug_files::{FilesError, Host, Identity, write_whole};
+use snug_files::{FilesError, Host, Identity, write_new, write_whole};
+use snug_ingest::csv::CsvLayout;
+use snug_ingest::declared::{json::JsonLayout, mat::MatLayout};
 use snug_ingest::survey::{Survey, SurveyedPlace, survey};
-use snug_ingest::{IngestError, Source};
-use std::fs::OpenOptions;
-use std::io::{ErrorKind, Write as _};
+use snug_ingest::{Format, IngestError, Source};
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 /// Files that are looked at.
@@ -94,7 +95,7 @@ pub fn draft(paths: &[PathBuf], study_file: &Path) -> Result<Draft, StudyError> 
     })
 }
 
-/// Writes a study to `study_file`; over a file that is there only where `over` says so, and then whole or not at all.
+/// Writes a study to `study_file`, whole or not at all; over a file that is there only where `over` says so.
 ///
 /// # Errors
 /// [`StudyError::StudyIsThere`], [`StudyError::Files`].
@@ -102,22 +103,14 @@ pub fn write_draft(draft: &Draft, study_file: &Path, over: bool) -> Result<(), S
     if over {
         return Ok(write_whole(&Host, study_file, draft.text.as_bytes())?);
     }
-    let refused = |source| FilesError::Refused {
-        action: "write",
-        path: study_file.to_path_buf(),
-        source,
-    };
-    let file = OpenOptions::new()
-        .write(true)
-        .create_new(true)
-        .open(study_file);
-    let mut file = file.map_err(|source| match source.kind() {
-        ErrorKind::AlreadyExists => StudyError::StudyIsThere {
-            path: study_file.to_path_buf(),
-        },
-        _ => refused(source).into(),
-    })?;
-    Ok(file.write_all(draft.text.as_bytes()).map_err(refused)?)
+    write_new(&Host, study_file, draft.text.as_bytes()).map_err(|error| match error {
+        FilesError::Refused { source, .. } if source.kind() == ErrorKind::AlreadyExists => {
+            StudyError::StudyIsThere {
+                path: study_file.to_path_buf(),
+            }
+        }
+        error => error.into(),
+    })
 }
 
 /// No study is written over a measurement, whatever its name: it ends in `.ron`, and leads to none of the files.
@@ -228,56 +221,44 @@ impl Given {
         }
     }
 
-    /// The files of the format of which a folder has most.
+    /// The files of the format of which a folder has most, as its source will list them.
     fn folder(folder: &Path) -> Result<Self, StudyError> {
-        let unreadable = |source| StudyError::Read {
-            path: folder.to_path_buf(),
-            source,
-        };
-        let mut files = Vec::new();
-        for entry in std::fs::read_dir(folder).map_err(unreadable)? {
-            let path = entry.map_err(unreadable)?.path();
-            let hidden = path
-                .file_name()
-                .is_some_and(|name| name.to_string_lossy().starts_with('.'));
-            if path.is_file() && !hidden {
-                files.push(path);
-            }
-        }
-        files.sort();
-        let of = |endings: &'static [&'static str]| {
-            let ends = |file: &&PathBuf| {
-                let ending = file
-                    .extension()
-                    .unwrap_or_default()
-                    .to_string_lossy()
-                    .to_lowercase();
-                endings.contains(&ending.as_str())
+        let listed = |format: Format| {
+            let source = Source {
+                format,
+                ..Source::default()
             };
-            files.iter().filter(ends).cloned().collect::<Vec<PathBuf>>()
+            match snug_ingest::list(&source, folder) {
+                Ok(listing) => Ok(listing.files),
+                Err(IngestError::NothingToRead { .. }) => Ok(Vec::new()),
+                Err(error) => Err(error),
+            }
         };
-        // Text may be anything, and beside tables it mostly is what people have to say of them.
-        let kinds: [&[&str]; 4] = [&["txt"], &["json"], &["csv", "tsv"], &["mat"]];
-        let text_last =
-            |endings: &&&'static [&'static str]| (endings != &&kinds[0], of(endings).len());
-        let chosen = kinds
-            .iter()
-            .filter(|kind| !of(kind).is_empty())
-            .max_by_key(text_last);
-        let Some(kind) = chosen else {
-            return Err(nothing_in(
-                folder,
-                "no .csv, .tsv, .txt, .mat or .json file",
-            ));
+        let is_text = |file: &PathBuf| {
+            let ending = file.extension().unwrap_or_default();
+            ending.eq_ignore_ascii_case("txt")
         };
         // A source of tables reads texts, too.
-        let others = match *kind == kinds[2] {
-            true => of(kinds[0]).len(),
-            false => 0,
+        let (texts, tables): (Vec<_>, Vec<_>) = listed(Format::Csv(CsvLayout::default()))?
+            .into_iter()
+            .partition(is_text);
+        let trees = listed(Format::Json(JsonLayout::default()))?;
+        let variables = listed(Format::Mat(MatLayout::default()))?;
+        let most = trees.len().max(tables.len()).max(variables.len());
+        let (files, others) = match most {
+            // Text may be anything, and beside tables it mostly is what people have to say of them.
+            0 => (texts, 0),
+            _ if variables.len() == most => (variables, 0),
+            _ if tables.len() == most => (tables, texts.len()),
+            _ => (trees, 0),
         };
+        if files.is_empty() {
+            let expected = "no .csv, .tsv, .txt, .mat or .json file";
+            return Err(nothing_in(folder, expected));
+        }
         Ok(Self {
             path: folder.to_path_buf(),
-            files: of(kind),
+            files,
             is_folder: true,
             others,
         })
@@ -298,8 +279,7 @@ impl Given {
 
     /// Which of the files the choice can read.
     fn readable(&self, choice: &Choice) -> Result<Readable, StudyError> {
-        let text = text::study(choice, "", &[], "");
-        let source: Source = Study::parse(&text, Path::new("study.ron"))?.source;
+        let source = choice.study()?.source;
         let (mut read, mut failed) = (Vec::new(), Vec::<IngestError>::new());
         let mut pulses = Vec::new();
         for file in self.files.iter().take(MOST_FILES) {
@@ -344,14 +324,18 @@ impl Given {
     }
 }
 
-/// First and end of the pulse in a file's recording, and the recording's length \[s\].
-fn pulse_of(recordings: &[Recording]) -> Option<(f64, f64, f64)> {
+/// Where the pulse of a file's recording lies.
+fn pulse_of(recordings: &[Recording]) -> Option<Flanks> {
     let [recording] = recordings else {
         return None;
     };
     let (first, end) = events::pulse(&recording.torque_nm)?;
     let at = |sample: usize| sample as f64 * recording.time_base.interval_s;
-    Some((at(first), at(end), at(recording.torque_nm.len())))
+    Some(Flanks {
+        first_s: at(first),
+        end_s: at(end),
+        recording_s: at(recording.torque_nm.len()),
+    })
 }
 
 /// A place as people name it.

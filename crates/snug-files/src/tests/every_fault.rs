@@ -1,9 +1,9 @@
-//! An exchange of results of which every single call fails in turn.
+//! An exchange of results, and a new file, of which every single call fails in turn.
 
 use crate::fault::{Fault, FaultyDisk, Lasting};
-use crate::{FilesError, Host, Results};
+use crate::{FilesError, Host, Results, write_new};
 use std::collections::BTreeMap;
-use std::io::Write;
+use std::io::{ErrorKind, Write};
 use std::path::Path;
 use std::sync::Arc;
 use tempfile::TempDir;
@@ -136,6 +136,32 @@ fn every_fault_is_told_with_path_and_reason() {
             assert!(text.contains(folder.path().to_str().unwrap()), "{text}");
             assert!(text.contains("no storage space"), "{text}");
             assert!(text.contains("make room"), "{text}");
+        }
+    }
+}
+
+#[test]
+fn a_new_file_is_there_whole_or_not_at_all_and_replaces_none() {
+    let folder = folder();
+    let path = folder.path().join("rig.ron");
+    let names = || std::fs::read_dir(folder.path()).unwrap().count();
+    let counting = FaultyDisk::counting();
+    write_new(&counting, &path, b"new").unwrap();
+    assert_eq!(names(), 1, "the name it was written by is gone");
+    let error = write_new(&Host, &path, b"newer").unwrap_err();
+    assert!(
+        matches!(&error, FilesError::Refused { source, .. } if source.kind() == ErrorKind::AlreadyExists),
+        "{error}"
+    );
+    assert_eq!(std::fs::read(&path).unwrap(), b"new");
+    for fault in Fault::ALL {
+        for at in 0..counting.calls() {
+            std::fs::remove_file(&path).ok();
+            let disk = FaultyDisk::new(at, fault, Lasting::Once);
+            match write_new(&disk, &path, b"new") {
+                Ok(()) => assert_eq!(std::fs::read(&path).unwrap(), b"new", "{fault:?} at {at}"),
+                Err(_) => assert!(!path.exists(), "{fault:?} at call {at}"),
+            }
         }
     }
 }

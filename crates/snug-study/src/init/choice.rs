@@ -5,7 +5,7 @@ use super::numbers::{derivative, is_constant, median_step, rises, runs_away, wor
 use super::roles::{self, Meaning};
 use super::units::unit_of;
 use super::{DraftColumn, text, told_place};
-use crate::StudyError;
+use crate::{Study, StudyError};
 use snug_campaign::Quantity;
 use snug_ingest::csv::TimeUnit;
 use snug_ingest::survey::{Survey, SurveyedColumn, SurveyedFormat};
@@ -65,7 +65,7 @@ impl Choice {
             choice.take_derivatives(found, &mut open);
         }
         choice.take_the_rest(file, found, &mut open)?;
-        choice.compare_motions(found);
+        choice.compare_motions();
         choice.turn_the_input();
         choice.try_the_sign(file);
         for (place, meaning) in open {
@@ -114,8 +114,7 @@ impl Choice {
                 Meaning::Time => "by its name",
                 _ => "it has no name and rises evenly",
             };
-            let step_s =
-                median_step(&column(place).values) * text::seconds(unit.unwrap_or_default());
+            let step_s = median_step(&column(place).values) * unit.unwrap_or_default().seconds();
             let unit_told = if unit.is_some() {
                 ""
             } else {
@@ -165,9 +164,15 @@ impl Choice {
     /// Steps of the clock \[s\]; `None` where it only counts.
     fn interval_s(&self) -> Option<f64> {
         match &self.clock {
-            Clock::Column(column, unit) => Some(median_step(&column.values) * text::seconds(*unit)),
+            Clock::Column(column, unit) => Some(median_step(&column.values) * unit.seconds()),
             Clock::Rate { hz, .. } => (*hz != 1.0).then(|| 1.0 / hz),
         }
+    }
+
+    /// The study as it would be written for data at the path that stands for none.
+    pub(super) fn study(&self) -> Result<Study, StudyError> {
+        let text = text::study(self, "", &[], "");
+        Study::parse(&text, Path::new("study.ron"))
     }
 
     /// The motions that are taken, in the order of preference for the fit.
@@ -248,7 +253,7 @@ impl Choice {
     }
 
     /// Says whether measured motions are each other's derivatives, which tells about their units.
-    fn compare_motions(&mut self, found: &Survey) {
+    fn compare_motions(&mut self) {
         let of = |signal: Signal| self.taken.iter().find(|one| one.signal == signal);
         let (Some(position), Some(speed), Some(interval_s)) = (
             of(Signal::Displacement),
@@ -266,7 +271,6 @@ impl Choice {
             told_place(&position.column.place),
             told_place(&speed.column.place),
         );
-        let is_uniform = rises(&position.column.values) || found.columns.len() > 1;
         let ratio = derivative(&position.column.values, &speed.column.values, interval_s)
             .map(|ratio| ratio * a / b);
         match ratio {
@@ -275,13 +279,13 @@ impl Choice {
                     "{other} is the derivative of {one}, in these units, too."
                 ));
             }
-            Some(ratio) if is_uniform => {
+            Some(ratio) => {
                 self.notes.push(format!(
                     "{other} goes like the derivative of {one} but {} times as large: check the units.",
                     text::short(1.0 / ratio)
                 ));
             }
-            _ => {}
+            None => {}
         }
     }
 

@@ -1,9 +1,20 @@
 //! Whether recordings are tightenings: one pulse of the input each, behind a quiet part that measures bias and noise.
 
-/// Where the pulse lies in every recording.
+/// Where the pulse lies in one recording.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Flanks {
+    /// Its first flank after the recording's start \[s\].
+    pub(super) first_s: f64,
+    /// Its last flank \[s\].
+    pub(super) end_s: f64,
+    /// Length of the recording \[s\].
+    pub(super) recording_s: f64,
+}
+
+/// The window that holds the pulse of every recording.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Pulse {
-    /// Start of the window after the recording's start \[s\].
+    /// Its start after the recording's start \[s\].
     pub(super) start_s: f64,
     /// Its length \[s\].
     pub(super) length_s: f64,
@@ -20,7 +31,7 @@ const BEFORE_S: f64 = 0.02;
 /// The window is as long as so many of the longest pulse, so that what moves on after it shows.
 const LENGTHS: f64 = 3.0;
 
-/// One recording's pulse, from flank to flank as shares of nothing but samples; `None` where there is none, or more than one.
+/// First sample of a recording's pulse and one past its last; `None` where there is no pulse, or more than one.
 pub(super) fn pulse(input: &[f64]) -> Option<(usize, usize)> {
     let start = input.get(..FEWEST_QUIET)?;
     let level = start.iter().sum::<f64>() / start.len() as f64;
@@ -43,19 +54,18 @@ pub(super) fn pulse(input: &[f64]) -> Option<(usize, usize)> {
     (is_quiet && is_one && comes_back).then_some((first, last + 1))
 }
 
-/// The window that holds the pulse of every recording (first and end \[s\], length of the recording \[s\]); `None` where the
-/// pulses do not begin together.
-pub(super) fn window(pulses: &[(f64, f64, f64)]) -> Option<Pulse> {
-    let least =
-        |of: fn(&(f64, f64, f64)) -> f64| pulses.iter().map(of).fold(f64::INFINITY, f64::min);
-    let most = |of: fn(&(f64, f64, f64)) -> f64| pulses.iter().map(of).fold(0.0, f64::max);
-    let (first, last) = (least(|one| one.0), most(|one| one.0));
-    let longest = most(|one| one.1 - one.0);
-    let start_s = first - BEFORE_S;
-    let together = last - first <= longest.max(BEFORE_S);
-    let length_s = (LENGTHS * longest + last - first + BEFORE_S).min(least(|one| one.2) - start_s);
+/// The window that holds the pulse of every recording; `None` where the pulses do not begin together.
+pub(super) fn window(pulses: &[Flanks]) -> Option<Pulse> {
+    let least = |of: fn(&Flanks) -> f64| pulses.iter().map(of).fold(f64::INFINITY, f64::min);
+    let most = |of: fn(&Flanks) -> f64| pulses.iter().map(of).fold(0.0, f64::max);
+    let (first_s, last_s) = (least(|one| one.first_s), most(|one| one.first_s));
+    let longest_s = most(|one| one.end_s - one.first_s);
+    let start_s = first_s - BEFORE_S;
+    let together = last_s - first_s <= longest_s.max(BEFORE_S);
+    let length_s = (LENGTHS * longest_s + last_s - first_s + BEFORE_S)
+        .min(least(|one| one.recording_s) - start_s);
     let three = |value: f64| (value * 1000.0).floor() / 1000.0;
-    (together && start_s > 0.0 && length_s > longest).then(|| Pulse {
+    (together && start_s > 0.0 && length_s > longest_s).then(|| Pulse {
         start_s: three(start_s),
         length_s: three(length_s),
     })
@@ -101,10 +111,18 @@ mod tests {
 
     #[test]
     fn pulses_that_begin_together_share_a_window() {
-        let window_of = window(&[(1.5, 1.6, 3.0), (1.51, 1.6, 2.9)]).unwrap();
+        let flanks = |first_s, end_s, recording_s| Flanks {
+            first_s,
+            end_s,
+            recording_s,
+        };
+        let window_of = window(&[flanks(1.5, 1.6, 3.0), flanks(1.51, 1.6, 2.9)]).unwrap();
         assert_eq!(window_of.start_s, 1.48);
         assert!((0.3..0.4).contains(&window_of.length_s), "{window_of:?}");
-        assert_eq!(window(&[(1.5, 1.6, 3.0), (0.5, 0.6, 3.0)]), None);
+        assert_eq!(
+            window(&[flanks(1.5, 1.6, 3.0), flanks(0.5, 0.6, 3.0)]),
+            None
+        );
         assert_eq!(window(&[]), None);
     }
 }

@@ -3,7 +3,7 @@
 use super::choice::{Choice, Clock, Taken};
 use super::events::Pulse;
 use snug_ingest::Signal;
-use snug_ingest::csv::{Column, TimeUnit};
+use snug_ingest::csv::Column;
 use snug_ingest::declared::Part;
 use snug_ingest::survey::{SurveyedFormat, SurveyedPlace};
 use std::fmt::Write as _;
@@ -134,16 +134,6 @@ fn one_line(text: &str) -> String {
     text.chars()
         .map(|letter| if letter.is_control() { ' ' } else { letter })
         .collect()
-}
-
-/// Seconds of a unit of time.
-pub(super) fn seconds(unit: TimeUnit) -> f64 {
-    match unit {
-        TimeUnit::Millisecond => 1e-3,
-        TimeUnit::Microsecond => 1e-6,
-        TimeUnit::Nanosecond => 1e-9,
-        _ => 1.0,
-    }
 }
 
 /// A number in four digits.

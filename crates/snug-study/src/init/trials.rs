@@ -3,8 +3,8 @@
 use super::choice::Choice;
 use super::numbers::is_constant;
 use super::roles::{self, Meaning};
-use super::{text, told_place};
-use crate::{Study, StudyError, cases};
+use super::told_place;
+use crate::{StudyError, cases};
 use snug_identify::spectral_start;
 use snug_ingest::Signal;
 use snug_ingest::survey::{Survey, SurveyedColumn, SurveyedPlace};
@@ -167,8 +167,7 @@ impl Choice {
 
     /// Share of the motion's power that mass, damping and stiffness leave, as spectra tell; `None` where they say nothing.
     fn unexplained(&self, file: &Path) -> Option<f64> {
-        let text = text::study(self, "", &[], "");
-        let study = Study::parse(&text, file).ok()?;
+        let study = self.study().ok()?;
         let cases = cases::cases(&study, &[file.to_path_buf()], 1).ok()?;
         let left = spectral_start(&cases)?.unexplained;
         left.is_finite().then_some(left)
