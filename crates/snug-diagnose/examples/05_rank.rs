@@ -25,7 +25,7 @@ fn measure(number: usize) -> Result<(Tightening, Input), ModelError> {
         .collect();
     let input = Input::new(&torque_nm, interval_s, Intersample::Linear);
     let truth = Model::new(RIG, &[Effect::CubicStiffness])?;
-    let mut motion = truth.simulate(&[2.0 + 0.1 * number as f64, 90.0, 2200.0, 2e6], &input);
+    let mut motion = truth.simulate(&[2.0 + 0.1 * number as f64, 90.0, 2200.0, 2e6], &input)?;
     for (i, value) in motion
         .acceleration_rad_per_s2
         .iter_mut()

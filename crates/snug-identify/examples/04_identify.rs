@@ -1,8 +1,8 @@
 //! Identifies mass, damping and stiffness from one tightening: `cargo run --release --example 04_identify`.
 #![allow(clippy::print_stdout, reason = "an example shows what it finds")]
 
-use snug_campaign::{Intersample, NoiseFloor, Quantity, Rig, Tightening};
-use snug_identify::{IdentifySettings, identify};
+use snug_campaign::{Intersample, NoiseFloor, Quantity, Rig};
+use snug_identify::FitTask;
 use snug_model::{Input, Model};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -24,15 +24,15 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         &input,
         Quantity::Acceleration,
         &mut acceleration,
-    );
+    )?;
     for (i, value) in acceleration.iter_mut().enumerate() {
         *value += 0.5 * 2f64.sqrt() * (2.9 * i as f64).sin();
     }
 
-    let tightening = Tightening::from_torque(rig, interval_s, torque_nm)
-        .with(Quantity::Acceleration, acceleration)
-        .with_noise(NoiseFloor::white(Quantity::Acceleration, 0.5));
-    let estimate = identify(&model, &input, &tightening, &IdentifySettings::default())?;
+    let measured = Quantity::Acceleration;
+    let task = FitTask::from_arrays(rig, interval_s, torque_nm, measured, acceleration)?
+        .with_noise(NoiseFloor::white(measured, 0.5));
+    let estimate = task.identify()?;
 
     println!(
         "{:?} after {} iterations",

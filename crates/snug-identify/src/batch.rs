@@ -34,13 +34,14 @@ impl SimulationRequest<'_> {
     /// It is made by whoever asks for this.
     fn run(&mut self) -> Run<'_> {
         self.is_done = true;
+        let room = self.output.len() * self.free.len();
         Run {
             model: self.model,
             values: &self.values,
             input: self.input,
             quantity: self.quantity,
             output: &mut self.output,
-            sensitivity: &mut self.sensitivity,
+            sensitivity: &mut self.sensitivity[..room],
         }
     }
 
@@ -125,7 +126,8 @@ impl<'a> BatchSimulator<'a> {
             let mut runs: Vec<Run<'_>> = (most.iter_mut().skip(few))
                 .map(|request| request.run())
                 .collect();
-            simulate_side_by_side(&mut runs, &free);
+            simulate_side_by_side(&mut runs, &free)
+                .expect("a residual asks only for what can be simulated");
         }
         drop(lists);
         waiting.retain(|list| !is_done(&list.borrow()));
@@ -206,7 +208,7 @@ mod tests {
                 [number, number + 1].map(|of| {
                     let mut alone = request(of, asked);
                     let free = alone.free.clone();
-                    simulate_side_by_side(&mut [alone.run()], &free);
+                    simulate_side_by_side(&mut [alone.run()], &free).unwrap();
                     sum(&alone)
                 })
             });

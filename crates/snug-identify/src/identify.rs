@@ -34,7 +34,7 @@ const CONFIDENCE: f64 = 0.95;
 /// and its interval in the estimate.
 ///
 /// # Errors
-/// [`IdentifyError::MissingOutput`] when the tightening does not hold the fitted output, [`IdentifyError::TooShort`]
+/// As [`FitTask::check`] when the parts contradict each other or hold what is no number, [`IdentifyError::TooShort`]
 /// when fewer samples are scored than parameters are free, and what [`snug_least_squares::solve`] refuses.
 pub fn identify(
     model: &Model,
@@ -42,9 +42,7 @@ pub fn identify(
     tightening: &Tightening,
     settings: &IdentifySettings,
 ) -> Result<Estimate, IdentifyError> {
-    let alone = [FitTask::new(tightening, input, model, settings)];
-    let mut outcomes = identify_all(&alone);
-    outcomes.pop().expect("one outcome for one task")
+    FitTask::new(tightening, input, model, settings).identify()
 }
 
 /// Identifies many tightenings, each as [`identify`] does and with the same bits, neighbours with the same settings side by
@@ -107,18 +105,15 @@ impl<'a> Attempt<'a> {
         whitening: Option<&'a Whitening>,
         settings: &IdentifySettings,
     ) -> Result<Self, IdentifyError> {
-        let quantity = settings.fitted_output;
-        let motion = &task.tightening.motion;
+        task.check()?;
         let residual = TighteningResidual::new(
             &task.model,
             &task.input,
-            motion
-                .get(quantity)
-                .ok_or(IdentifyError::MissingOutput { quantity })?,
-            quantity,
+            task.measured(),
+            settings.fitted_output,
             whitening,
             settings.unscored_samples,
-        );
+        )?;
         residual.check_length()?;
         let usual = starts(&task.model);
         let is_rugged = usual.len() > 1 || residual.has_unilateral_contact();

@@ -1,10 +1,14 @@
 //! What is identified: one tightening with all it takes to fit it.
 
+mod contradiction;
+
+use crate::error::IdentifyError;
+use crate::identify::identify_all;
 use crate::residual::restarts::motions_at;
 use crate::residual::thresholds::RESTARTED_EVERY_S;
 use crate::residual::whitening::Whitening;
 use crate::settings::IdentifySettings;
-use snug_campaign::{Quantity, Tightening};
+use snug_campaign::{Estimate, Intersample, NoiseFloor, Quantity, Rig, Tightening};
 use snug_model::{Effect, Input, Model, ModelError};
 use std::borrow::Cow;
 
@@ -35,6 +39,50 @@ impl<'a> FitTask<'a> {
             model: Cow::Borrowed(model),
             settings: Cow::Borrowed(settings),
         }
+    }
+
+    /// From arrays: the torque \[Nm\] and what it made of one `quantity` \[rad\], \[rad/s\] or \[rad/s²\], both sampled every
+    /// `interval_s` \[s\], on a rig.
+    ///
+    /// The torque runs straight from sample to sample; the model is mass, damping and stiffness alone, the settings are the
+    /// usual ones.
+    ///
+    /// # Errors
+    /// [`IdentifyError::Model`] for a rig or an interval that cannot be, and as [`FitTask::check`].
+    pub fn from_arrays(
+        rig: Rig,
+        interval_s: f64,
+        torque_nm: Vec<f64>,
+        quantity: Quantity,
+        output: Vec<f64>,
+    ) -> Result<FitTask<'static>, IdentifyError> {
+        let task = FitTask {
+            input: Cow::Owned(Input::new(&torque_nm, interval_s, Intersample::Linear)),
+            model: Cow::Owned(Model::new(rig, &[])?),
+            settings: Cow::Owned(IdentifySettings {
+                fitted_output: quantity,
+                ..IdentifySettings::default()
+            }),
+            tightening: Cow::Owned(
+                Tightening::from_torque(rig, interval_s, torque_nm).with(quantity, output),
+            ),
+        };
+        task.check().map(|()| task)
+    }
+
+    /// The same with the noise of what was measured.
+    pub fn with_noise(mut self, noise: NoiseFloor) -> Self {
+        self.tightening.to_mut().noise = Some(noise);
+        self
+    }
+
+    /// Its estimate, as [`identify`](crate::identify).
+    ///
+    /// # Errors
+    /// As [`identify`](crate::identify).
+    pub fn identify(&self) -> Result<Estimate, IdentifyError> {
+        let mut outcomes = identify_all(std::slice::from_ref(self));
+        outcomes.pop().expect("one outcome for one task")
     }
 
     /// The same, lent.
@@ -71,6 +119,9 @@ impl<'a> FitTask<'a> {
     pub fn beginning(&self, samples: usize) -> FitTask<'static> {
         let mut tightening = self.tightening.clone().into_owned();
         tightening.torque_nm.truncate(samples);
+        if let Some(force_n) = &mut tightening.grip_force_n {
+            force_n.truncate(samples);
+        }
         for quantity in Quantity::ALL {
             if let Some(signal) = tightening.motion.get(quantity) {
                 let signal = signal[..samples.min(signal.len())].to_vec();

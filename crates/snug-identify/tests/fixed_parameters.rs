@@ -2,10 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-use snug_campaign::{
-    Conditions, Estimate, Intersample, Motion, NoiseFloor, NoiseSource, Quantity, Rig, Tightening,
-    TighteningId, TimeBase,
-};
+use snug_campaign::{Estimate, Intersample, NoiseFloor, Quantity, Rig, Tightening};
 use snug_identify::{IdentifySettings, identify};
 use snug_model::{Effect, Input, Model};
 
@@ -34,7 +31,9 @@ fn input() -> Input {
 /// The true acceleration with noise from a fixed congruential sequence, uniform with the stated standard deviation.
 fn tightening(model: &Model) -> Tightening {
     let mut acceleration = vec![0.0; SAMPLES];
-    model.output(&TRUTH, &input(), Quantity::Acceleration, &mut acceleration);
+    model
+        .output(&TRUTH, &input(), Quantity::Acceleration, &mut acceleration)
+        .unwrap();
     let mut state = 12_345_u64;
     for value in &mut acceleration {
         state = state
@@ -43,37 +42,9 @@ fn tightening(model: &Model) -> Tightening {
         let uniform = (state >> 11) as f64 / (1_u64 << 53) as f64;
         *value += NOISE_RAD_PER_S2 * 12.0_f64.sqrt() * (uniform - 0.5);
     }
-    Tightening {
-        id: TighteningId {
-            file: "simulated".to_owned(),
-            number: 1,
-        },
-        conditions: Conditions::default(),
-        rig: RIG,
-        time_base: TimeBase {
-            start_s: 0.0,
-            interval_s: INTERVAL_S,
-        },
-        torque_nm: Vec::new(),
-        motion: Motion {
-            displacement_rad: None,
-            velocity_rad_per_s: None,
-            acceleration_rad_per_s2: Some(acceleration),
-        },
-        grip_force_n: None,
-        peak_torque_nm: 30.0,
-        target_torque_nm: 30.0,
-        onset: None,
-        noise: Some(NoiseFloor {
-            source: NoiseSource::Declared,
-            quantity: Quantity::Acceleration,
-            standard_deviation: NOISE_RAD_PER_S2,
-            autoregression: Vec::new(),
-            innovation_sd: NOISE_RAD_PER_S2,
-            samples: SAMPLES,
-        }),
-        corrections: Vec::new(),
-    }
+    Tightening::from_torque(RIG, INTERVAL_S, input().logged_nm().to_vec())
+        .with(Quantity::Acceleration, acceleration)
+        .with_noise(NoiseFloor::white(Quantity::Acceleration, NOISE_RAD_PER_S2))
 }
 
 fn estimate(model: &Model, tightening: &Tightening) -> Estimate {

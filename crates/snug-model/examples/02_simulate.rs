@@ -29,7 +29,7 @@ fn main() -> Result<(), ModelError> {
         let mut angle_rad = vec![0.0; samples];
         let mut columns = vec![0.0; free.len() * samples];
         let output = Quantity::Displacement;
-        model.sensitivities(&values, &free, &input, output, &mut angle_rad, &mut columns);
+        model.sensitivities(&values, &free, &input, output, &mut angle_rad, &mut columns)?;
 
         let peak = (0..samples).max_by(|&a, &b| angle_rad[a].total_cmp(&angle_rad[b]));
         let peak = peak.expect("there are samples");

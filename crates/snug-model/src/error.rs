@@ -1,9 +1,9 @@
-//! Why a model cannot be assembled, in words that name what is allowed.
+//! Why a model cannot be assembled or simulated, in words that name what is allowed.
 
 use snug_campaign::{did_you_mean, excerpt};
 use thiserror::Error;
 
-/// Why a model cannot be assembled.
+/// Why a model cannot be assembled or simulated.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ModelError {
@@ -157,5 +157,52 @@ pub enum ModelError {
         maximum_states: usize,
         /// Parameters allowed.
         maximum_parameters: usize,
+    },
+    /// A simulation was given another number of values, or room for another number, than it takes.
+    #[error("simulation: {what} has length {found}, it must be {expected}")]
+    Length {
+        /// What was given: `values`, `output`, `sensitivity`.
+        what: &'static str,
+        /// How long it is.
+        found: usize,
+        /// How long it must be.
+        expected: usize,
+    },
+    /// A sensitivity was asked for to a parameter that the model does not have.
+    #[error("simulation: there is no parameter number {index} (counted from 0) of {parameters}")]
+    ParameterIndex {
+        /// The parameter asked for.
+        index: usize,
+        /// How many the model has.
+        parameters: usize,
+    },
+    /// More sensitivities were asked for than a simulation carries.
+    #[error("simulation: sensitivities to {free} parameters, at most {maximum} can be asked for")]
+    TooManyFree {
+        /// How many were asked for.
+        free: usize,
+        /// [`crate::MAXIMUM_FREE`].
+        maximum: usize,
+    },
+    /// The input has no samples.
+    #[error("simulation: the input has no samples")]
+    NoSamples,
+    /// A time of the input is out of range.
+    #[error("simulation: the input's {what} is {value_s} s, allowed is {allowed}")]
+    InputTime {
+        /// Which time: `interval_s`, `onset_s`, `rest_before_s`.
+        what: &'static str,
+        /// What it is \[s\].
+        value_s: f64,
+        /// What is allowed.
+        allowed: &'static str,
+    },
+    /// A sample of the input is no finite number.
+    #[error("simulation: the torque is {value_nm} Nm at sample {sample} (counted from 0)")]
+    InputValue {
+        /// Which sample, counted from 0.
+        sample: usize,
+        /// What it is \[Nm\].
+        value_nm: f64,
     },
 }

@@ -56,7 +56,7 @@ fn simulate(effects: &[Effect], own: &[f64]) -> [Vec<f64>; 3] {
         displacement_rad,
         velocity_rad_per_s,
         acceleration_rad_per_s2,
-    } = model.simulate(&values, &input());
+    } = model.simulate(&values, &input()).unwrap();
     [
         displacement_rad,
         velocity_rad_per_s,
@@ -225,21 +225,23 @@ fn sensitivities_are_those_of_central_differences() {
         for quantity in [Quantity::Displacement, Quantity::Acceleration] {
             let mut output = vec![0.0; SAMPLES];
             let mut sensitivity = vec![0.0; SAMPLES * free.len()];
-            model.sensitivities(
-                &values,
-                &free,
-                &input,
-                quantity,
-                &mut output,
-                &mut sensitivity,
-            );
+            model
+                .sensitivities(
+                    &values,
+                    &free,
+                    &input,
+                    quantity,
+                    &mut output,
+                    &mut sensitivity,
+                )
+                .unwrap();
             for parameter in free {
                 let step = 1e-5 * values[parameter];
                 let shifted = |sign: f64| {
                     let mut moved = values.clone();
                     moved[parameter] += sign * step;
                     let mut output = vec![0.0; SAMPLES];
-                    model.output(&moved, &input, quantity, &mut output);
+                    model.output(&moved, &input, quantity, &mut output).unwrap();
                     output
                 };
                 let (up, down) = (shifted(1.0), shifted(-1.0));

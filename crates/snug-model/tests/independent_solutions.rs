@@ -28,7 +28,9 @@ fn angle(intersample: Intersample) -> Vec<f64> {
     let model = Model::new(RIG, &[]).expect("a valid rig");
     let input = Input::new(&torque(), INTERVAL_S, intersample);
     let mut output = vec![0.0; SAMPLES];
-    model.output(&BASE, &input, Quantity::Displacement, &mut output);
+    model
+        .output(&BASE, &input, Quantity::Displacement, &mut output)
+        .expect("a valid simulation");
     output
 }
 
@@ -79,7 +81,9 @@ fn band_limited_input_gives_the_frequency_response() {
     let model = Model::new(RIG, &[]).expect("a valid rig");
     let input = Input::new(&sine, interval_s, Intersample::BandLimited);
     let mut angle = vec![0.0; samples];
-    model.output(&BASE, &input, Quantity::Displacement, &mut angle);
+    model
+        .output(&BASE, &input, Quantity::Displacement, &mut angle)
+        .expect("a valid simulation");
     let square = RIG.lever_arm_m * RIG.lever_arm_m;
     let inertia = RIG.known_inertia_kg_m2 + BASE[0] * square;
     let (stiffness, damping) = (BASE[2] * square, BASE[1] * square);
@@ -105,7 +109,7 @@ fn explicit_euler_converges_to_the_exact_response_at_first_order() {
                 coarse[whole] + (next - coarse[whole]) * part as f64 / refinement as f64
             })
             .collect();
-        let euler = euler_displacement(&RIG, &BASE, &fine, interval_s);
+        let euler = euler_displacement(&RIG, &BASE, &fine, interval_s).expect("a valid simulation");
         (euler[150 * refinement] - 0.05064282015272524).abs()
     };
     let (one, eight) = (error(1), error(8));

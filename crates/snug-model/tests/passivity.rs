@@ -26,7 +26,7 @@ fn work(base: [f64; 3], effect: Effect, own: &[f64]) -> (f64, f64) {
     let model = Model::new(RIG, &[effect]).expect("a valid rig");
     let values: Vec<f64> = base.iter().chain(own).copied().collect();
     let input = Input::new(&torque, INTERVAL_S, Intersample::Linear);
-    let motion = model.simulate(&values, &input);
+    let motion = model.simulate(&values, &input).expect("a valid simulation");
     let velocity = motion.velocity_rad_per_s.expect("simulated");
     let acceleration = motion.acceleration_rad_per_s2.expect("simulated");
     let power: Vec<f64> = (0..torque.len())

@@ -77,18 +77,20 @@ fn a_zeroed_displacement_loses_at_every_sample_what_it_is_at_one() {
     let values = [2.3, 103.0, 2315.0, bias];
     let output = |model: &Model, values: &[f64], input: &Input, quantity| {
         let mut output = vec![0.0; SAMPLES];
-        model.output(values, input, quantity, &mut output);
+        model.output(values, input, quantity, &mut output).unwrap();
         output
     };
     let (mut found, mut sensitivity) = (vec![0.0; SAMPLES], vec![0.0; 4 * SAMPLES]);
-    model.sensitivities(
-        &values,
-        &[0, 1, 2, 3],
-        &zeroed,
-        Quantity::Displacement,
-        &mut found,
-        &mut sensitivity,
-    );
+    model
+        .sensitivities(
+            &values,
+            &[0, 1, 2, 3],
+            &zeroed,
+            Quantity::Displacement,
+            &mut found,
+            &mut sensitivity,
+        )
+        .unwrap();
     let truth = output(&base, &values[..3], &input(), Quantity::Displacement);
     let since_rest = |index: usize| REST_BEFORE_S + index as f64 * INTERVAL_S;
     for index in 0..SAMPLES {
@@ -171,7 +173,9 @@ fn what_is_called_invisible_is_invisible() {
         let input = Input::new(&torque, INTERVAL_S, Intersample::Linear);
         let mut output = vec![0.0; SAMPLES];
         let model = Model::new(rig, &[]).unwrap();
-        model.output(&values, &input, Quantity::Acceleration, &mut output);
+        model
+            .output(&values, &input, Quantity::Acceleration, &mut output)
+            .unwrap();
         output
     };
     let (m, c, k) = (2.3, 103.0, 2315.0);
@@ -226,7 +230,9 @@ fn what_is_called_the_same_is_the_same() {
         let mut values: Vec<f64> = model.parameters().iter().map(|one| one.value).collect();
         values[3] = 0.3;
         let mut output = vec![0.0; SAMPLES];
-        model.output(&values, &input(), compared, &mut output);
+        model
+            .output(&values, &input(), compared, &mut output)
+            .unwrap();
         output
     };
     for compared in [

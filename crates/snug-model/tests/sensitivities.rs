@@ -69,17 +69,21 @@ fn check(effects: &[Effect], intersample: Intersample, quantity: Quantity) {
     let free: Vec<usize> = (0..values.len()).collect();
     let mut output = vec![0.0; SAMPLES];
     let mut sensitivity = vec![0.0; SAMPLES * free.len()];
-    model.sensitivities(
-        &values,
-        &free,
-        &input,
-        quantity,
-        &mut output,
-        &mut sensitivity,
-    );
+    model
+        .sensitivities(
+            &values,
+            &free,
+            &input,
+            quantity,
+            &mut output,
+            &mut sensitivity,
+        )
+        .expect("a valid simulation");
 
     let mut plain = vec![0.0; SAMPLES];
-    model.output(&values, &input, quantity, &mut plain);
+    model
+        .output(&values, &input, quantity, &mut plain)
+        .expect("a valid simulation");
     assert!(
         plain
             .iter()
@@ -94,7 +98,9 @@ fn check(effects: &[Effect], intersample: Intersample, quantity: Quantity) {
             let mut moved = values.clone();
             moved[parameter] += sign * step;
             let mut output = vec![0.0; SAMPLES];
-            model.output(&moved, &input, quantity, &mut output);
+            model
+                .output(&moved, &input, quantity, &mut output)
+                .expect("a valid simulation");
             output
         };
         let (up, down) = (shifted(1.0), shifted(-1.0));
@@ -184,7 +190,9 @@ fn the_order_of_effects_does_not_matter() {
         let model = Model::new(RIG, effects).expect("a valid rig");
         let mut output = vec![0.0; SAMPLES];
         let values = inner_values(effects);
-        model.output(&values, &input, Quantity::Acceleration, &mut output);
+        model
+            .output(&values, &input, Quantity::Acceleration, &mut output)
+            .expect("a valid simulation");
         output
     };
     let mut effects = [
@@ -214,7 +222,8 @@ fn an_effect_of_size_zero_is_the_base_model() {
         &input,
         Quantity::Acceleration,
         &mut expected,
-    );
+    )
+    .expect("a valid simulation");
     for &effect in Effect::ALL {
         let model = Model::new(RIG, &[effect]).expect("a valid rig");
         let specs = effect.description().parameters;
@@ -228,7 +237,9 @@ fn an_effect_of_size_zero_is_the_base_model() {
             .map(|spec| spec.vanishes_at.unwrap_or(spec.starts[0]));
         let values: Vec<f64> = [2.0, 60.0, 1800.0].into_iter().chain(gone).collect();
         let mut output = vec![0.0; SAMPLES];
-        model.output(&values, &input, Quantity::Acceleration, &mut output);
+        model
+            .output(&values, &input, Quantity::Acceleration, &mut output)
+            .expect("a valid simulation");
         for (a, b) in output.iter().zip(&expected) {
             assert!(
                 (a - b).abs() < 1e-7,

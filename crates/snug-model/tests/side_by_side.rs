@@ -64,14 +64,17 @@ fn compare(members: &[Member], free: &[usize], quantity: Quantity) {
     };
     let (mut alone, mut alone_sensitivity) = (room(1), room(free.len()));
     for (index, member) in members.iter().enumerate() {
-        member.model.sensitivities(
-            &member.values,
-            free,
-            &member.input,
-            quantity,
-            &mut alone[index],
-            &mut alone_sensitivity[index],
-        );
+        member
+            .model
+            .sensitivities(
+                &member.values,
+                free,
+                &member.input,
+                quantity,
+                &mut alone[index],
+                &mut alone_sensitivity[index],
+            )
+            .unwrap();
     }
     let (mut output, mut sensitivity) = (room(1), room(free.len()));
     let mut runs: Vec<Run<'_>> = (members.iter())
@@ -85,7 +88,7 @@ fn compare(members: &[Member], free: &[usize], quantity: Quantity) {
             sensitivity,
         })
         .collect();
-    simulate_side_by_side(&mut runs, free);
+    simulate_side_by_side(&mut runs, free).unwrap();
     let names: Vec<&str> = members[0]
         .model
         .effects()

@@ -1,10 +1,12 @@
 #![doc = include_str!("../README.md")]
 
+mod finite;
 mod interpolation;
 mod noise;
 mod periodogram;
 mod spectrum;
 
+pub use finite::first_not_finite;
 pub use interpolation::{between_samples, straight_pieces};
 pub use noise::white_noise_level;
 pub use periodogram::Periodogram;

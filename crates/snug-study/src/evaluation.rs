@@ -38,7 +38,7 @@ pub fn fitted(
         .collect::<Result<Vec<FitTask<'_>>, StudyError>>()?;
     let estimates = identify_all(&tasks);
     Ok((estimates.into_iter().zip(&tasks).zip(prepared))
-        .map(|((estimate, task), one)| Ok(identified(study, task, one, estimate?)))
+        .map(|((estimate, task), one)| Ok(identified(study, task, one, estimate?)?))
         .collect())
 }
 
@@ -48,7 +48,7 @@ fn identified(
     task: &FitTask<'_>,
     prepared: &Prepared,
     estimate: Estimate,
-) -> Evaluated {
+) -> Result<Evaluated, ModelError> {
     let (model, input) = (&*task.model, &*task.input);
     tracing::debug!(
         tightening = prepared.tightening.id.number,
@@ -97,7 +97,7 @@ pub fn validated(
         estimate,
         study.validation.unscored_samples,
         |_, _| vec![Rejection::Validation],
-    ))
+    )?)
 }
 
 /// What is known of a segment that could not be used; its findings say why.
@@ -190,11 +190,12 @@ fn preparation_rejections(
     };
     let displacement = |model: &Model, values: &[f64]| {
         let mut output = vec![0.0; measured.len()];
-        model.output(values, input, Quantity::Displacement, &mut output);
-        output
+        let done = model.output(values, input, Quantity::Displacement, &mut output);
+        done.map(|()| output)
     };
-    let sensed = displacement(model, values);
-    let moved = displacement(&plain, &own);
+    let (Ok(sensed), Ok(moved)) = (displacement(model, values), displacement(&plain, &own)) else {
+        return prepared.rejections();
+    };
     let corrected: Vec<f64> = (measured.iter().zip(sensed.iter().zip(&moved)))
         .map(|(measured, (sensed, moved))| measured - (sensed - moved))
         .collect();
@@ -214,18 +215,20 @@ fn simulated(
     estimate: Estimate,
     unscored: usize,
     rejections: impl FnOnce(&Estimate, &FitMeasures) -> Vec<Rejection>,
-) -> Evaluated {
+) -> Result<Evaluated, ModelError> {
     let tightening = &prepared.tightening;
     let values: Vec<f64> = estimate.parameters.iter().map(|p| p.value).collect();
     let failed = estimate.status == FitStatus::Failed || values.iter().any(|v| !v.is_finite());
-    let traces = (!failed).then(|| traces(model, input, tightening, &values));
+    let traces = (!failed)
+        .then(|| traces(model, input, tightening, &values))
+        .transpose()?;
     let measures = traces.as_ref().map_or_else(FitMeasures::default, |traces| {
         measures(study, tightening, traces, &estimate, unscored)
     });
     let selection = Selection {
         rejections: rejections(&estimate, &measures),
     };
-    Evaluated {
+    Ok(Evaluated {
         result: TighteningResult {
             id: tightening.id.clone(),
             conditions: tightening.conditions.clone(),
@@ -240,11 +243,16 @@ fn simulated(
         },
         traces,
         onset: tightening.onset,
-    }
+    })
 }
 
-fn traces(model: &Model, input: &Input, tightening: &Tightening, values: &[f64]) -> Traces {
-    let simulated = model.simulate(values, input);
+fn traces(
+    model: &Model,
+    input: &Input,
+    tightening: &Tightening,
+    values: &[f64],
+) -> Result<Traces, ModelError> {
+    let simulated = model.simulate(values, input)?;
     let force = |motion: &Motion| {
         motion
             .acceleration_rad_per_s2
@@ -258,8 +266,8 @@ fn traces(model: &Model, input: &Input, tightening: &Tightening, values: &[f64])
         values,
         &tightening.torque_nm,
         tightening.time_base.interval_s,
-    );
-    Traces {
+    )?;
+    Ok(Traces {
         time_base: tightening.time_base,
         torque_nm: tightening.torque_nm.clone(),
         measured: tightening.motion.clone(),
@@ -269,7 +277,7 @@ fn traces(model: &Model, input: &Input, tightening: &Tightening, values: &[f64])
         force_f3_n: force(&simulated),
         grip_force_n: tightening.grip_force_n.clone(),
         simulated,
-    }
+    })
 }
 
 /// Beyond this multiple of the exact displacement's peak the Euler method has diverged.

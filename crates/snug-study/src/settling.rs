@@ -222,16 +222,17 @@ fn missed(cases: &[FitTask<'_>]) -> Option<f64> {
         };
         let measured = motion.get(case.quantity())?;
         let mean = measured.iter().sum::<f64>() / measured.len() as f64;
-        let error = identify(&case.model, &case.input, &case.tightening, &settings).map(|found| {
+        let found = identify(&case.model, &case.input, &case.tightening, &settings);
+        let error = found.and_then(|found| {
             let values: Vec<f64> = found.parameters.iter().map(|p| p.value).collect();
             let mut error = vec![0.0; measured.len()];
             case.model
-                .output(&values, &case.input, case.quantity(), &mut error);
+                .output(&values, &case.input, case.quantity(), &mut error)?;
             error
                 .iter_mut()
                 .zip(measured)
                 .for_each(|(simulated, y)| *simulated -= y);
-            error
+            Ok(error)
         });
         let scored = measured.len() - case.unscored();
         let about: f64 = measured[case.unscored()..]

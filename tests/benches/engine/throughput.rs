@@ -139,7 +139,10 @@ fn result(case: &FitTask<'_>) -> (TighteningResult, Traces) {
     let values: Vec<f64> = (case.model.parameters().iter())
         .map(|parameter| parameter.value)
         .collect();
-    let simulated = case.model.simulate(&values, &case.input);
+    let simulated = case
+        .model
+        .simulate(&values, &case.input)
+        .expect("a case can be simulated");
     let force = |motion: &snug_campaign::Motion| {
         let acceleration = motion.acceleration_rad_per_s2.as_deref().unwrap_or(&[]);
         snug_model::inverse_dynamics_force(&tightening.rig, &tightening.torque_nm, acceleration)

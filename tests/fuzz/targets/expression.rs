@@ -47,12 +47,14 @@ fn attempt(_: &Path, input: &[u8]) {
     let free: Vec<usize> = (0..values.len()).collect();
     let mut angle = [0.0; 6];
     let mut slopes = vec![0.0; 6 * values.len()];
-    model.sensitivities(
-        &values,
-        &free,
-        &input,
-        Quantity::Displacement,
-        &mut angle,
-        &mut slopes,
-    );
+    model
+        .sensitivities(
+            &values,
+            &free,
+            &input,
+            Quantity::Displacement,
+            &mut angle,
+            &mut slopes,
+        )
+        .unwrap();
 }

@@ -51,5 +51,6 @@ pub(crate) fn simulate(
             }
         })
         .collect();
-    simulate_side_by_side(&mut runs, order);
+    simulate_side_by_side(&mut runs, order)
+        .expect("the input of a case is as long as what was measured");
 }

@@ -11,7 +11,7 @@ pub fn peaks(seen: &Seen<'_>, values: &[f64; 3]) -> Option<[f64; 2]> {
     let model = Model::new(tightening.rig, &[]).ok()?;
     let interval_s = tightening.time_base.interval_s;
     let input = Input::new(&tightening.torque_nm, interval_s, Intersample::Linear);
-    let motion = model.simulate(values, &input);
+    let motion = model.simulate(values, &input).ok()?;
     let largest = |signal: Option<Vec<f64>>| {
         let signal = signal?;
         let peak = signal

@@ -200,7 +200,7 @@ fn sums(one: &White<'_>, residuals: &Residuals<'_>) -> Option<Sums> {
         Input::new(torque, interval_s, Intersample::Linear)
     };
     let logged = answer(&tightening.torque_nm);
-    let taken = taken_up(&model, &values, &logged, residuals.quantity, &whiten);
+    let taken = taken_up(&model, &values, &logged, residuals.quantity, &whiten)?;
     let mut output = vec![0.0; tightening.torque_nm.len()];
     let signatures = SHAPES.map(|(_, shape)| {
         let torque: Vec<f64> = angle
@@ -208,11 +208,13 @@ fn sums(one: &White<'_>, residuals: &Residuals<'_>) -> Option<Sums> {
             .zip(&velocity)
             .map(|(angle, velocity)| -l * shape(l * angle, l * velocity))
             .collect();
-        model.output(&values, &answer(&torque), residuals.quantity, &mut output);
+        let input = answer(&torque);
+        (model.output(&values, &input, residuals.quantity, &mut output)).ok()?;
         let mut signature = whiten.signal(&output);
         free_of(&mut signature, &taken);
-        signature
+        Some(signature)
     });
+    let signatures: Vec<Vec<f64>> = signatures.into_iter().collect::<Option<_>>()?;
     let mut residual = one.values.clone();
     free_of(&mut residual, &taken);
     let floor = if residuals.noise_known {
@@ -241,17 +243,11 @@ fn taken_up(
     input: &Input,
     quantity: Quantity,
     whiten: &Whiten,
-) -> Vec<Vec<f64>> {
+) -> Option<Vec<Vec<f64>>> {
     let samples = input.samples();
     let (mut output, mut slopes) = (vec![0.0; samples], vec![0.0; 3 * samples]);
-    model.sensitivities(
-        values,
-        &[0, 1, 2],
-        input,
-        quantity,
-        &mut output,
-        &mut slopes,
-    );
+    let all = &[0, 1, 2];
+    (model.sensitivities(values, all, input, quantity, &mut output, &mut slopes)).ok()?;
     let mut taken: Vec<Vec<f64>> = Vec::new();
     for slope in slopes.chunks_exact(samples) {
         let mut direction = whiten.signal(slope);
@@ -265,7 +261,7 @@ fn taken_up(
             taken.push(direction);
         }
     }
-    taken
+    Some(taken)
 }
 
 /// What makes a signal comparable with a tightening's whitened residual.

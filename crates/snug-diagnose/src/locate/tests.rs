@@ -98,7 +98,10 @@ fn normal(generator: &mut ChaCha8Rng) -> f64 {
 fn made(number: u32, values: [f64; 3], target_nm: f64) -> Made {
     let torque_nm = torque_nm(target_nm);
     let input = Input::new(&torque_nm, INTERVAL_S, Intersample::Linear);
-    let simulated = Model::new(RIG, &[]).unwrap().simulate(&values, &input);
+    let simulated = Model::new(RIG, &[])
+        .unwrap()
+        .simulate(&values, &input)
+        .unwrap();
     let person = number % 4 + 1;
     Made {
         tightening: Tightening {

@@ -125,14 +125,15 @@ fn further(pooled: &PooledModel<'_>, from: &Start) -> Option<Start> {
     let values = pooled.values(0, &from.own[0], &from.shared);
     let free = model.free();
     let whitening = case.whitening();
-    let mut problem = DenseResidual::new(TighteningResidual::new(
+    let residual = TighteningResidual::new(
         model,
         &case.input,
         case.measured(),
         case.quantity(),
         whitening.as_ref(),
         case.unscored(),
-    ));
+    );
+    let mut problem = DenseResidual::new(residual.ok()?);
     let start: Vec<f64> = free.iter().map(|&index| values[index]).collect();
     let set = convex_set(model, &case.settings.constraints);
     let settings = Settings {

@@ -46,7 +46,9 @@ pub(crate) fn exact(number: usize, effects: &[Effect], sizes: &[f64]) -> FitTask
         .collect();
     let input = Input::new(&torque_nm, INTERVAL_S, Intersample::Linear);
     let truth = Model::new(RIG, effects).expect("the effects go together");
-    let motion = truth.simulate(&[&hand(number), sizes].concat(), &input);
+    let motion = truth
+        .simulate(&[&hand(number), sizes].concat(), &input)
+        .expect("as many values as parameters");
     case(number, torque_nm, input, motion)
 }
 

@@ -94,7 +94,8 @@ fn from_the_spectra(cases: &[FitTask<'_>]) -> Option<f64> {
     for case in cases {
         let base = case.model.with_effects(&[]).ok()?;
         let mut simulated = vec![0.0; case.measured().len()];
-        base.output(&start.values, &case.input, case.quantity(), &mut simulated);
+        base.output(&start.values, &case.input, case.quantity(), &mut simulated)
+            .ok()?;
         let pairs = simulated.iter().zip(case.measured()).skip(case.unscored());
         left += pairs.map(|(s, y)| (y - s).powi(2)).sum::<f64>();
     }

@@ -141,7 +141,7 @@ fn simulated<'a>(
         values[index] = value;
     }
     let mut tightening = case.tightening.clone().into_owned();
-    tightening.motion = model.simulate(&values, &input);
+    tightening.motion = model.simulate(&values, &input).ok()?;
     tightening.torque_nm = torque;
     tightening.corrections.clear();
     Some(FitTask {

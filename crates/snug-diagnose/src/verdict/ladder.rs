@@ -69,7 +69,9 @@ fn rms_residual(cases: &[FitTask<'_>], fitted: &Fitted) -> f64 {
             values[fitted.shared_sizes()[place].index] = fitted.shared[place];
         }
         let mut output = vec![0.0; case.measured().len()];
-        model.output(&values, &case.input, case.quantity(), &mut output);
+        model
+            .output(&values, &case.input, case.quantity(), &mut output)
+            .expect("the input of a case is as long as what was measured");
         let scored = output.iter().zip(case.measured()).skip(case.unscored());
         squares += scored.map(|(s, m)| (m - s).powi(2)).sum::<f64>();
         count += output.len() - case.unscored();

@@ -64,7 +64,7 @@ fn fits(
         .map(|(estimate, task)| {
             let estimate = estimate?;
             let values: Vec<f64> = estimate.parameters.iter().map(|p| p.value).collect();
-            let motion = task.model.simulate(&values, &task.input);
+            let motion = task.model.simulate(&values, &task.input)?;
             Ok((estimate, motion))
         })
         .collect()

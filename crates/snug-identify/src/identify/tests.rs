@@ -110,7 +110,9 @@ fn simulated(number: u32, plan: &Plan) -> Simulated {
     let input = Input::new(&torque_nm, INTERVAL_S, plan.intersample);
     let truth = Model::new(RIG, &[Effect::CubicStiffness]).unwrap();
     let [m, c, k] = plan.truth;
-    let motion = truth.simulate(&[m, c, k, plan.cubic_n_per_m3], &input);
+    let motion = truth
+        .simulate(&[m, c, k, plan.cubic_n_per_m3], &input)
+        .unwrap();
     let mut acceleration = motion.acceleration_rad_per_s2.unwrap();
     let coefficients = plan.autoregression.clone().unwrap_or_default();
     let noise = coloured(number, plan, &coefficients);
@@ -293,7 +295,9 @@ fn pushed(number: u32, force_n: f64) -> Simulated {
     let mut one = simulated(number, &plan());
     one.model = Model::new(RIG, &[Effect::VoluntaryPush]).unwrap();
     let [m, c, k] = USUAL;
-    let motion = (one.model).simulate(&[m, c, k, force_n, 0.12, 0.06], &one.input);
+    let motion = (one.model)
+        .simulate(&[m, c, k, force_n, 0.12, 0.06], &one.input)
+        .unwrap();
     let noise = coloured(number, &plan(), &[-0.6, 0.2]);
     let exact = motion.acceleration_rad_per_s2.unwrap();
     let acceleration: Vec<f64> = exact.iter().zip(noise).map(|(a, n)| a + n).collect();

@@ -42,7 +42,7 @@ impl DecimatedRecord {
     /// from the measured motion.
     pub fn of(task: &FitTask<'_>, quantity: Quantity) -> Option<Self> {
         let (input, measured) = (&task.input, task.tightening.motion.get(quantity)?);
-        let interval_s = input.grid_interval_s() * input.substeps() as f64;
+        let interval_s = input.interval_s();
         let shortest = (LONGEST_INTERVAL_S / interval_s) as usize;
         let factor = shortest.min(input.samples() / ENOUGH_SAMPLES);
         if factor < 2 || input.is_restarted() {
@@ -91,6 +91,7 @@ impl DecimatedRecord {
         let unscored = settings.unscored_samples.div_ceil(self.factor);
         let quantity = settings.fitted_output;
         TighteningResidual::new(model, input, &self.measured, quantity, None, unscored)
+            .expect("torque and output have the same means")
     }
 
     /// The ends of decimated fits from `starts` that are worth a fit of every sample; `None` where no fit has one.

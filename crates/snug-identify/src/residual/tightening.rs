@@ -26,6 +26,9 @@ pub struct TighteningResidual<'a> {
     prefetched: Foreseen,
 }
 
+/// Why its simulations are not refused.
+const CHECKED: &str = "input and lengths were checked when the residual was made";
+
 /// A simulation that was made before it was asked for.
 #[derive(Clone, Default)]
 struct Foreseen {
@@ -38,6 +41,10 @@ struct Foreseen {
 
 impl<'a> TighteningResidual<'a> {
     /// `unscored` samples at the start count for nothing (an unknown initial state dies away in them).
+    ///
+    /// # Errors
+    /// [`IdentifyError::InputLength`] unless there is one measured sample per sample of the input, and
+    /// [`IdentifyError::Model`] for an input that cannot be simulated.
     pub fn new(
         model: &'a Model,
         input: &'a Input,
@@ -45,9 +52,16 @@ impl<'a> TighteningResidual<'a> {
         quantity: Quantity,
         whitening: Option<&'a Whitening>,
         unscored: usize,
-    ) -> Self {
+    ) -> Result<Self, IdentifyError> {
+        input.check()?;
+        if input.samples() != measured.len() {
+            return Err(IdentifyError::InputLength {
+                input_samples: input.samples(),
+                output_samples: measured.len(),
+            });
+        }
         let free = model.free();
-        Self {
+        Ok(Self {
             model,
             input,
             measured,
@@ -60,7 +74,7 @@ impl<'a> TighteningResidual<'a> {
             sensitivity: Vec::new(),
             prefetched: Foreseen::default(),
             free,
-        }
+        })
     }
 
     /// The same averaged over `half_width` samples to either side, see [`smooth`].
@@ -85,7 +99,9 @@ impl<'a> TighteningResidual<'a> {
     pub fn simulate(&mut self, free_values: &[f64], quantity: Quantity) -> Vec<f64> {
         let mut output = vec![0.0; self.samples()];
         let (model, input) = (self.model, self.input);
-        model.output(self.all_values(free_values), input, quantity, &mut output);
+        model
+            .output(self.all_values(free_values), input, quantity, &mut output)
+            .expect(CHECKED);
         output
     }
 
@@ -253,14 +269,16 @@ impl TighteningResidual<'_> {
     pub(crate) fn column_of(&self, parameter: usize) -> Vec<f64> {
         let samples = self.samples();
         let (mut output, mut column) = (vec![0.0; samples], vec![0.0; samples]);
-        self.model.sensitivities(
-            &self.values,
-            &[parameter],
-            self.input,
-            self.quantity,
-            &mut output,
-            &mut column,
-        );
+        self.model
+            .sensitivities(
+                &self.values,
+                &[parameter],
+                self.input,
+                self.quantity,
+                &mut output,
+                &mut column,
+            )
+            .expect(CHECKED);
         for value in &mut column {
             *value = -*value;
         }
@@ -285,21 +303,24 @@ impl TighteningResidual<'_> {
             }
             None if is_foreseen => {}
             Some(jacobian) => {
-                self.model.sensitivities(
-                    &self.values,
-                    &self.free,
-                    self.input,
-                    self.quantity,
-                    residual,
-                    jacobian,
-                );
+                self.model
+                    .sensitivities(
+                        &self.values,
+                        &self.free,
+                        self.input,
+                        self.quantity,
+                        residual,
+                        jacobian,
+                    )
+                    .expect(CHECKED);
                 for value in jacobian {
                     *value = -*value;
                 }
             }
             None => self
                 .model
-                .output(&self.values, self.input, self.quantity, residual),
+                .output(&self.values, self.input, self.quantity, residual)
+                .expect(CHECKED),
         }
         for (simulated, measured) in residual.iter_mut().zip(self.measured) {
             *simulated = measured - *simulated;

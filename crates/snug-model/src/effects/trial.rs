@@ -98,7 +98,7 @@ impl Trial {
         let input = Input::new(&self.torque_nm, INTERVAL_S, Intersample::Linear)
             .with_onset(ONSET_S)
             .with_rest_before(self.rest_before_s);
-        let motion = model.simulate(&values, &input);
+        let motion = model.simulate(&values, &input).expect("a valid simulation");
         [
             motion.displacement_rad,
             motion.velocity_rad_per_s,

@@ -1,9 +1,11 @@
 //! The logged torque as a simulation uses it: between samples, before the first, and a delay ago.
 
+use crate::ModelError;
 use crate::input::restart::Restarts;
 use crate::input::slope;
 use snug_campaign::Intersample;
-use std::sync::OnceLock;
+use snug_signal::first_not_finite;
+use std::sync::{Arc, OnceLock};
 
 /// How much finer than the samples a band-limited input is represented.
 const BAND_LIMITED_SUBSTEPS: usize = 8;
@@ -14,6 +16,10 @@ const BAND_LIMITED_SUBSTEPS: usize = 8;
 /// pieces on a grid eight times as fine, whose in-band spectrum equals the samples' own.
 #[derive(Debug, Clone)]
 pub struct Input {
+    /// The samples it was made from.
+    logged: Arc<[f64]>,
+    /// The first sample that is no finite number, and what it is.
+    not_finite: Option<(usize, f64)>,
     grid: Vec<f64>,
     grid_interval_s: f64,
     substeps: usize,
@@ -30,7 +36,7 @@ pub struct Input {
 }
 
 impl Input {
-    /// From samples \[Nm\] taken every `interval_s`.
+    /// From samples \[Nm\] taken every `interval_s`; [`Input::check`] says whether that can be simulated.
     pub fn new(samples: &[f64], interval_s: f64, intersample: Intersample) -> Self {
         let (grid, substeps) = match intersample {
             Intersample::BandLimited => (
@@ -40,6 +46,8 @@ impl Input {
             Intersample::ZeroOrder | Intersample::Linear => (samples.to_vec(), 1),
         };
         Self {
+            logged: samples.into(),
+            not_finite: not_finite(samples),
             grid,
             grid_interval_s: interval_s / substeps as f64,
             substeps,
@@ -73,8 +81,9 @@ impl Input {
         }
     }
 
-    /// The same input with `noise` \[Nm\], one value per sample, on top.
+    /// The same input with `noise` \[Nm\], one value per sample, on top; what was logged stays what it is.
     pub fn with_added(&self, noise: &[f64]) -> Self {
+        let not_finite = self.not_finite.or(not_finite(noise));
         let noise = match self.substeps {
             1 => noise.to_vec(),
             factor => snug_signal::straight_pieces(noise, factor),
@@ -85,6 +94,7 @@ impl Input {
             .zip(noise)
             .map(|(torque, more)| torque + more);
         Self {
+            not_finite,
             grid: sum.collect(),
             between: OnceLock::new(),
             slopes: OnceLock::new(),
@@ -97,6 +107,8 @@ impl Input {
         let samples = samples.min(self.samples);
         let points = samples.saturating_sub(1) * self.substeps + 1;
         Self {
+            logged: self.logged[..samples].into(),
+            not_finite: self.not_finite.filter(|&(sample, _)| sample < samples),
             grid: self.grid[..points.min(self.grid.len())].to_vec(),
             samples,
             between: OnceLock::new(),
@@ -171,6 +183,43 @@ impl Input {
         self.samples
     }
 
+    /// Time between samples \[s\].
+    pub fn interval_s(&self) -> f64 {
+        self.grid_interval_s * self.substeps as f64
+    }
+
+    /// The samples it was made from, one by one \[Nm\]: what was logged, without what was added or averaged since.
+    pub fn logged_nm(&self) -> &[f64] {
+        &self.logged
+    }
+
+    /// Checks that a simulation can make something of it.
+    ///
+    /// # Errors
+    /// [`ModelError::NoSamples`], [`ModelError::InputTime`], [`ModelError::InputValue`].
+    pub fn check(&self) -> Result<(), ModelError> {
+        if self.grid.is_empty() {
+            return Err(ModelError::NoSamples);
+        }
+        check_interval(self.interval_s())?;
+        for (what, value_s) in [
+            ("onset_s", self.onset_s),
+            ("rest_before_s", self.rest_before_s),
+        ] {
+            if !value_s.is_finite() {
+                return Err(ModelError::InputTime {
+                    what,
+                    value_s,
+                    allowed: "a finite number",
+                });
+            }
+        }
+        match self.not_finite {
+            Some((sample, value_nm)) => Err(ModelError::InputValue { sample, value_nm }),
+            None => Ok(()),
+        }
+    }
+
     /// The torque as it was `delay_s` before every grid point; the ends are held.
     ///
     /// Between samples it is what a torque without anything above half the sampling rate has there: that keeps the
@@ -240,6 +289,26 @@ impl Input {
     pub(crate) fn held(&self) -> bool {
         self.held
     }
+}
+
+/// Checks the time between samples.
+///
+/// # Errors
+/// [`ModelError::InputTime`].
+pub(crate) fn check_interval(interval_s: f64) -> Result<(), ModelError> {
+    match interval_s > 0.0 && interval_s.is_finite() {
+        true => Ok(()),
+        false => Err(ModelError::InputTime {
+            what: "interval_s",
+            value_s: interval_s,
+            allowed: "a positive, finite number",
+        }),
+    }
+}
+
+/// The first sample that is no finite number, and what it is.
+fn not_finite(samples: &[f64]) -> Option<(usize, f64)> {
+    first_not_finite(samples).map(|sample| (sample, samples[sample]))
 }
 
 /// A torque some time ago.

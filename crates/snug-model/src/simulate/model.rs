@@ -1,5 +1,6 @@
 //! A model simulated by itself.
 
+use crate::ModelError;
 use crate::assembly::model::Model;
 use crate::input::torque::Input;
 use crate::simulate::inputs::SimulationInputs;
@@ -8,7 +9,11 @@ use snug_campaign::{Motion, Quantity};
 
 impl Model {
     /// The measured motion that `values` (all parameters) give under `input`.
-    pub fn simulate(&self, values: &[f64], input: &Input) -> Motion {
+    ///
+    /// # Errors
+    /// [`ModelError::Length`] where `values` are not one per parameter, and as [`Input::check`].
+    pub fn simulate(&self, values: &[f64], input: &Input) -> Result<Motion, ModelError> {
+        self.check_simulation(values, input)?;
         let mut signals: [Vec<f64>; 3] =
             std::array::from_fn(|_| Vec::with_capacity(input.samples()));
         let inputs = SimulationInputs::new(0.0, |_| (self.assembly(), input));
@@ -18,24 +23,42 @@ impl Model {
             signals[2].push(motion.acceleration_rad_per_s2);
         });
         let [displacement, velocity, acceleration] = signals;
-        Motion {
+        Ok(Motion {
             displacement_rad: Some(displacement),
             velocity_rad_per_s: Some(velocity),
             acceleration_rad_per_s2: Some(acceleration),
-        }
+        })
+    }
+
+    /// Checks what a simulation is given.
+    ///
+    /// # Errors
+    /// As [`Model::simulate`].
+    pub(crate) fn check_simulation(&self, values: &[f64], input: &Input) -> Result<(), ModelError> {
+        check_length("values", values, self.parameters().len())?;
+        input.check()
     }
 
     /// One measured quantity into `output` (one value per sample).
-    pub fn output(&self, values: &[f64], input: &Input, quantity: Quantity, output: &mut [f64]) {
-        self.sensitivities(values, &[], input, quantity, output, &mut []);
+    ///
+    /// # Errors
+    /// As [`simulate_side_by_side`].
+    pub fn output(
+        &self,
+        values: &[f64],
+        input: &Input,
+        quantity: Quantity,
+        output: &mut [f64],
+    ) -> Result<(), ModelError> {
+        self.sensitivities(values, &[], input, quantity, output, &mut [])
     }
 
     /// One measured quantity and its sensitivities.
     ///
     /// `output` gets one value per sample; `sensitivity` gets ∂output/∂values\[free\[j\]\], column-major, samples × free.
     ///
-    /// # Panics
-    /// When more than [`MAXIMUM_FREE`](crate::MAXIMUM_FREE) parameters are free, or a slice is too short.
+    /// # Errors
+    /// As [`simulate_side_by_side`].
     pub fn sensitivities(
         &self,
         values: &[f64],
@@ -44,7 +67,7 @@ impl Model {
         quantity: Quantity,
         output: &mut [f64],
         sensitivity: &mut [f64],
-    ) {
+    ) -> Result<(), ModelError> {
         let mut alone = [Run {
             model: self,
             values,
@@ -53,6 +76,25 @@ impl Model {
             output,
             sensitivity,
         }];
-        simulate_side_by_side(&mut alone, free);
+        simulate_side_by_side(&mut alone, free)
+    }
+}
+
+/// Checks that what is called `what` is as long as it must be.
+///
+/// # Errors
+/// [`ModelError::Length`].
+pub(crate) fn check_length(
+    what: &'static str,
+    found: &[f64],
+    expected: usize,
+) -> Result<(), ModelError> {
+    match found.len() {
+        found if found == expected => Ok(()),
+        found => Err(ModelError::Length {
+            what,
+            found,
+            expected,
+        }),
     }
 }

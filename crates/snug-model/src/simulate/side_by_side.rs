@@ -1,5 +1,6 @@
 //! Runs many simulations at once, each in its own lane of a vector register, with as many derivatives as are asked for.
 
+use crate::ModelError;
 use crate::assembly::layout::{Assembly, BASE_PARAMETERS, MAXIMUM_FREE};
 use crate::assembly::model::Model;
 use crate::base_model::exact;
@@ -10,6 +11,7 @@ use crate::numeric::number::Number;
 use crate::numeric::real::{Real, Task};
 use crate::numeric::simd::{LaneTask, in_lanes};
 use crate::simulate::inputs::SimulationInputs;
+use crate::simulate::model::check_length;
 use crate::simulate::record::Record;
 use snug_campaign::Quantity;
 
@@ -31,6 +33,18 @@ pub struct Run<'a> {
 }
 
 impl Run<'_> {
+    /// Checks values, input and the room for the answer, before anything is simulated.
+    fn check(&self, free: &[usize]) -> Result<(), ModelError> {
+        self.model.check_simulation(self.values, self.input)?;
+        let (samples, parameters) = (self.input.samples(), self.values.len());
+        check_length("output", self.output, samples)?;
+        check_length("sensitivity", self.sensitivity, samples * free.len())?;
+        match free.iter().find(|&&index| index >= parameters) {
+            Some(&index) => Err(ModelError::ParameterIndex { index, parameters }),
+            None => Ok(()),
+        }
+    }
+
     /// Whether the two take the same steps with the same laws, in which case one vector register can hold both.
     fn is_alike(&self, other: &Run<'_>) -> bool {
         SimulationInputs::<f64>::are_alike(self.input, other.input)
@@ -45,12 +59,21 @@ impl Run<'_> {
 /// effects or other behaviour of the input between samples than their neighbours wait for their own turn. A run has the same bits
 /// whatever stands beside it.
 ///
-/// # Panics
-/// When more than [`MAXIMUM_FREE`] parameters are free, or a slice is too short.
-pub fn simulate_side_by_side(runs: &mut [Run<'_>], free: &[usize]) {
+/// # Errors
+/// [`ModelError::Length`] where values, output or sensitivity of a run are not as long as its model and its input ask for,
+/// [`ModelError::ParameterIndex`] or [`ModelError::TooManyFree`] for `free`, and as [`Input::check`]. Nothing is simulated then.
+pub fn simulate_side_by_side(runs: &mut [Run<'_>], free: &[usize]) -> Result<(), ModelError> {
+    if free.len() > MAXIMUM_FREE {
+        return Err(ModelError::TooManyFree {
+            free: free.len(),
+            maximum: MAXIMUM_FREE,
+        });
+    }
+    runs.iter().try_for_each(|run| run.check(free))?;
     for group in runs.chunk_by_mut(Run::is_alike) {
         in_lanes(Together { runs: group, free });
     }
+    Ok(())
 }
 
 /// Runs from which side by side they take less time than one after the other; where there are fewer lanes, as many as those.

@@ -27,7 +27,9 @@ fn oscillator() -> (Vec<f64>, Vec<f64>) {
     let mut angle_rad = vec![0.0; SAMPLES];
     let model = Model::new(RIG, &[]).unwrap();
     let quantity = Quantity::Displacement;
-    model.output(&[1.0, 4.0, 50.0], &input, quantity, &mut angle_rad);
+    model
+        .output(&[1.0, 4.0, 50.0], &input, quantity, &mut angle_rad)
+        .unwrap();
     (torque_nm, angle_rad)
 }
 

@@ -11,7 +11,9 @@ fn rough_starts_lead_to_the_best_optimum_of_all() {
     let [m, c, k] = USUAL;
     for (number, tau_s) in [(1, 0.008), (2, 0.03), (3, 0.09)] {
         let mut one = simulated(number, &plan());
-        let motion = truth.simulate(&[m, c, k, 800.0, tau_s], &one.input);
+        let motion = truth
+            .simulate(&[m, c, k, 800.0, tau_s], &one.input)
+            .unwrap();
         let noise = coloured(number, &plan(), &[-0.6, 0.2]);
         let pairs = motion
             .acceleration_rad_per_s2

@@ -37,7 +37,7 @@ fn record(
     let model = Model::new(RIG, &[]).unwrap();
     let input = Input::new(&torque_nm, INTERVAL_S, Intersample::BandLimited);
     let mut motion = vec![0.0; SAMPLES];
-    model.output(&truth, &input, quantity, &mut motion);
+    model.output(&truth, &input, quantity, &mut motion).unwrap();
     let scaled =
         |values: &[f64], factor: f64| values.iter().map(|v| v * factor).collect::<Vec<_>>();
     // Inertia is torque over output, times time squared for each time the output still has to be differentiated.
