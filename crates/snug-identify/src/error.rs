@@ -47,6 +47,24 @@ pub enum IdentifyError {
         /// What it is, in the channel's unit.
         value: f64,
     },
+    /// What is said of the noise cannot be.
+    #[error("the noise's {what} is {value}, allowed is {allowed}")]
+    Noise {
+        /// Field of [`snug_campaign::NoiseFloor`].
+        what: &'static str,
+        /// What it is, in the unit of what it is the noise of; a coefficient has none.
+        value: f64,
+        /// What is allowed.
+        allowed: &'static str,
+    },
+    /// A fixed parameter is no finite number.
+    #[error("the fixed parameter {name} is {value}, and no finite number")]
+    FixedParameter {
+        /// Its name.
+        name: String,
+        /// Its value, in its unit.
+        value: f64,
+    },
     /// The input that is simulated is as long as another tightening than the one it is compared with.
     #[error(
         "the simulated input has {input_samples} samples, the measured output {output_samples}"

@@ -211,6 +211,44 @@ fn a_model_of_another_rig() {
 }
 
 #[test]
+fn noise_that_cannot_be() {
+    let white = |deviation| NoiseFloor::white(Quantity::Acceleration, deviation);
+    for deviation in [-0.5, f64::NAN, f64::INFINITY] {
+        let told = refusal(&measured().with_noise(white(deviation))).to_string();
+        let expected = format!("the noise's standard_deviation is {deviation}");
+        assert!(told.starts_with(&expected), "{told}");
+    }
+    let coloured = NoiseFloor {
+        autoregression: vec![0.2, f64::NAN],
+        ..white(NOISE)
+    };
+    assert!(matches!(
+        refusal(&measured().with_noise(coloured)),
+        IdentifyError::Noise {
+            what: "autoregression",
+            ..
+        }
+    ));
+    let still = arrays(torque(), acceleration())
+        .unwrap()
+        .with_noise(white(0.0));
+    let unknown = arrays(torque(), acceleration()).unwrap();
+    assert_eq!(still.identify(), unknown.identify(), "not whitened");
+}
+
+#[test]
+fn a_fixed_parameter_that_is_no_number() {
+    let mut task = arrays(torque(), acceleration()).unwrap();
+    let damping = &mut task.model.to_mut().parameters_mut()[1];
+    (damping.value, damping.fixed) = (f64::NAN, true);
+    let told = task.identify().unwrap_err().to_string();
+    assert!(
+        told.starts_with("the fixed parameter damping_kg_per_s is NaN"),
+        "{told}"
+    );
+}
+
+#[test]
 fn what_was_not_measured_is_named_first() {
     let (input, model) = (
         Input::new(&torque(), INTERVAL_S, Intersample::Linear),

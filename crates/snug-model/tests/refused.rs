@@ -4,6 +4,7 @@
 use snug_campaign::{Intersample, Quantity, Rig};
 use snug_model::{
     Effect, Input, MAXIMUM_FREE, Model, ModelError, Run, euler_displacement, simulate_side_by_side,
+    spring_damper_force,
 };
 
 const RIG: Rig = Rig {
@@ -172,8 +173,16 @@ fn of_several_runs_none_is_begun() {
 }
 
 #[test]
-fn euler_needs_mass_damping_and_stiffness() {
-    let refused = euler_displacement(&RIG, &HAND[..2], &[1.0; 3], 1e-3);
-    assert!(matches!(refused, Err(ModelError::Length { found: 2, .. })));
-    assert!(euler_displacement(&RIG, &HAND, &[1.0; 3], 1e-3).is_ok());
+fn the_base_model_needs_mass_damping_and_stiffness() {
+    let motion = base().simulate(&HAND, &input()).unwrap();
+    let both = |values: &[f64]| {
+        [
+            euler_displacement(&RIG, values, &[1.0; 3], 1e-3),
+            spring_damper_force(&RIG, values, &motion),
+        ]
+    };
+    for refused in both(&HAND[..2]) {
+        assert!(matches!(refused, Err(ModelError::Length { found: 2, .. })));
+    }
+    assert!(both(&HAND).iter().all(Result::is_ok));
 }

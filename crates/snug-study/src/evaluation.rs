@@ -272,7 +272,7 @@ fn traces(
         torque_nm: tightening.torque_nm.clone(),
         measured: tightening.motion.clone(),
         euler_displacement_rad: converged(euler, &simulated),
-        force_f1_n: spring_damper_force(&tightening.rig, values, &simulated),
+        force_f1_n: spring_damper_force(&tightening.rig, values, &simulated)?,
         force_f2_n: force(&tightening.motion),
         force_f3_n: force(&simulated),
         grip_force_n: tightening.grip_force_n.clone(),

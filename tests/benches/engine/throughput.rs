@@ -152,7 +152,8 @@ fn result(case: &FitTask<'_>) -> (TighteningResult, Traces) {
         torque_nm: tightening.torque_nm.clone(),
         measured: tightening.motion.clone(),
         euler_displacement_rad: Vec::new(),
-        force_f1_n: snug_model::spring_damper_force(&tightening.rig, &values, &simulated),
+        force_f1_n: snug_model::spring_damper_force(&tightening.rig, &values, &simulated)
+            .expect("a case has m, c, k"),
         force_f2_n: force(&tightening.motion),
         force_f3_n: force(&simulated),
         grip_force_n: tightening.grip_force_n.clone(),

@@ -15,7 +15,8 @@ impl FitTask<'_> {
     /// # Errors
     /// [`IdentifyError::MissingOutput`], [`IdentifyError::UnequalLengths`], [`IdentifyError::NotFinite`],
     /// [`IdentifyError::InputLength`], [`IdentifyError::InputTorque`], [`IdentifyError::InputInterval`],
-    /// [`IdentifyError::OtherRig`]; [`IdentifyError::Model`] for an input that cannot be simulated.
+    /// [`IdentifyError::OtherRig`], [`IdentifyError::Noise`], [`IdentifyError::FixedParameter`]; [`IdentifyError::Model`] for
+    /// an input that cannot be simulated.
     pub fn check(&self) -> Result<(), IdentifyError> {
         let quantity = self.quantity();
         if self.tightening.motion.get(quantity).is_none() {
@@ -24,7 +25,16 @@ impl FitTask<'_> {
         self.check_channels()?;
         self.input.check()?;
         self.check_input()?;
-        self.check_rig()
+        self.check_rig()?;
+        self.check_noise()?;
+        let mut parameters = self.model.parameters().iter();
+        match parameters.find(|one| one.fixed && !one.value.is_finite()) {
+            Some(parameter) => Err(IdentifyError::FixedParameter {
+                name: parameter.name.clone(),
+                value: parameter.value,
+            }),
+            None => Ok(()),
+        }
     }
 
     fn check_channels(&self) -> Result<(), IdentifyError> {
@@ -78,6 +88,32 @@ impl FitTask<'_> {
                 input_s,
                 tightening_s,
             }),
+        }
+    }
+
+    /// A standard deviation of 0 is allowed: a channel that was still in its quiet part has it, and is not whitened.
+    fn check_noise(&self) -> Result<(), IdentifyError> {
+        let Some(noise) = &self.tightening.noise else {
+            return Ok(());
+        };
+        let refused = |what, value, allowed| {
+            Err(IdentifyError::Noise {
+                what,
+                value,
+                allowed,
+            })
+        };
+        for (what, value) in [
+            ("standard_deviation", noise.standard_deviation),
+            ("innovation_sd", noise.innovation_sd),
+        ] {
+            if !(value >= 0.0 && value.is_finite()) {
+                return refused(what, value, "0 or a positive, finite number");
+            }
+        }
+        match first_not_finite(&noise.autoregression) {
+            Some(at) => refused("autoregression", noise.autoregression[at], "finite numbers"),
+            None => Ok(()),
         }
     }
 

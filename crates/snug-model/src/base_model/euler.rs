@@ -1,7 +1,7 @@
 //! The base model as the original program stepped it, for comparison with its results.
 
 use crate::ModelError;
-use crate::assembly::layout::BASE_PARAMETERS;
+use crate::base_model::forces::base_values;
 use crate::input::torque::check_interval;
 use snug_campaign::Rig;
 
@@ -19,13 +19,7 @@ pub fn euler_displacement(
     torque_nm: &[f64],
     interval_s: f64,
 ) -> Result<Vec<f64>, ModelError> {
-    let &[mass_kg, damping_kg_per_s, stiffness_n_per_m, ..] = values else {
-        return Err(ModelError::Length {
-            what: "values",
-            found: values.len(),
-            expected: BASE_PARAMETERS.len(),
-        });
-    };
+    let [mass_kg, damping_kg_per_s, stiffness_n_per_m] = base_values(values)?;
     check_interval(interval_s)?;
     let square = rig.lever_arm_m * rig.lever_arm_m;
     let inertia = rig.known_inertia_kg_m2 + mass_kg * square;
