@@ -97,6 +97,16 @@ pub struct GroupSize {
     pub present: bool,
 }
 
+/// How tightenings share the sizes of an effect: `shared`, `per tightening`, or `per participant` and so on.
+pub fn sharing(parameters: &[EffectParameter]) -> String {
+    let factor = parameters.iter().find_map(|one| one.by_group.as_ref());
+    match factor {
+        Some(sizes) => format!("per {}", sizes.factor),
+        None if parameters.iter().any(|one| one.per_tightening) => "per tightening".to_owned(),
+        None => "shared".to_owned(),
+    }
+}
+
 impl EffectParameter {
     /// Whether its value lies where one expects it.
     pub fn is_plausible(&self) -> bool {
@@ -173,6 +183,9 @@ pub struct AddedEffect {
     pub expression: Option<String>,
     /// Effects that these data cannot tell from it.
     pub twins: Vec<String>,
+    /// `shared` by all tightenings, `per tightening`, or what differs in it: `per participant`, `per joint` and so on.
+    #[serde(default)]
+    pub size: String,
     /// Its size.
     pub parameters: Vec<EffectParameter>,
     /// Family-wise p at the rung where it was added; `None` when the study already had it.

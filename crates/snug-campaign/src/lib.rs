@@ -29,7 +29,7 @@ pub use conditions::Conditions;
 pub use diagnosis::{
     AddedEffect, CorrectedEffect, Detectability, Diagnosis, Doubt, EffectParameter, Experiment,
     GroupSize, GroupSizes, NegativeControl, NoiseStatement, RankedEffect, Removal, Rung, Showcase,
-    UnlistedTerm, Verdict, WorkDone,
+    UnlistedTerm, Verdict, WorkDone, sharing,
 };
 pub use diagnosis_summary::DiagnosisSummary;
 pub use estimate::{Estimate, FitStatus, Identifiability, Interval, NORMAL_95, ParameterEstimate};

@@ -113,7 +113,7 @@ mod tests {
         ]);
         assert_eq!(
             some.sentence("N"),
-            "2 of 4 participants: TP1 4.1\u{a0}N, TP3 3.9\u{a0}N; none in TP2 and TP5 (below 0.30\u{a0}N)"
+            "2 of 4 participants: TP1 4.10\u{a0}N, TP3 3.90\u{a0}N; none in TP2 and TP5 (below 0.30\u{a0}N)"
         );
     }
 
@@ -125,7 +125,7 @@ mod tests {
         ]);
         assert_eq!(
             all.sentence("N"),
-            "all 2 participants: TP1 2.0\u{a0}N, TP2 5.0\u{a0}N"
+            "all 2 participants: TP1 2.00\u{a0}N, TP2 5.00\u{a0}N"
         );
         let none = sizes(vec![group("TP1", (-1.0, 0.0, 1.0), false); 3]);
         assert_eq!(none.sentence("N"), "in none of 3 participants");
@@ -144,7 +144,7 @@ mod tests {
         });
         let told = sizes(many.collect()).sentence("N");
         assert!(
-            told.starts_with("20 of 200 participants: tool 190 191.0\u{a0}N, tool 180 "),
+            told.starts_with("20 of 200 participants: tool 190 191.00\u{a0}N, tool 180 "),
             "{told}"
         );
         assert!(

@@ -27,7 +27,7 @@ use snug_campaign::words::statement;
 use snug_campaign::words::suspicion::Suspicion;
 use snug_campaign::{
     AddedEffect, Comparison, CorrectedEffect, Diagnosis, Drift, EffectParameter, Experiment,
-    Location, NegativeControl, RankedEffect, UnlistedTerm, Verdict,
+    Location, NegativeControl, RankedEffect, UnlistedTerm, Verdict, sharing,
 };
 use snug_identify::FitTask;
 use snug_model::{CustomEffectSettings, Effect, Law};
@@ -362,6 +362,7 @@ impl Examination<'_> {
                         .find(|attempt| attempt.effect == effect)
                         .map(|attempt| attempt.loss / last.squares()),
                     explanation: explanation(effect, last, Held::of(cases)),
+                    size: sharing(&sizes),
                     parameters: sizes,
                 }
             })

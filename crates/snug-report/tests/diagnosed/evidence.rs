@@ -32,6 +32,7 @@ fn meaning(name: &str) -> &'static str {
 /// A mechanical effect without evidence yet.
 pub fn effect(name: &str, size: EffectParameter) -> AddedEffect {
     AddedEffect {
+        size: "shared".into(),
         effect: name.into(),
         kind: "mechanical".into(),
         expression: None,
