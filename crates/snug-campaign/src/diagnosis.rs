@@ -76,7 +76,7 @@ pub struct GroupSizes {
     pub groups: Vec<GroupSize>,
 }
 
-/// The size of one group.
+/// The size of one group; numbers in the parameter's unit.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct GroupSize {
     /// Which group, for example `TP3`.

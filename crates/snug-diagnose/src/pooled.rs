@@ -3,8 +3,10 @@
 pub(crate) mod fit;
 pub(crate) mod fitted;
 pub(crate) mod group_sizes;
+pub(crate) mod hold_out;
 pub(crate) mod long_record;
 pub(crate) mod model;
+pub(crate) mod parameter_place;
 pub(crate) mod sharing;
 pub(crate) mod sizes;
 pub(crate) mod thresholds;

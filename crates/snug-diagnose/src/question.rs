@@ -1,7 +1,7 @@
 //! What can be asked of the data.
 
 use crate::error::DiagnoseError;
-use crate::pooled::model::effect_of;
+use crate::pooled::parameter_place::effect_of;
 use crate::pooled::sharing::{Groups, Sharing};
 use snug_campaign::Factor;
 use snug_identify::FitTask;

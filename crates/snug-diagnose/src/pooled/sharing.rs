@@ -1,6 +1,6 @@
 //! Which tightenings share the sizes of an effect: all of them, or those of one group of a factor.
 
-use crate::pooled::model::effect_of;
+use crate::pooled::parameter_place::effect_of;
 use snug_campaign::{Factor, Level};
 use snug_identify::FitTask;
 use snug_model::{Effect, Law, Scope};

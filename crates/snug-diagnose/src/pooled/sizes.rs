@@ -7,7 +7,7 @@
 use crate::library::is_unlisted;
 use crate::pooled::fitted::Fitted;
 use crate::pooled::group_sizes;
-use crate::pooled::model::first_parameter;
+use crate::pooled::parameter_place::first_parameter;
 use snug_campaign::EffectParameter;
 use snug_identify::FitTask;
 use snug_least_squares::matrix::{SymmetricMatrix, inner_product as dot};

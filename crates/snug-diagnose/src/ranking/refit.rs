@@ -7,7 +7,8 @@ use crate::library::is_unlisted;
 use crate::pooled::fit::fit_effects;
 use crate::pooled::fitted::Fitted;
 use crate::pooled::long_record;
-use crate::pooled::model::{PooledModel, Start, first_parameter, pick};
+use crate::pooled::model::{PooledModel, Start, pick};
+use crate::pooled::parameter_place::first_parameter;
 use crate::ranking::resonances;
 use crate::ranking::sensitivity::Column;
 use crate::ranking::thresholds::{

@@ -48,6 +48,7 @@ pub(crate) struct Scored {
 }
 
 /// What one tightening adds to every column.
+#[derive(Default)]
 struct Contribution {
     /// Column by column: s of each cluster.
     scores: Vec<Vec<f64>>,
@@ -224,14 +225,7 @@ impl<'a, 'h> Scorer<'a, 'h> {
             nuisance.project(column);
         }
         let bias = self.bias_signature(member, &nuisance);
-        let mut contribution = Contribution {
-            scores: Vec::new(),
-            variances: Vec::new(),
-            information: Vec::new(),
-            cross: Vec::new(),
-            gram: None,
-            control: Vec::new(),
-        };
+        let mut contribution = Contribution::default();
         let mut signatures: Vec<Vec<f64>> = Vec::new();
         let mut along_bias = Vec::new();
         for signature in of_columns {
@@ -273,11 +267,12 @@ impl<'a, 'h> Scorer<'a, 'h> {
                 along_bias.push(bias.as_ref().map_or(0.0, |bias| dot(column, bias)));
                 signatures.push(column.to_vec());
             }
-            contribution.control = self.draw(member, &signatures, &along_bias);
-            for draw in &mut contribution.control {
+            let mut draws = self.draw(member, &signatures, &along_bias);
+            for draw in &mut draws {
                 let gradient = draw.split_off(of_columns.len());
                 draw.extend(self.of_all_shared(member, gradient));
             }
+            contribution.control = draws;
         }
         contribution
     }

@@ -58,7 +58,7 @@ pub struct ValuesByGroup {
     pub values: BTreeMap<String, GroupValue>,
 }
 
-/// The value of a parameter in one group.
+/// The value of a parameter in one group; numbers in the parameter's unit.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct GroupValue {
