@@ -125,7 +125,7 @@ mod tests {
         ]);
         assert_eq!(
             all.sentence("N"),
-            "all 2 participants: TP1 2.00\u{a0}N, TP2 5.00\u{a0}N"
+            "all 2 participants: TP1 2.0\u{a0}N, TP2 5.0\u{a0}N"
         );
         let none = sizes(vec![group("TP1", (-1.0, 0.0, 1.0), false); 3]);
         assert_eq!(none.sentence("N"), "in none of 3 participants");

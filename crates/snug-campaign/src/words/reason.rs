@@ -73,6 +73,13 @@ pub enum Reason {
         /// Whether the misfit is counted beyond a known noise.
         is_beyond_noise: bool,
     },
+    /// Whose effect it is, where groups of tightenings differ in its size.
+    Whose {
+        /// The effect.
+        effect: Named,
+        /// The parameter that differs.
+        parameter: EffectParameter,
+    },
     /// What to check where no model fits.
     Check(Suspicion),
     /// How large the missing effect is.
@@ -181,6 +188,7 @@ impl Display for Reason {
                     by_chance(*p_family)
                 )
             }
+            Self::Whose { effect, parameter } => whose(f, effect, parameter),
             Self::Size(parameters) => write!(f, "Its size: {}.", sizes(parameters)),
             Self::CannotTell(twins) => write!(
                 f,
@@ -251,6 +259,20 @@ fn drifts(f: &mut Formatter<'_>, trend: &str, parameters: &[EffectParameter]) ->
         "Beside the misfit, mass, damping or stiffness drift with the tightening's number ({}): {}.",
         effect_name(trend),
         sizes(parameters)
+    )
+}
+
+fn whose(f: &mut Formatter<'_>, effect: &Named, parameter: &EffectParameter) -> fmt::Result {
+    let Some(sizes) = &parameter.by_group else {
+        return Ok(());
+    };
+    write!(
+        f,
+        "{} is not the same for all {}: {} {}.",
+        capitalised(&effect.spoken()),
+        sizes.factor.plural(),
+        parameter.size().name,
+        sizes.sentence(&parameter.unit)
     )
 }
 

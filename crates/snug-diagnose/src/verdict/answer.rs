@@ -90,7 +90,9 @@ impl Examination<'_> {
         let (verdict, suspicions) = self.verdict_and_suspicions(&places);
         let ranking = self.ranking(&places.drift);
         let corrected = preparation::corrected(cases);
+        let added = self.added();
         let situation = Situation {
+            in_model: &added,
             explained: places.explained,
             suspicions: &suspicions,
             ..self.situation(verdict, &ranking, &corrected)
@@ -113,7 +115,7 @@ impl Examination<'_> {
             tightenings: cases.len(),
             noise: preparation::noise(cases),
             compared_output: cases[0].quantity().name().to_owned(),
-            added: self.added(),
+            added,
             corrected,
             ladder: rungs.clone().map(|one| ladder::rung(cases, one)).collect(),
             ranking,
@@ -179,6 +181,7 @@ impl Examination<'_> {
             chosen: path.chosen.map(|index| &path.ranking.candidates[index]),
             twins: (path.chosen)
                 .map_or_else(Vec::new, |index| twins(&path.ranking, index, &clusters)),
+            in_model: &[],
             ranking,
             stopped: path.stopped,
             impossible: &path.ranking.impossible,

@@ -15,7 +15,9 @@ use snug_campaign::words::reason::{MoreData, Reason};
 use snug_campaign::words::statement;
 use snug_campaign::words::stopped::Stopped;
 use snug_campaign::words::suspicion::Suspicion;
-use snug_campaign::{CorrectedEffect, EffectParameter, RankedEffect, Removal, Verdict};
+use snug_campaign::{
+    AddedEffect, CorrectedEffect, EffectParameter, RankedEffect, Removal, Verdict,
+};
 use snug_identify::FitTask;
 use snug_model::{CustomEffectSettings, Description, Effect, Law, TRENDS};
 
@@ -33,6 +35,8 @@ pub(crate) struct Situation<'a> {
     pub chosen: Option<&'a Candidate>,
     /// What these data cannot tell from it.
     pub twins: Vec<Effect>,
+    /// The effects of the last model with their sizes.
+    pub in_model: &'a [AddedEffect],
     pub ranking: &'a [RankedEffect],
     pub stopped: Option<Stop>,
     /// Candidates that cannot be simulated on this rig.
@@ -160,6 +164,7 @@ pub(crate) fn reasons(situation: &Situation<'_>) -> Vec<Reason> {
     reasons.extend(
         additions.map(|one| removes(one.effect, one.heldout_gain, one.p_family, situation)),
     );
+    reasons.extend(whose(situation));
     reasons.extend(what_speaks_for_the_chosen(situation));
     reasons.extend(trends(situation));
     reasons.extend((situation.corrected.iter()).map(|one| taken_out(one, situation.rig)));
@@ -190,6 +195,24 @@ fn removes(effect: Effect, heldout_gain: f64, p_family: f64, situation: &Situati
         cluster: situation.clusters.cluster(),
         is_beyond_noise: situation.after.is_weighted,
     }
+}
+
+/// Of every added effect whose size differs between groups, who has it.
+fn whose(situation: &Situation<'_>) -> Vec<Reason> {
+    let additions = situation.additions.iter();
+    let of_one = |effect: Effect| {
+        let added = situation
+            .in_model
+            .iter()
+            .find(|one| one.effect == effect.name());
+        let parameters = added.map_or(&[][..], |added| &added.parameters);
+        let differing = parameters.iter().filter(|one| one.by_group.is_some());
+        differing.map(move |parameter| Reason::Whose {
+            effect: named(effect),
+            parameter: parameter.clone(),
+        })
+    };
+    additions.flat_map(|one| of_one(one.effect)).collect()
 }
 
 fn what_speaks_for_the_chosen(situation: &Situation<'_>) -> Vec<Reason> {

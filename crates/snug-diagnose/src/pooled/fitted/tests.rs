@@ -4,6 +4,7 @@ use super::*;
 use crate::data::cases::{Cases, Tally};
 use crate::pooled::fit::fit_effects;
 use crate::tests::made_up::{NOISE, SAMPLES, WHOLE, close, custom_force, exact, hand, noisy, term};
+use snug_campaign::{Factor, Level, Tightening};
 use snug_identify::FitTask;
 use snug_model::Effect::{CubicStiffness, TorqueOffset};
 
@@ -276,5 +277,40 @@ fn stretches_add_up_to_the_tightening_that_they_are_cut_from() {
             sum.abs() < 1e-3 * sizes,
             "column {column}: {sum} of {sizes}"
         );
+    }
+}
+
+/// The level of one participant.
+fn participant(name: &str) -> Option<Level> {
+    let rig = crate::tests::made_up::RIG;
+    let mut tightening = Tightening::from_torque(rig, 1e-3, vec![0.0; 3]);
+    tightening.conditions.participant = Some(name.to_owned());
+    Factor::Participant.level(&tightening)
+}
+
+/// y = α of each person: 1, 2, 3 of the first, 10 and 14 of the second. The mean of the others takes the place of one that is
+/// held out, and of a person who is held out as a whole the size of the other person.
+#[test]
+fn of_a_group_the_others_of_it_say_what_one_would_do() {
+    let residuals = [-1.0, 0.0, 1.0, -2.0, 2.0_f64];
+    let squares: Vec<f64> = residuals.iter().map(|r| r * r).collect();
+    let evidence: Vec<(f64, f64)> = residuals.iter().map(|r| (1.0, -r)).collect();
+    let mut fitted = Fitted::made_up(&[CubicStiffness], &squares, 1)
+        .with_shared(("k3_n_per_m3", 3, 2.0), &evidence);
+    let size = |name: &str| SharedSize {
+        index: 3,
+        level: participant(name),
+    };
+    fitted.shared_sizes = vec![size("TP1"), size("TP2")];
+    fitted.shared_of = vec![vec![0], vec![0], vec![0], vec![1], vec![1]];
+    fitted.shared = vec![2.0, 12.0];
+    fitted.sharing = Sharing::default().with(CubicStiffness, Some(Factor::Participant));
+    let one_out = fitted.heldout(&|cluster| cluster);
+    for (found, expected) in one_out.iter().zip([2.25, 0.0, 2.25, 16.0, 16.0]) {
+        close(found + 1.0, expected + 1.0, 1e-12);
+    }
+    let person_out = fitted.heldout(&|cluster| cluster / 3);
+    for (found, expected) in person_out.iter().zip([121.0, 100.0, 81.0, 64.0, 144.0]) {
+        close(*found, expected, 1e-12);
     }
 }
