@@ -316,5 +316,16 @@ fn status(status: Status) -> FitStatus {
     }
 }
 
+impl FitTask<'_> {
+    /// Its estimate, as [`identify`](crate::identify).
+    ///
+    /// # Errors
+    /// As [`identify`](crate::identify).
+    pub fn identify(&self) -> Result<Estimate, IdentifyError> {
+        let mut outcomes = identify_all(std::slice::from_ref(self));
+        outcomes.pop().expect("one outcome for one task")
+    }
+}
+
 #[cfg(test)]
 mod tests;

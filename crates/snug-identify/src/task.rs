@@ -3,12 +3,11 @@
 mod contradiction;
 
 use crate::error::IdentifyError;
-use crate::identify::identify_all;
 use crate::residual::restarts::motions_at;
 use crate::residual::thresholds::RESTARTED_EVERY_S;
 use crate::residual::whitening::Whitening;
 use crate::settings::IdentifySettings;
-use snug_campaign::{Estimate, Intersample, NoiseFloor, Quantity, Rig, Tightening};
+use snug_campaign::{Intersample, NoiseFloor, Quantity, Rig, Tightening};
 use snug_model::{Effect, Input, Model, ModelError};
 use std::borrow::Cow;
 
@@ -74,15 +73,6 @@ impl<'a> FitTask<'a> {
     pub fn with_noise(mut self, noise: NoiseFloor) -> Self {
         self.tightening.to_mut().noise = Some(noise);
         self
-    }
-
-    /// Its estimate, as [`identify`](crate::identify).
-    ///
-    /// # Errors
-    /// As [`identify`](crate::identify).
-    pub fn identify(&self) -> Result<Estimate, IdentifyError> {
-        let mut outcomes = identify_all(std::slice::from_ref(self));
-        outcomes.pop().expect("one outcome for one task")
     }
 
     /// The same, lent.

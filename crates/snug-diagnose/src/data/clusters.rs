@@ -3,6 +3,7 @@
 use crate::data::thresholds::{FEWEST_WHOLE, LONG_RECORD, SHORTEST_STRETCH, STRETCHES_WANTED};
 use snug_campaign::words::reason::Cluster;
 use snug_identify::FitTask;
+use statrs::distribution::{ContinuousCDF, StudentsT};
 use std::ops::Range;
 
 /// How tightenings are cut into clusters.
@@ -51,6 +52,12 @@ impl Clusters {
             (cluster * length).min(samples)..((cluster + 1) * length).min(samples)
         })
     }
+}
+
+/// 97.5 % quantile of Student's t with one degree of freedom less than there are clusters.
+pub(crate) fn student(clusters: usize) -> f64 {
+    let freedom = clusters.saturating_sub(1).max(1) as f64;
+    StudentsT::new(0.0, 1.0, freedom).map_or(1.96, |t| t.inverse_cdf(0.975))
 }
 
 #[cfg(test)]

@@ -1,9 +1,9 @@
 //! Sizes that differ between groups of tightenings: each with its interval, which groups have the effect at all, and what they
 //! have in common.
 
+use crate::data::clusters::student;
 use crate::pooled::fitted::Fitted;
 use crate::pooled::sharing::Groups;
-use crate::pooled::sizes::student;
 use crate::pooled::thresholds::FALSE_DISCOVERIES;
 use snug_campaign::{EffectParameter, GroupSize, GroupSizes};
 use snug_identify::FitTask;

@@ -4,6 +4,7 @@
 //! the S⁻¹ of unit noise; Student's t with U − 1. That of one tightening's samples is snug-identify's (M of known noise or of
 //! scores over time), that of regressions on what was fitted snug-statistics' (CR2).
 
+use crate::data::clusters::student;
 use crate::library::is_unlisted;
 use crate::pooled::fitted::Fitted;
 use crate::pooled::group_sizes;
@@ -12,7 +13,6 @@ use snug_campaign::EffectParameter;
 use snug_identify::FitTask;
 use snug_least_squares::matrix::{SymmetricMatrix, inner_product as dot};
 use snug_model::{BASE_PARAMETERS, Effect, Law, Model, ParameterSpec, Scope};
-use statrs::distribution::{ContinuousCDF, StudentsT};
 
 /// Every parameter of one of the model's effects.
 ///
@@ -137,12 +137,6 @@ pub(crate) fn described(spec: &ParameterSpec) -> EffectParameter {
         maximum: spec.maximum,
         by_group: None,
     }
-}
-
-/// 97.5 % quantile of Student's t with one degree of freedom less than there are clusters.
-pub(crate) fn student(clusters: usize) -> f64 {
-    let freedom = clusters.saturating_sub(1).max(1) as f64;
-    StudentsT::new(0.0, 1.0, freedom).map_or(1.96, |t| t.inverse_cdf(0.975))
 }
 
 trait Summary {

@@ -1,8 +1,19 @@
 //! How clearly a sum over clusters differs from zero, when a few loud clusters may carry most of it.
 
+use crate::pooled::fitted::Fitted;
 use crate::ranking::thresholds::CHANCE;
 use snug_least_squares::matrix::inner_product as dot;
 use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
+
+/// What held-out clusters lose in squared residual.
+pub(crate) fn gains(heldout: &[f64], fitted: &Fitted) -> Vec<f64> {
+    let with = fitted.heldout_beyond_torque_noise();
+    heldout
+        .iter()
+        .zip(with)
+        .map(|(before, after)| before - after)
+        .collect()
+}
 
 /// Standard error of Σ x over independent clusters.
 pub(crate) fn spread_of_sum(values: &[f64]) -> f64 {

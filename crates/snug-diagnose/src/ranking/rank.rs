@@ -12,7 +12,7 @@ use crate::pooled::sharing::Groups;
 use crate::pooled::sizes::is_told_from_nothing;
 use crate::ranking::by_group::{by_group, promised};
 use crate::ranking::max_t::Family;
-use crate::ranking::paired_gain::{chance, clearness, spread_of_sum};
+use crate::ranking::paired_gain::{chance, clearness, gains, spread_of_sum};
 use crate::ranking::pairs::{Pair, promising_pairs};
 use crate::ranking::refit::{followed, refit};
 use crate::ranking::score_test::{Control, Scored, Scorer};
@@ -293,16 +293,6 @@ fn possible(refitted: Result<Fitted, DiagnoseError>) -> Result<Option<Fitted>, D
         Ok(_) | Err(DiagnoseError::Identify(_) | DiagnoseError::Solve(_)) => Ok(None),
         Err(other) => Err(other),
     }
-}
-
-/// What held-out clusters lose in squared residual.
-pub(crate) fn gains(heldout: &[f64], fitted: &Fitted) -> Vec<f64> {
-    let with = fitted.heldout_beyond_torque_noise();
-    heldout
-        .iter()
-        .zip(with)
-        .map(|(before, after)| before - after)
-        .collect()
 }
 
 #[cfg(test)]

@@ -3,8 +3,7 @@
 use crate::error::DiagnoseError;
 use crate::pooled::fit::fit_effects;
 use crate::pooled::fitted::Fitted;
-use crate::ranking::paired_gain::clearness;
-use crate::ranking::rank::gains;
+use crate::ranking::paired_gain::{clearness, gains};
 use crate::selection::model_selection::ModelSelection;
 use crate::selection::path::{Attempt, SelectionPath, leaves_more};
 use crate::selection::thresholds::EQUAL;

@@ -10,7 +10,8 @@ use crate::pooled::model::PooledModel;
 use crate::pooled::sharing::{Groups, Sharing};
 use crate::ranking::applicability::candidates;
 use crate::ranking::by_group::{by_group, explains_more};
-use crate::ranking::rank::{Candidate, Ranking, gains, rank};
+use crate::ranking::paired_gain::gains;
+use crate::ranking::rank::{Candidate, Ranking, rank};
 use crate::selection::path::{Addition, SelectionPath, justified, misfit, twins};
 use crate::selection::thresholds::{
     ENOUGH_AHEAD, EQUAL, ESCAPED, JUST_AS_MUCH, LITTLE_LEFT, MOST_EFFECTS, MOST_ESCAPES, MUCH_LEFT,

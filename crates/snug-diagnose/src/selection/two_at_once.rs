@@ -4,8 +4,9 @@
 use crate::error::DiagnoseError;
 use crate::pooled::fitted::Fitted;
 use crate::pooled::sizes::is_told_from_nothing;
+use crate::ranking::paired_gain::gains;
 use crate::ranking::pairs::Pair;
-use crate::ranking::rank::{Candidate, Ranking, gains, rank};
+use crate::ranking::rank::{Candidate, Ranking, rank};
 use crate::selection::model_selection::{ModelSelection, Step};
 use crate::selection::path::{SelectionPath, least_share, misfit};
 use snug_model::Effect;
