@@ -1,5 +1,6 @@
 //! What a format of measurement files has to say and do; a new one implements [`Layout`] in a module of its own.
 
+use crate::file_name::name_and_stem;
 use crate::finding_log::FindingLog;
 use crate::memory::Budget;
 use crate::range::{self, Range};
@@ -7,7 +8,6 @@ use crate::signal::{Signal, Unit};
 use crate::{ConditionPattern, IngestError, Ingested};
 use snug_campaign::{Conditions, Motion, Recording, TimeBase};
 use snug_files::Input;
-use std::ffi::OsStr;
 use std::io::{Read as _, SeekFrom};
 use std::path::Path;
 
@@ -101,12 +101,6 @@ fn check_text(start: &[u8]) -> Result<(), IngestError> {
         Some(offset) => Err(IngestError::NotText { offset }),
         None => Ok(()),
     }
-}
-
-/// A file's name, and the same without its ending.
-pub(crate) fn name_and_stem(path: &Path) -> (String, String) {
-    let text = |part: Option<&OsStr>| part.unwrap_or_default().to_string_lossy().into_owned();
-    (text(path.file_name()), text(path.file_stem()))
 }
 
 /// What a channel measures, in which unit and with which factor, and its samples.

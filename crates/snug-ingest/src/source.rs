@@ -5,7 +5,6 @@ mod listing;
 
 pub use listing::{Listing, list, list_on};
 
-use crate::IngestError;
 use crate::csv::CsvLayout;
 use crate::declared::json::JsonLayout;
 use crate::declared::mat::MatLayout;
@@ -14,8 +13,8 @@ use crate::mcap::McapLayout;
 use crate::memory::Budget;
 use crate::range::Range;
 use crate::thesis_layout::ThesisLayout;
+use crate::{IngestError, Ingested};
 use serde::{Deserialize, Serialize};
-use snug_campaign::{Finding, Recording};
 use snug_files::{Disk, Host};
 use std::path::{Path, PathBuf};
 
@@ -55,15 +54,6 @@ impl Default for Format {
     fn default() -> Self {
         Self::Thesis(ThesisLayout::default())
     }
-}
-
-/// What one file gave.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Ingested {
-    /// Recordings, mostly one; a recording that Snug wrote holds one per measurement file.
-    pub recordings: Vec<Recording>,
-    /// What a reader of the results must know about the file.
-    pub findings: Vec<Finding>,
 }
 
 impl Format {
@@ -132,14 +122,6 @@ pub fn read_on(
             layout.read(input.as_mut(), file, lever_arm_m, &budget)
         })
         .map_err(|error| error.in_file(file))
-}
-
-/// In lower case, without the point.
-pub(crate) fn ending(file: &Path) -> String {
-    file.extension()
-        .unwrap_or_default()
-        .to_string_lossy()
-        .to_lowercase()
 }
 
 #[cfg(test)]

@@ -6,8 +6,8 @@ mod table;
 
 use crate::csv::Column;
 use crate::declared::Part;
+use crate::file_name::ending;
 use crate::memory::Budget;
-use crate::source::ending;
 use crate::{IngestError, ThesisLayout};
 use snug_files::{Disk, Host};
 use std::path::Path;

@@ -2,12 +2,12 @@
 
 mod events;
 
+use crate::file_name::{ending, name_and_stem};
 use crate::finding_log::{About, FindingLog};
-use crate::layout::{self, Layout, name_and_stem};
+use crate::layout::{self, Layout};
 use crate::mat::{self, Content, MatSelection, Value};
 use crate::mcap::McapLayout;
 use crate::memory::Budget;
-use crate::source::ending;
 use crate::{ConditionPattern, IngestError, Ingested, range};
 use serde::{Deserialize, Serialize};
 use snug_campaign::{Motion, Recording, Segment, TimeBase};

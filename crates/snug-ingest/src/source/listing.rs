@@ -1,9 +1,9 @@
 //! Which files of a folder are read, and why the others are not.
 
+use super::Source;
 use super::entry::Entry;
-use super::{Source, ending};
 use crate::IngestError;
-use crate::layout::name_and_stem;
+use crate::file_name::{ending, name_and_stem};
 use snug_campaign::{Finding, Severity};
 use snug_files::{Disk, Host, Identity};
 use std::collections::HashMap;
