@@ -108,13 +108,7 @@ pub fn campaign_of(preset: Preset, plan: &CampaignPlan, seed: u64) -> Campaign {
 }
 
 pub fn ask(cases: &[FitTask<'_>], goal: Goal) -> Diagnosis {
-    let question = Question {
-        cases,
-        effects: Vec::new(),
-        by_group: vec![],
-        custom: Vec::new(),
-        goal,
-    };
+    let question = Question::new(cases, goal);
     examine(
         &question,
         &DiagnoseSettings::default(),

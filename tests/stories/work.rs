@@ -47,13 +47,7 @@ fn one_by_one(
 }
 
 fn diagnosed(cases: &[FitTask<'_>], threads: usize) -> WorkDone {
-    let question = Question {
-        cases,
-        effects: Vec::new(),
-        by_group: vec![],
-        custom: Vec::new(),
-        goal: Goal::Diagnose,
-    };
+    let question = Question::new(cases, Goal::Diagnose);
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(threads)
         .build()

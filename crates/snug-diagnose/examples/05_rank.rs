@@ -47,13 +47,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let cases: Vec<FitTask> = (measured.iter())
         .map(|(tightening, input)| FitTask::new(tightening, input, &model, &settings))
         .collect();
-    let question = Question {
-        cases: &cases,
-        effects: vec![],
-        by_group: vec![],
-        custom: vec![],
-        goal: Goal::Diagnose,
-    };
+    let question = Question::new(&cases, Goal::Diagnose);
     let tell = |stage: &str| println!("{stage} …");
     let answer = examine(&question, &DiagnoseSettings::default(), &Watch::new(&tell))?;
 

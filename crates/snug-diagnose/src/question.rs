@@ -20,7 +20,18 @@ pub enum Goal {
     Improve,
 }
 
-impl Question<'_> {
+impl<'a> Question<'a> {
+    /// Of the base model of `cases`, with no effect in it and none but the catalogue's as candidates.
+    pub fn new(cases: &'a [FitTask<'a>], goal: Goal) -> Self {
+        Self {
+            cases,
+            effects: Vec::new(),
+            by_group: Vec::new(),
+            custom: Vec::new(),
+            goal,
+        }
+    }
+
     /// Which of the study's own effects have sizes that differ between groups.
     pub(crate) fn sharing(&self) -> Result<Sharing, DiagnoseError> {
         let mut sharing = Sharing::default();

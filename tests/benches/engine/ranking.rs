@@ -77,13 +77,7 @@ pub fn bare_fits(cases: &[FitTask<'_>]) {
 
 /// Number of candidates ranked.
 fn diagnose(cases: &[FitTask<'_>]) -> usize {
-    let question = Question {
-        cases,
-        effects: Vec::new(),
-        by_group: vec![],
-        custom: Vec::new(),
-        goal: Goal::Diagnose,
-    };
+    let question = Question::new(cases, Goal::Diagnose);
     let answer = examine(
         &question,
         &DiagnoseSettings::default(),

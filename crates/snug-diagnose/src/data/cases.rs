@@ -177,13 +177,7 @@ mod tests {
     fn a_tightening_that_was_not_measured_is_refused_by_name() {
         let refused = |case: FitTask<'_>, expected: IdentifyError| {
             let cases = [exact(0, &[], &[]), case];
-            let question = Question {
-                cases: &cases,
-                effects: vec![],
-                by_group: vec![],
-                custom: vec![],
-                goal: Goal::Diagnose,
-            };
+            let question = Question::new(&cases, Goal::Diagnose);
             let examined = examine(&question, &DiagnoseSettings::default(), &silent());
             for error in [examined.err(), fit_together(&cases, &[]).err()] {
                 let Some(DiagnoseError::Identify(error)) = error else {
