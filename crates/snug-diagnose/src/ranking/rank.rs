@@ -296,4 +296,6 @@ fn possible(refitted: Result<Fitted, DiagnoseError>) -> Result<Option<Fitted>, D
 }
 
 #[cfg(test)]
+mod nested;
+#[cfg(test)]
 mod tests;

@@ -4,7 +4,6 @@ use crate::data::cases::Cases;
 use crate::data::clusters::Clusters;
 use crate::error::DiagnoseError;
 use crate::library::is_unlisted;
-use crate::pooled::fit::fit_effects;
 use crate::pooled::fitted::Fitted;
 use crate::pooled::long_record;
 use crate::pooled::model::{PooledModel, Start, pick};
@@ -12,10 +11,12 @@ use crate::pooled::parameter_place::first_parameter;
 use crate::ranking::resonances;
 use crate::ranking::sensitivity::Column;
 use crate::ranking::thresholds::{
-    CANDIDATE, FEW, FREELY, LED, LED_REACH, LEFT_BEHIND, LITTLE, MOST_ROUNDS, ROUGH_REFIT,
+    CANDIDATE, FARTHER, FEW, FREELY, GLANCE, LED, LED_REACH, LEFT_BEHIND, LITTLE, MOST_ROUNDS,
+    ROUGH_REFIT,
 };
 use crate::ranking::wavelengths;
 use crate::settings::DiagnoseSettings;
+use snug_campaign::Parameter;
 use snug_identify::{FitTask, HALF_WIDTHS, SIDE_BY_SIDE};
 use snug_least_squares::{PooledFit, PooledSettings, SolveError};
 use snug_model::{BASE_PARAMETERS, Effect, Law, ParameterSpec, Scope};
@@ -41,15 +42,35 @@ pub(crate) fn refit(
     };
     let starts = promising(effect, columns, most);
     let mut pooled = PooledModel::shared_by(cases, &effects, &current.sharing)?;
+    let nothing = nothing_of(&pooled, effect, starts.first().copied());
     let starts: Vec<Start> = (read_off.iter().map(Vec::as_slice).chain(starts))
         .map(|values| with_effect(&pooled, current, effect, values))
         .collect();
-    let end = match starts.as_slice() {
-        [] => return fit_effects(cases, &effects, Some(current), clusters),
-        starts if !clusters.are_whole() => {
-            let end = long_record::best_of(&mut pooled, starts, &CANDIDATE)?;
-            no_worse(&mut pooled, current, effect, end)?
+    let nothing: Vec<Start> = (nothing.iter())
+        .map(|values| with_effect(&pooled, current, effect, values))
+        .collect();
+    let end = led_by(&mut pooled, current, &starts, clusters);
+    let end = no_worse(&mut pooled, current, &nothing, end)?;
+    Ok(Fitted::new(&pooled, end, &clusters))
+}
+
+/// Where the starts lead to, all of the effect's parameters free.
+fn led_by(
+    pooled: &mut PooledModel<'_>,
+    current: &Fitted,
+    starts: &[Start],
+    clusters: Clusters,
+) -> Result<PooledFit, DiagnoseError> {
+    match starts {
+        [] if clusters.are_whole() => {
+            let usual = current.start(pooled);
+            pooled.fit(&usual, &PooledSettings::default())
         }
+        [] => {
+            let usual = current.start(pooled);
+            long_record::to_the_end(pooled, &usual)
+        }
+        starts if !clusters.are_whole() => long_record::best_of(pooled, starts, &CANDIDATE),
         // Beside an effect that lets go, what another one changes moves every instant of contact.
         [only]
             if !current.is_at_floor()
@@ -58,17 +79,16 @@ pub(crate) fn refit(
                     .iter()
                     .any(|one| one.has_unilateral_contact()) =>
         {
-            let end = from_afar(&mut pooled, only, &CANDIDATE)?;
-            catch_up(&mut pooled, current, end)?
+            let end = from_afar(pooled, only, &CANDIDATE)?;
+            catch_up(pooled, current, end)
         }
-        [only] => pooled.fit(only, &CANDIDATE)?,
+        [only] => pooled.fit(only, &CANDIDATE),
         several => {
-            let start = rough(&pooled, current, several)?;
-            let end = from_afar(&mut pooled, &start, &CANDIDATE)?;
-            catch_up(&mut pooled, current, end)?
+            let start = rough(pooled, current, several)?;
+            let end = from_afar(pooled, &start, &CANDIDATE)?;
+            catch_up(pooled, current, end)
         }
-    };
-    Ok(Fitted::new(&pooled, end, &clusters))
+    }
 }
 
 /// A candidate of records that take long, from where a few steps led.
@@ -82,30 +102,69 @@ pub(crate) fn followed(
     Ok(Fitted::new(&pooled, end, &clusters))
 }
 
-/// The fit that ended at `end`, or where that is worse than without the effect, one from where nothing of it is there: a larger
-/// model that fits worse was led astray.
+/// The fit that ended at `end`, or where that is worse than without the effect, or came to nothing, one from where `nothing` of it
+/// is there: a larger model that fits worse was led astray.
 fn no_worse(
     pooled: &mut PooledModel<'_>,
     current: &Fitted,
-    effect: Effect,
-    end: PooledFit,
+    nothing: &[Start],
+    end: Result<PooledFit, DiagnoseError>,
 ) -> Result<PooledFit, DiagnoseError> {
-    if 2.0 * end.cost() <= current.squares() {
-        return Ok(end);
+    let is_no_worse = |end: &PooledFit| 2.0 * end.cost() <= current.squares();
+    if end.as_ref().is_ok_and(is_no_worse) {
+        return end;
     }
-    let nothing = |spec: &ParameterSpec| {
-        let (minimum, maximum) = spec.limits;
-        let value = spec.vanishes_at.unwrap_or(spec.starts[0]);
-        value.clamp(minimum, maximum)
+    let nested = match nothing {
+        [only] => pooled.fit(only, &CANDIDATE),
+        several => {
+            let tried = several
+                .iter()
+                .filter_map(|start| pooled.fit(start, &GLANCE).ok());
+            match tried.min_by(|a, b| a.cost().total_cmp(&b.cost())) {
+                Some(lowest) => pooled.fit(&Start::at(&lowest), &CANDIDATE),
+                None => Err(SolveError::NoStart.into()),
+            }
+        }
     };
-    let values: Vec<f64> = (effect.description().parameters.iter())
-        .map(nothing)
-        .collect();
-    let nested = with_effect(pooled, current, effect, &values);
-    match pooled.fit(&nested, &CANDIDATE) {
-        Ok(other) if other.cost() < end.cost() => Ok(other),
-        _ => Ok(end),
+    match (nested, end) {
+        (Ok(nested), Ok(end)) if end.cost() <= nested.cost() => Ok(end),
+        (Ok(nested), _) => Ok(nested),
+        (Err(_), end) => end,
     }
+}
+
+/// Values of an effect's parameters with which it is as good as not there; its shape is that of `start`, or the usual one.
+///
+/// Where it is not there only beyond its limits, as a support that is ever heavier, these are all corners of what is near to that:
+/// a shape tells how near, and which of them can be simulated at all.
+fn nothing_of(pooled: &PooledModel<'_>, effect: Effect, start: Option<&[f64]>) -> Vec<Vec<f64>> {
+    let first = first_parameter(&pooled.effects, effect);
+    let parameters = &pooled.models[0].parameters()[first..];
+    let specs = effect.description().parameters;
+    let is_beyond = |spec: &ParameterSpec, parameter: &Parameter| {
+        let limits = parameter.minimum..=parameter.maximum;
+        spec.vanishes_at.is_some_and(|at| !limits.contains(&at))
+    };
+    let pairs = || specs.iter().zip(parameters);
+    let is_any_beyond = pairs().any(|(spec, parameter)| is_beyond(spec, parameter));
+    let mut all = vec![Vec::new()];
+    for (place, (spec, parameter)) in pairs().enumerate() {
+        let (minimum, maximum) = (parameter.minimum, parameter.maximum);
+        let usual = start.map_or(parameter.value, |start| start[place]);
+        let values = match spec.vanishes_at {
+            Some(at) if is_beyond(spec, parameter) => {
+                let nearest = at.clamp(minimum, maximum);
+                vec![nearest, (FARTHER * nearest).clamp(minimum, maximum)]
+            }
+            Some(at) => vec![at],
+            None if is_any_beyond => vec![minimum, usual, maximum],
+            None => vec![usual],
+        };
+        all = (all.iter())
+            .flat_map(|begun: &Vec<f64>| values.iter().map(|&value| [begun, &[value][..]].concat()))
+            .collect();
+    }
+    all
 }
 
 /// At most `most` different starts of an effect, those whose columns promise most.

@@ -42,6 +42,13 @@ pub(crate) const CANDIDATE: PooledSettings = PooledSettings {
     max_iterations: 40,
     cost_tolerance: 1e-6,
 };
+/// Where nothing of an effect lies beyond its limits, its value at the limit is tried, and this share of it \[–\], ... Chosen.
+pub(crate) const FARTHER: f64 = 0.1;
+/// ... each with the other parameters at their limits and between, for so many steps. Chosen.
+pub(crate) const GLANCE: PooledSettings = PooledSettings {
+    max_iterations: 2,
+    cost_tolerance: 1e-2,
+};
 /// When a fit to a few tightenings stops. Chosen.
 pub(crate) const ROUGH_REFIT: PooledSettings = PooledSettings {
     max_iterations: 20,

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::data::cases::Tally;
+use crate::pooled::fit::fit_effects;
 use crate::pooled::model::Room;
 use crate::tests::made_up::{SAMPLES, WHOLE, close, exact, hand, noisy, term};
 use snug_least_squares::Profile;
