@@ -2,7 +2,8 @@
 //! few shapes the field knows.
 
 use crate::error::DiagnoseError;
-use snug_model::{CustomEffectSettings, CustomParameterSettings, Effect, Place};
+use snug_campaign::Rig;
+use snug_model::{CustomEffectSettings, CustomParameterSettings, Effect, Place, Scale};
 
 /// One candidate: name, what it is in words, and expression of force \[N\].
 struct Term {
@@ -10,9 +11,13 @@ struct Term {
     says: &'static str,
     /// What it is where its size p is negative.
     says_below_zero: &'static str,
+    /// `{slow}` is a speed \[m/s\] over which it turns or sets in, see [`Term::slow_m_per_s`].
     expression: &'static str,
     parameters: &'static [Factor],
 }
+
+/// Speeds over which two of the terms turn or set in, on a hand \[m/s\].
+const SLOW_M_PER_S: [(&str, f64); 2] = [("sqrt_v_law", 0.001), ("abs_x_friction_law", 0.01)];
 
 /// A number in an expression.
 struct Factor {
@@ -89,7 +94,7 @@ const TERMS: &[Term] = &[
         name: "sqrt_v_law",
         says: "something between friction and a damper: it grows with the root of the speed",
         says_below_zero: "damping that is weaker the slower the tool moves: it falls short of a damper's by the root of the speed",
-        expression: "p*v/sqrt(abs(v)+0.001)",
+        expression: "p*v/sqrt(abs(v)+{slow})",
         parameters: &[p("N s^0.5/m^0.5")],
     },
     Term {
@@ -212,7 +217,7 @@ const TERMS: &[Term] = &[
         name: "abs_x_friction_law",
         says: "friction that grows with the displacement",
         says_below_zero: "friction that falls with the displacement",
-        expression: "p*abs(x)*tanh(v/0.01)",
+        expression: "p*abs(x)*tanh(v/{slow})",
         parameters: &[p("N/m")],
     },
     Term {
@@ -238,17 +243,23 @@ const TERMS: &[Term] = &[
     },
 ];
 
-/// Every term as an effect; on a machine those that have no number but p: places, speeds and times are a hand's.
-pub(crate) fn terms(is_machine: bool) -> Result<Vec<Effect>, DiagnoseError> {
+/// Every term as an effect on a rig of this scale; on a machine those that have no number but p: places, speeds and times are a
+/// hand's.
+pub(crate) fn terms(scale: Scale, rig: &Rig) -> Result<Vec<Effect>, DiagnoseError> {
+    let is_machine = matches!(scale, Scale::Rig { .. });
     let can_act = |term: &&Term| !is_machine || term.parameters.len() == 1;
     let able = TERMS.iter().filter(can_act);
-    able.map(|term| Ok(Effect::custom(&term.settings())?))
+    able.map(|term| Ok(Effect::custom(&term.settings(scale, rig))?))
         .collect()
 }
 
-/// How a study declares the term called `name`.
-pub(crate) fn declaration(name: &str) -> Option<CustomEffectSettings> {
-    term(name).map(Term::settings)
+/// How a study declares the effect, if it is one of these terms.
+pub(crate) fn declaration(effect: Effect) -> Option<CustomEffectSettings> {
+    term(effect.name())?;
+    match effect {
+        Effect::Custom(law) => Some(law.settings().clone()),
+        _ => None,
+    }
 }
 
 /// What an effect is in words, if it is one of these terms; `size` is that of its first number.
@@ -265,12 +276,26 @@ fn term(name: &str) -> Option<&'static Term> {
 }
 
 impl Term {
-    fn settings(&self) -> CustomEffectSettings {
+    fn settings(&self, scale: Scale, rig: &Rig) -> CustomEffectSettings {
+        let slow = self.slow_m_per_s(scale, rig);
         CustomEffectSettings {
             name: self.name.to_owned(),
             place: Place::Force,
-            expression: self.expression.to_owned(),
+            expression: self.expression.replace("{slow}", &slow),
             parameters: self.parameters.iter().map(Factor::settings).collect(),
+        }
+    }
+}
+
+impl Term {
+    /// The speed that its expression names, as a hand or as much more or less as a rig moves.
+    fn slow_m_per_s(&self, scale: Scale, rig: &Rig) -> String {
+        let of_hand = SLOW_M_PER_S.iter().find(|(name, _)| *name == self.name);
+        let times = scale.times_hand("m/s", rig);
+        match of_hand.map(|(_, speed)| speed) {
+            Some(speed) if times == 1.0 => speed.to_string(),
+            Some(speed) => format!("{:e}", speed * times),
+            None => String::new(),
         }
     }
 }
@@ -297,12 +322,19 @@ pub(crate) fn is_unlisted(effect: Effect) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tests::made_up::{self, close};
+    use crate::tests::made_up::{self, RIG, close};
     use snug_model::{Instant, Law};
+
+    /// Twice a hand's speed: 0.06 rad · 0.33 m in 0.04 s.
+    const MACHINE: Scale = Scale::Rig {
+        torque_nm: 10.0,
+        angle_rad: 0.06,
+        time_s: 0.04,
+    };
 
     #[test]
     fn a_term_that_takes_away_is_told_as_one_that_takes_away() {
-        let [effect] = terms(true)
+        let [effect] = terms(MACHINE, &RIG)
             .expect("the terms are well formed")
             .into_iter()
             .filter(|one| one.name() == "sqrt_v_law")
@@ -381,7 +413,7 @@ mod tests {
     /// As they begin a refit: a tool that rests where the hand is at ease stays there.
     #[test]
     fn no_term_pushes_a_tool_that_rests() {
-        for effect in terms(false).expect("the terms are well formed") {
+        for effect in terms(Scale::HandOnTool, &RIG).expect("the terms are well formed") {
             let rest = force_n(
                 effect,
                 effect.description().parameters[0].starts[0],
@@ -394,11 +426,11 @@ mod tests {
 
     #[test]
     fn a_machine_has_no_terms_with_places_speeds_or_times_of_a_hand() {
-        let names = |is_machine| -> Vec<&str> {
-            let terms = terms(is_machine).expect("the terms are well formed");
+        let names = |scale| -> Vec<&str> {
+            let terms = terms(scale, &RIG).expect("the terms are well formed");
             terms.iter().map(|term| term.name()).collect()
         };
-        let (all, of_machine) = (names(false), names(true));
+        let (all, of_machine) = (names(Scale::HandOnTool), names(MACHINE));
         let a_hand_s: Vec<&&str> = all
             .iter()
             .filter(|name| !of_machine.contains(name))
@@ -415,12 +447,24 @@ mod tests {
 
     #[test]
     fn a_term_s_declaration_makes_the_same_effect_again() {
-        let declared = declaration("end_stop_law").expect("it is a term");
+        let declared = declaration(made_up::term("end_stop_law")).expect("it is a term");
         assert_eq!(declared.parameters[1].further_starts, [0.01]);
         let again = Effect::custom(&declared).expect("the declaration is well formed");
         assert_eq!(again, made_up::term("end_stop_law"));
         assert!(is_unlisted(again) && !is_unlisted(Effect::CubicStiffness));
-        assert!(declaration("cubic_stiffness").is_none());
+        assert!(declaration(Effect::CubicStiffness).is_none());
+    }
+
+    #[test]
+    fn a_speed_that_is_slow_for_a_hand_is_as_slow_on_a_machine() {
+        let term = |scale, name: &str| {
+            let terms = terms(scale, &RIG).expect("the terms are well formed");
+            let found = terms.into_iter().find(|term| term.name() == name);
+            declaration(found.expect("there is such a term")).expect("it is one of them")
+        };
+        let says = |scale| term(scale, "abs_x_friction_law").expression;
+        assert_eq!(says(Scale::HandOnTool), "p*abs(x)*tanh(v/0.01)");
+        assert_eq!(says(MACHINE), "p*abs(x)*tanh(v/2e-2)");
     }
 
     #[test]

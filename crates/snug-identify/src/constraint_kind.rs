@@ -4,7 +4,8 @@ use serde::{Deserialize, Serialize};
 use snug_least_squares::{Affine, Constraints};
 use snug_model::Model;
 
-/// What keeps a strict inequality strict in floating point, in the parameter's own unit. Chosen.
+/// What keeps a strict inequality strict in floating point, in the parameter's own unit on a hand and as much more or less on a
+/// rig of another scale. Chosen.
 const STRICT: f64 = 1e-9;
 
 /// A constraint a study can ask for on m, c, k.
@@ -37,6 +38,7 @@ pub fn convex_set(model: &Model, kinds: &[ConstraintKind]) -> Constraints {
     }
     let rig = model.rig();
     let square = rig.lever_arm_m * rig.lever_arm_m;
+    let strict = |index: usize| STRICT * model.scale().times_hand(&parameters[index].unit, rig);
     // factor · parameter + constant over the free parameters.
     let affine = |parameter: usize, factor: f64, constant: f64| match column(parameter) {
         Some(column) => Affine::term(free.len(), column, factor, constant),
@@ -47,7 +49,7 @@ pub fn convex_set(model: &Model, kinds: &[ConstraintKind]) -> Constraints {
             ConstraintKind::Positive => {
                 for (index, parameter) in parameters.iter().enumerate().take(3) {
                     if let Some(column) = column(index) {
-                        set.bound(column, STRICT, f64::INFINITY, &parameter.name);
+                        set.bound(column, strict(index), f64::INFINITY, &parameter.name);
                     }
                 }
             }
@@ -57,7 +59,7 @@ pub fn convex_set(model: &Model, kinds: &[ConstraintKind]) -> Constraints {
                     if let Some(column) = column(index) {
                         set.bound(
                             column,
-                            minimum + STRICT,
+                            minimum + strict(index),
                             f64::INFINITY,
                             &parameters[index].name,
                         );

@@ -136,7 +136,8 @@ impl<'a> FitTask<'a> {
         if self.quantity() != Quantity::Acceleration || self.input.is_restarted() {
             return None;
         }
-        let apart = (RESTARTED_EVERY_S / self.tightening.time_base.interval_s).ceil() as usize;
+        let every_s = RESTARTED_EVERY_S * self.model.scale().times_hand("s", self.model.rig());
+        let apart = (every_s / self.tightening.time_base.interval_s).ceil() as usize;
         let motions = motions_at(angle_rad, velocity_rad_per_s, apart);
         let input = self
             .input

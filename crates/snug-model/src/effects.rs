@@ -5,7 +5,8 @@ use crate::custom::settings::CustomEffectSettings;
 use crate::description::Description;
 use crate::error::ModelError;
 use crate::law::{
-    AnsweredHooks, Deflection, Delayed, Instant, Kinematics, Law, LoggedTorque, Resonance, hooks,
+    AnsweredHooks, Corner, Deflection, Delayed, Instant, Kinematics, Law, LoggedTorque, Resonance,
+    hooks,
 };
 use crate::numeric::number::Number;
 use snug_campaign::Quantity;

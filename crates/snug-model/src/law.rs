@@ -31,6 +31,15 @@ pub struct Deflection<N> {
     pub v_m_per_s: N,
 }
 
+/// Over what a contact sets in, so that the response can be differentiated.
+#[derive(Debug, Clone, Copy)]
+pub struct Corner<R> {
+    /// Least length \[m\].
+    pub length_m: R,
+    /// Time \[s\]: the length is at least what the tool moves in it.
+    pub time_s: R,
+}
+
 /// A spring that acts on the displacement of a while ago.
 #[derive(Debug, Clone, Copy)]
 pub struct Delayed<N> {
@@ -100,7 +109,7 @@ macro_rules! hooks {
                 fn support(own: &[N]) -> Deflection<N>;
 
                 /// What the hand's spring and damper see of the deflection between tool and support.
-                fn deflection(between: Deflection<N>) -> Deflection<N>;
+                fn deflection(between: Deflection<N>, corner: &Corner<N::Real>) -> Deflection<N>;
 
                 /// By how much of itself the hand's stiffness grows.
                 fn stiffening(at: &Instant<N>) -> N;
@@ -208,6 +217,7 @@ struct AtRest<'a> {
     own_rates: &'a [f64],
     rates: &'a mut [f64],
     between: Deflection<f64>,
+    corner: &'a Corner<f64>,
     motion: &'a Kinematics<f64>,
     seen: Kinematics<f64>,
     force_n: f64,
@@ -236,6 +246,10 @@ impl<'a> AtRest<'a> {
             between: Deflection {
                 x_m: 0.0,
                 v_m_per_s: 0.0,
+            },
+            corner: &Corner {
+                length_m: 1e-6,
+                time_s: 1e-5,
             },
             motion: &STILL,
             seen: STILL,

@@ -31,7 +31,7 @@ pub use description::{ActsOn, Description, Kind, OnMachine, ParameterSpec, Scope
 pub use effects::{Effect, TRENDS};
 pub use error::ModelError;
 pub use input::torque::{Earlier, Input};
-pub use law::{Deflection, Delayed, Instant, Kinematics, Law, LoggedTorque, Resonance};
+pub use law::{Corner, Deflection, Delayed, Instant, Kinematics, Law, LoggedTorque, Resonance};
 pub use numeric::dual::Dual;
 pub use numeric::number::Number;
 pub use numeric::real::{Real, Task};

@@ -25,7 +25,7 @@ pub(crate) fn candidates(
         .collect::<Result<Vec<Effect>, _>>()?;
     all.retain(|effect| !(only_this && effect.same_as(compared).is_some()));
     all.extend(custom);
-    all.extend(terms(is_machine(case))?);
+    all.extend(terms(case.model.scale(), case.model.rig())?);
     // What goes with the angle is told by the catalogue where it knows how to.
     let goes_with_angle =
         |effect: &Effect| effect.description().acts_on == ActsOn::MachinesOfFewTurns;

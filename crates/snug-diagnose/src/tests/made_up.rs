@@ -11,7 +11,9 @@ use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 use snug_campaign::{Intersample, Motion, NoiseFloor, Quantity, Rig, Tightening, TighteningId};
 use snug_identify::{ConstraintKind, FitTask, IdentifySettings};
-use snug_model::{CustomEffectSettings, CustomParameterSettings, Effect, Input, Model, Place};
+use snug_model::{
+    CustomEffectSettings, CustomParameterSettings, Effect, Input, Model, Place, Scale,
+};
 use std::borrow::Cow;
 
 pub(crate) const RIG: Rig = Rig {
@@ -116,7 +118,9 @@ pub(crate) fn quick(sign_flips: usize) -> DiagnoseSettings {
 
 /// The term called `name`, which is in no catalogue.
 pub(crate) fn term(name: &str) -> Effect {
-    let mut all = terms(false).expect("the terms are well formed").into_iter();
+    let mut all = terms(Scale::HandOnTool, &RIG)
+        .expect("the terms are well formed")
+        .into_iter();
     all.find(|term| term.name() == name)
         .expect("there is such a term")
 }

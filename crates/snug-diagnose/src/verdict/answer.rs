@@ -310,7 +310,7 @@ impl Examination<'_> {
             effect: candidate.effect.name().to_owned(),
             kind: candidate.effect.description().kind.name().to_owned(),
             unlisted: is_unlisted(candidate.effect),
-            expression: declaration(candidate.effect.name()).map(|term| term.expression),
+            expression: declaration(candidate.effect).map(|term| term.expression),
             score: candidate.score,
             p_family: candidate.p_family,
             heldout_gain: candidate.gain() / misfit,
@@ -352,7 +352,7 @@ impl Examination<'_> {
                 AddedEffect {
                     effect: effect.name().to_owned(),
                     kind: effect.description().kind.name().to_owned(),
-                    expression: declaration(effect.name()).map(|d| d.expression),
+                    expression: declaration(effect).map(|d| d.expression),
                     twins: one.map_or_else(Vec::new, |one| {
                         one.twins
                             .iter()
@@ -409,7 +409,7 @@ impl Examination<'_> {
             ),
             _ => return None,
         };
-        let declared = declaration(effect.name())?;
+        let declared = declaration(effect)?;
         let sizes = parameters(self.question.cases, fitted, effect);
         Some(UnlistedTerm {
             statement: statement::unlisted(
@@ -435,7 +435,7 @@ fn rung_model(cases: &[FitTask<'_>], fitted: &Fitted) -> RungModel {
         declarations: fitted
             .effects
             .iter()
-            .filter_map(|effect| declaration(effect.name()))
+            .filter_map(|&effect| declaration(effect))
             .collect(),
         base: fitted.base(),
         parameters: fitted

@@ -84,7 +84,7 @@ impl Situation<'_> {
 
 /// An effect by itself.
 pub(crate) fn named(effect: Effect) -> Named {
-    let expression = declaration(effect.name()).map(|term| term.expression);
+    let expression = declaration(effect).map(|term| term.expression);
     Named::alone(effect.name().to_owned(), expression)
 }
 
@@ -315,7 +315,7 @@ impl Held {
 
 /// What an effect of `fitted` is, how it shows, what to check at the bench.
 pub(crate) fn explanation(effect: Effect, fitted: &Fitted, rig: Held) -> Vec<String> {
-    match declaration(effect.name()).zip(in_words(effect, fitted.size(effect))) {
+    match declaration(effect).zip(in_words(effect, fitted.size(effect))) {
         Some((declared, says)) => statement::described_unlisted(&declared.expression, says),
         None => described(effect.description(), rig),
     }

@@ -43,8 +43,10 @@ impl DecimatedRecord {
     pub fn of(task: &FitTask<'_>, quantity: Quantity) -> Option<Self> {
         let (input, measured) = (&task.input, task.tightening.motion.get(quantity)?);
         let interval_s = input.interval_s();
-        let shortest = (LONGEST_INTERVAL_S / interval_s) as usize;
-        let factor = shortest.min(input.samples() / ENOUGH_SAMPLES);
+        let model = &task.model;
+        let longest_s = LONGEST_INTERVAL_S * model.scale().times_hand("s", model.rig());
+        let most = (longest_s / interval_s) as usize;
+        let factor = most.min(input.samples() / ENOUGH_SAMPLES);
         if factor < 2 || input.is_restarted() {
             return None;
         }

@@ -16,7 +16,7 @@ pub(crate) const MOST_DECIMATED_ENDS: usize = 2;
 pub(crate) const MOST_LED_ENDS: usize = 3;
 /// Samples that a decimated record should have: its noise is then still small beside a whole tightening's motion. Chosen.
 pub(crate) const ENOUGH_SAMPLES: usize = 375;
-/// Longest interval between decimated samples \[s\]: a shut-off, the fastest event of a tightening, takes several of them. Chosen.
+/// Longest interval between decimated samples \[s\], on a hand: a shut-off, the fastest event of a tightening, takes several of them. Chosen.
 pub(crate) const LONGEST_INTERVAL_S: f64 = 1e-3;
 /// Decimated samples from one restart to the next, some 3 ms: enough for a law to show in the velocity. Chosen.
 pub(crate) const APART: usize = 4;

@@ -11,5 +11,5 @@ pub(crate) const LEAST_HALF_WIDTH: usize = 2;
 pub(crate) const PLACES: usize = 400;
 /// Growth of the residual's spread up to which a wider cubic still describes the measurement as well \[–\]. Chosen.
 pub(crate) const AS_WELL: f64 = 1.1;
-/// From one restart along the measured motion to the next \[s\]: enough for a law to show in the velocity. Chosen.
+/// From one restart along the measured motion to the next \[s\], on a hand: enough for a law to show in the velocity. Chosen.
 pub(crate) const RESTARTED_EVERY_S: f64 = 3e-3;

@@ -1,7 +1,7 @@
 //! Which parameters and states belong to which effect of a model: the only place that knows their indices.
 
 use crate::effects::Effect;
-use crate::law::AnsweredHooks;
+use crate::law::{AnsweredHooks, Corner};
 use snug_campaign::Rig;
 use std::ops::Range;
 
@@ -27,6 +27,7 @@ pub(crate) struct Part {
 #[derive(Debug, Clone)]
 pub struct Assembly {
     pub(crate) rig: Rig,
+    pub(crate) corner: Corner<f64>,
     pub(crate) parts: Vec<Part>,
     pub(crate) parameter_count: usize,
     pub(crate) own_state_count: usize,

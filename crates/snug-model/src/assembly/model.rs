@@ -80,6 +80,7 @@ impl Model {
         Ok(Self {
             assembly: Assembly {
                 rig,
+                corner: scale.corner(&rig),
                 parts,
                 parameter_count: parameters.len(),
                 own_state_count: states,

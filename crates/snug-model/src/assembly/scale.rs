@@ -1,6 +1,7 @@
 //! Starts and bounds of effects on rigs that are no hand on a tool, by what their units make of torque, angle and time.
 
 use crate::description::ParameterSpec;
+use crate::law::Corner;
 use serde::{Deserialize, Serialize};
 use snug_campaign::Rig;
 
@@ -34,6 +35,11 @@ const HAND_TORQUE_NM: f64 = 10.0;
 const HAND_ANGLE_RAD: f64 = 0.03;
 const HAND_TIME_S: f64 = 0.04;
 const HAND_LEVER_ARM_M: f64 = 0.33;
+
+/// Least length over which a contact sets in \[m\], and time over which it does \[s\]: of a hand's play, at some 10 kHz a quarter of
+/// a sample.
+const HAND_CORNER_M: f64 = 1e-6;
+const HAND_CORNER_S: f64 = 2.5e-5;
 
 /// How much wider bounds are on a rig that the catalogue was not made for.
 pub(crate) const WIDER: f64 = 10.0;
@@ -86,6 +92,21 @@ impl Scale {
             minimum,
             maximum,
             limits: (minimum, maximum),
+        }
+    }
+
+    /// By what a value in `unit` is larger than on a hand and tool \[–\]; 1 for a unit that no scale is known of.
+    ///
+    /// Whatever a method takes for short, slow or small on a hand is so on another rig times this.
+    pub fn times_hand(&self, unit: &str, rig: &Rig) -> f64 {
+        self.factor(unit, rig.lever_arm_m).unwrap_or(1.0)
+    }
+
+    /// Over what a contact sets in.
+    pub(crate) fn corner(&self, rig: &Rig) -> Corner<f64> {
+        Corner {
+            length_m: HAND_CORNER_M * self.times_hand("m", rig),
+            time_s: HAND_CORNER_S * self.times_hand("s", rig),
         }
     }
 

@@ -6,7 +6,7 @@
 //!
 //! This is x ∓ g beyond the gap and 0 within. The damper sets in with a jump there; its corner is rounded over what the
 //! tool moves in a quarter of a sample, so that the response can be differentiated and yet hardly a sample sees the
-//! rounding. g = 0 is the base model exactly. F has the sign of the base model. Excited by any motion; relatively strongest
+//! rounding; on a rig of another scale over as much more or less. g = 0 is the base model exactly. F has the sign of the base model. Excited by any motion; relatively strongest
 //! in weak pulses. In the residual it shows at the first onset and at every passage through rest.
 //!
 //! Valid for: play that is the same to both sides of rest, gaps far above 1 µm, records at some 10 kHz, whose quarter of a
@@ -15,18 +15,13 @@
 //! Source: dead zone with contact damping.
 
 use crate::description::{ActsOn, Description, Kind, OnMachine, ParameterSpec, Scope, state};
-use crate::law::{Deflection, Law};
+use crate::law::{Corner, Deflection, Law};
 use crate::numeric::number::Number;
 
 state! {
     summary: "The tool moves freely through a gap before the hand's spring and damper act.",
     equation: "spring and damper act on x beyond +-g",
 }
-
-/// Least length over which contact sets in \[m\].
-const SKIN_M: f64 = 1e-6;
-/// Time over which contact sets in \[s\].
-const CONTACT_S: f64 = 2.5e-5;
 
 pub(super) struct Backlash;
 
@@ -67,9 +62,14 @@ impl Law for Backlash {
     }
 
     #[inline(always)]
-    fn deflection<N: Number>(&self, p: &[N], between: Deflection<N>) -> Option<Deflection<N>> {
-        let travelled = between.v_m_per_s * CONTACT_S;
-        let rounding = travelled * travelled + SKIN_M * SKIN_M;
+    fn deflection<N: Number>(
+        &self,
+        p: &[N],
+        between: Deflection<N>,
+        corner: &Corner<N::Real>,
+    ) -> Option<Deflection<N>> {
+        let travelled = between.v_m_per_s.times(corner.time_s);
+        let rounding = (travelled * travelled).plus(corner.length_m * corner.length_m);
         let (above, below) = (between.x_m - p[0], between.x_m + p[0]);
         let from_above = (above * above + rounding).sqrt();
         let from_below = (below * below + rounding).sqrt();
@@ -92,7 +92,11 @@ mod tests {
             x_m,
             v_m_per_s: 0.1,
         };
-        let left = Backlash.deflection(&[gap_m], between);
+        let corner = Corner {
+            length_m: 1e-6,
+            time_s: 2.5e-5,
+        };
+        let left = Backlash.deflection(&[gap_m], between, &corner);
         let left = left.expect("play changes the deflection");
         (left.x_m, left.v_m_per_s)
     }

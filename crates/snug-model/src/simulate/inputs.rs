@@ -2,6 +2,7 @@
 
 use crate::assembly::layout::Assembly;
 use crate::input::torque::Input;
+use crate::law::Corner;
 use crate::numeric::real::Real;
 use std::borrow::Cow;
 
@@ -16,6 +17,8 @@ pub struct SimulationInputs<'a, R: Real> {
     pub lever_arm_m: R,
     /// I_n \[kg m²\].
     pub known_inertia_kg_m2: R,
+    /// Over what a contact sets in.
+    pub corner: Corner<R>,
     /// Time between grid points \[s\].
     pub interval_s: R,
     /// Grid points per sample.
@@ -43,6 +46,10 @@ impl<'a, R: Real> SimulationInputs<'a, R> {
             torque_nm: zero.interleave(&grids),
             lever_arm_m: zero.lane_by_lane(|lane| of(lane).0.rig().lever_arm_m),
             known_inertia_kg_m2: zero.lane_by_lane(|lane| of(lane).0.rig().known_inertia_kg_m2),
+            corner: Corner {
+                length_m: zero.lane_by_lane(|lane| of(lane).0.corner.length_m),
+                time_s: zero.lane_by_lane(|lane| of(lane).0.corner.time_s),
+            },
             interval_s: zero.lane_by_lane(|lane| inputs[lane].grid_interval_s()),
             onset_s: zero.lane_by_lane(|lane| inputs[lane].onset_s()),
             rest_before_s: zero.lane_by_lane(|lane| inputs[lane].rest_before_s()),

@@ -164,7 +164,7 @@ impl<'a, N: Number> Plant<'a, N> {
             hooked.ask(
                 #[inline(always)]
                 |law, p, _| {
-                    if let Some(left) = law.deflection(p, seen) {
+                    if let Some(left) = law.deflection(p, seen, &self.inputs.corner) {
                         seen = left;
                     }
                 },
