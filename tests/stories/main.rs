@@ -22,4 +22,5 @@ mod round_trip;
 mod thesis_preset;
 mod threads;
 mod unknown_rigs;
+mod validation;
 mod work;

@@ -18,6 +18,7 @@ mod rig;
 mod tightening;
 mod time_base;
 mod units;
+mod validation;
 pub mod words;
 
 pub use campaign::{
@@ -48,3 +49,4 @@ pub use tightening::{
 };
 pub use time_base::TimeBase;
 pub use units::SignalUnits;
+pub use validation::{Prediction, RestartedPrediction, Validation};

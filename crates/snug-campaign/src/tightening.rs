@@ -1,6 +1,6 @@
 //! One tightening on its way: ready for identification, its result and fit measures, and why it was rejected.
 
-use crate::{Conditions, Estimate, Motion, NoiseFloor, Quantity, Rig, TimeBase};
+use crate::{Conditions, Estimate, Motion, NoiseFloor, Quantity, Rig, TimeBase, Validation};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
@@ -255,4 +255,7 @@ pub struct TighteningResult {
     pub corrections: Vec<Correction>,
     /// Noise of the fitted output.
     pub noise: Option<NoiseFloor>,
+    /// How well it is predicted, if it was kept for validation.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub validation: Option<Validation>,
 }

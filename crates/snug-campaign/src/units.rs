@@ -49,6 +49,12 @@ impl SignalUnits {
         }
     }
 
+    /// Unit of the motion that is called `name`, as in results; none for a name that is none.
+    pub fn motion_called(&self, name: &str) -> String {
+        let named = Quantity::ALL.into_iter().find(|one| one.name() == name);
+        named.map_or_else(String::new, |quantity| self.motion(quantity))
+    }
+
     /// Unit of m, c or k, by its column, where input or output are no mechanical quantities: input per output's derivative.
     pub fn base_parameter(&self, column: &str) -> Option<String> {
         let quantity = match column {

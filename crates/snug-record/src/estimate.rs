@@ -94,6 +94,25 @@ const MEASURES: &[Field] = &[
     number("peak_grip_force_n", "N", "Largest grip force"),
 ];
 
+const PREDICTION: &[Field] = &[
+    number("fit_percent", "%", "Fit of the fitted output (NRMSE)"),
+    number(
+        "rms",
+        "rad, rad/s or rad/s²",
+        "Root-mean-square residual of the fitted output",
+    ),
+    number("every_s", "s", "From one restart to the next"),
+];
+
+const VALIDATION: &[Field] = &[
+    group("free_run", PREDICTION, "From the first sample to the last"),
+    group(
+        "restarted",
+        PREDICTION,
+        "Restarted from the measured motion",
+    ),
+];
+
 /// The message's table.
 pub(crate) const ESTIMATE: Message = Message {
     name: "snug.Estimate",
@@ -124,6 +143,11 @@ pub(crate) const ESTIMATE: Message = Message {
         count("evaluations", "Evaluations of the residual"),
         count("conic_solves", "Conic programs solved"),
         group("measures", MEASURES, "Agreement of model and measurement"),
+        group(
+            "validation",
+            VALIDATION,
+            "How well the parameters of others predict it, if it was kept for validation",
+        ),
     ],
 };
 
@@ -148,6 +172,9 @@ pub(crate) fn message(
     message["selected"] = result.selection.selected().into();
     message["rejections"] = serde_json::to_value(&result.selection.rejections)?;
     message["measures"] = serde_json::to_value(&result.measures)?;
+    if let Some(validation) = &result.validation {
+        message["validation"] = serde_json::to_value(validation)?;
+    }
     Ok(message)
 }
 

@@ -81,6 +81,7 @@ fn result(file: &str, number: u32, estimate: Option<Estimate>) -> TighteningResu
         selection: Selection {
             rejections: vec![Rejection::PoorFit, Rejection::GoesUp],
         },
+        validation: None,
         corrections: vec![Correction {
             constant_of: Some(snug_campaign::Quantity::Acceleration),
             effect: "acceleration_bias".into(),

@@ -6,6 +6,7 @@ use crate::quantity;
 use serde::Serialize;
 use snug_campaign::{
     CampaignResult, ConditionSummary, Interval, Moments, PresetSummary, Rejection, TestRow,
+    TighteningResult, Validation,
 };
 
 #[derive(Serialize)]
@@ -18,6 +19,17 @@ struct Statistics<'a> {
     presets: Vec<Preset<'a>>,
     conditions: Vec<Condition<'a>>,
     tests: &'a [TestRow],
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    validation: Vec<Validated<'a>>,
+}
+
+#[derive(Serialize)]
+struct Validated<'a> {
+    file: &'a str,
+    tightening: u32,
+    unit: String,
+    #[serde(flatten)]
+    validation: Validation,
 }
 
 #[derive(Serialize)]
@@ -58,8 +70,8 @@ struct Quantity<'a> {
 }
 
 /// Both presets side by side (counts, reasons, every outcome), per condition the counts, selected share and moments of
-/// each quantity over selected and rejected tightenings, and every test. `format` is 1; intervals are 95 %; what is not
-/// finite is `null`.
+/// each quantity over selected and rejected tightenings, every test, and of everything that was kept for validation how well it
+/// is predicted in a free run and restarted (`rms` in `unit`). `format` is 1; intervals are 95 %; what is not finite is `null`.
 pub fn statistics_json(result: &CampaignResult) -> String {
     let statistics = Statistics {
         format: 1,
@@ -74,8 +86,20 @@ pub fn statistics_json(result: &CampaignResult) -> String {
             .map(|summary| condition(summary, result))
             .collect(),
         tests: &result.tests,
+        validation: (result.tightenings.iter())
+            .filter_map(|one| validated(one, result))
+            .collect(),
     };
     json::text(&statistics)
+}
+
+fn validated<'a>(one: &'a TighteningResult, result: &CampaignResult) -> Option<Validated<'a>> {
+    Some(Validated {
+        file: &one.id.file,
+        tightening: one.id.number,
+        unit: (result.units.motion_called(&result.fitted_output)).replace('²', "^2"),
+        validation: one.validation?.times(result.units.output_per_rad),
+    })
 }
 
 fn preset(summary: &PresetSummary) -> Preset<'_> {

@@ -4,7 +4,10 @@
 mod markup;
 mod specimen;
 
-use snug_campaign::{CampaignResult, Finding, Rejection, Severity, SignalUnits};
+use snug_campaign::{
+    CampaignResult, Finding, Prediction, Rejection, RestartedPrediction, Severity, SignalUnits,
+    Validation,
+};
 use snug_report::html;
 
 /// Text of the page outside scripts and styles, tags taken out.
@@ -165,6 +168,42 @@ fn validation_windows_are_not_counted_as_failures() {
     let words = text(&html(&result));
     assert!(words.contains("1 of 1 tightening (100.0 %)"));
     assert!(words.contains("3 were kept for validation"));
+}
+
+/// Both ways of running the model, each with its fit and residual; what could not be restarted says so.
+#[test]
+fn what_was_kept_for_validation_stands_with_both_numbers() {
+    let mut result = specimen::campaign(4);
+    result.fitted_output = "velocity".into();
+    let of = |fit_percent, rms| Prediction {
+        fit_percent: Some(fit_percent),
+        rms: Some(rms),
+    };
+    let restarted = RestartedPrediction {
+        every_s: 0.125,
+        prediction: of(97.5, 0.0123),
+    };
+    for (index, restarted) in [(1, Some(restarted)), (2, None)] {
+        result.tightenings[index].selection.rejections = vec![Rejection::Validation];
+        result.tightenings[index].validation = Some(Validation {
+            free_run: of(83.2, 0.0987),
+            restarted,
+        });
+    }
+    let words = text(&html(&result));
+    assert!(words.contains("How well it predicts what took no part in the fit"));
+    for told in [
+        "83.2",
+        "0.09870",
+        "97.5",
+        "0.01230",
+        "0.125",
+        "residual [rad/s]",
+    ] {
+        assert!(words.contains(told), "{told}");
+    }
+    let plain = text(&html(&specimen::campaign(4)));
+    assert!(!plain.contains("took no part in the fit"));
 }
 
 #[test]

@@ -4,6 +4,7 @@
 mod specimen;
 
 use serde_json::Value;
+use snug_campaign::{Prediction, RestartedPrediction, Validation};
 use snug_report::{files, findings_json, statistics_json, tightenings_csv};
 
 /// The columns that other programs rely on, as agreed; further ones may follow.
@@ -146,6 +147,36 @@ fn statistics_hold_counts_moments_and_tests() {
             assert_eq!(check["values"], expected.values);
         }
     }
+}
+
+#[test]
+fn what_was_kept_for_validation_stands_in_the_output_s_unit() {
+    let mut result = specimen::campaign(2);
+    result.units.output = "m".into();
+    result.units.output_per_rad = 0.5;
+    let prediction = Prediction {
+        fit_percent: Some(97.5),
+        rms: Some(0.25),
+    };
+    result.tightenings[1].validation = Some(Validation {
+        free_run: prediction,
+        restarted: Some(RestartedPrediction {
+            every_s: 0.125,
+            prediction,
+        }),
+    });
+    let statistics: Value = serde_json::from_str(&statistics_json(&result)).unwrap();
+    let told = &statistics["validation"][0];
+    let id = &result.tightenings[1].id;
+    assert_eq!(
+        (&told["file"], &told["tightening"]),
+        (&id.file.clone().into(), &id.number.into())
+    );
+    assert_eq!(told["unit"], "m/s^2");
+    assert_eq!(told["free_run"]["rms"], 0.125);
+    assert_eq!(told["restarted"]["fit_percent"], 97.5);
+    assert_eq!(told["restarted"]["every_s"], 0.125);
+    assert_eq!(statistics["validation"].as_array().map(Vec::len), Some(1));
 }
 
 #[test]

@@ -39,6 +39,8 @@ pub(crate) fn chosen(
     most: usize,
 ) -> Result<(Comparable, KeptFiles), StudyError> {
     let kept = Mutex::new(KeptFiles::default());
+    let is_fitted = |file: &&PathBuf| !study.validation.keeps(file);
+    let files: Vec<PathBuf> = files.iter().filter(is_fitted).cloned().collect();
     let stride = files.len().div_ceil((most / EACH).max(1)).max(1);
     let each = (most * stride / files.len().max(1)).max(1);
     let read = |from: usize| -> Result<Vec<Part>, StudyError> {

@@ -154,6 +154,20 @@ pub enum StudyError {
         /// Every range of the source.
         known: Vec<String>,
     },
+    /// A file that is to be kept for validation is not there.
+    #[error("validation.files: `{name}` stands for none of the files{}; there are: {}", did_you_mean(name, known), known.join(", "))]
+    NoSuchValidationFile {
+        /// The name or pattern.
+        name: String,
+        /// Every file that is read.
+        known: Vec<String>,
+    },
+    /// Nothing is left to fit.
+    #[error("validation.files keeps all {files} files: none is left to be fitted")]
+    NothingToFit {
+        /// How many files there are.
+        files: usize,
+    },
     /// A result cannot be written, or must not be.
     #[error(transparent)]
     Files(#[from] FilesError),
@@ -262,6 +276,8 @@ impl StudyError {
                 | Self::Setting { .. }
                 | Self::NothingScored { .. }
                 | Self::UnknownRange { .. }
+                | Self::NoSuchValidationFile { .. }
+                | Self::NothingToFit { .. }
                 | Self::FixedAgainstConstraint { .. }
                 | Self::Ingest(IngestError::Setting { .. } | IngestError::UnitOfSignal { .. })
                 | Self::Identify(IdentifyError::Solve(SolveError::Setting { .. }))

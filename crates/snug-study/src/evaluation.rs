@@ -1,5 +1,6 @@
 //! One tightening, from prepared signals to everything that is reported about it.
 
+use crate::validation::predicted;
 use crate::{Study, StudyError};
 use snug_campaign::{
     Estimate, FitMeasures, FitStatus, Motion, Quantity, Recording, Rejection, Segment, Selection,
@@ -75,7 +76,8 @@ fn identified(
     )
 }
 
-/// Simulates a tightening that is kept for validation with parameters found elsewhere, from its first sample to its last.
+/// Simulates a tightening that is kept for validation with parameters found elsewhere: from its first sample to its last, and
+/// where that can be from the measured motion again and again. What the study holds for its group, it has.
 pub fn validated(
     study: &Study,
     prepared: &Prepared,
@@ -85,11 +87,15 @@ pub fn validated(
     let model = study.model_for(tightening)?;
     let input = free_input(study, prepared);
     let mut estimate = estimate.clone();
-    for parameter in &mut estimate.parameters {
+    for (parameter, own) in estimate.parameters.iter_mut().zip(model.parameters()) {
+        if own.fixed {
+            parameter.value = own.value;
+        }
         parameter.standard_error = None;
         parameter.interval = None;
     }
-    Ok(simulated(
+    let values: Vec<f64> = estimate.parameters.iter().map(|p| p.value).collect();
+    let mut evaluated = simulated(
         study,
         &model,
         &input,
@@ -97,7 +103,10 @@ pub fn validated(
         estimate,
         study.validation.unscored_samples,
         |_, _| vec![Rejection::Validation],
-    )?)
+    )?;
+    evaluated.result.validation = (evaluated.traces.as_ref())
+        .map(|free| predicted(study, &model, &input, tightening, &values, free));
+    Ok(evaluated)
 }
 
 /// What is known of a segment that could not be used; its findings say why.
@@ -126,6 +135,7 @@ pub fn without_estimate(study: &Study, recording: &Recording, segment: &Segment)
             },
             corrections: Vec::new(),
             noise: None,
+            validation: None,
         },
         traces: None,
         onset: None,
@@ -240,6 +250,7 @@ fn simulated(
             selection,
             corrections: tightening.corrections.clone(),
             noise: tightening.noise.clone(),
+            validation: None,
         },
         traces,
         onset: tightening.onset,

@@ -3,8 +3,9 @@
 use crate::evaluation::{Evaluated, fitted, validated, without_estimate};
 use crate::prepared_file::PreparedFile;
 use crate::rungs::{Ladder, RungShare};
+use crate::validation::mean_estimate;
 use crate::{Study, StudyError};
-use snug_campaign::{Estimate, Finding, FitStatus, Recording, Rejection, Severity, TighteningId};
+use snug_campaign::{Estimate, Finding, Recording, Rejection, Severity, TighteningId};
 use snug_files::Disk;
 use snug_identify::in_batches;
 use snug_preprocess::{Prepared, Preprocessed, Preset, Window, preprocess};
@@ -24,14 +25,24 @@ pub struct FileEvaluation {
     pub rungs: Vec<RungShare>,
 }
 
-/// Evaluates one file, which is read and prepared unless it was kept: with the run's own study, and with those of the rungs
-/// before it. What cannot be used becomes a finding.
+/// What is done with the tightenings of a file.
+#[derive(Clone, Copy)]
+pub enum Purpose<'a> {
+    /// They are fitted, but for ranges that are kept for validation.
+    Fit,
+    /// All are simulated with what was found of other files, if anything was.
+    Validate(Option<&'a Estimate>),
+}
+
+/// Evaluates one file, which is read and prepared unless it was kept: with the run's own study, and, if it is fitted, with those of
+/// the rungs before it. What cannot be used becomes a finding.
 pub fn evaluate_file(
     study: &Study,
     ladder: Option<&Ladder>,
     disk: &dyn Disk,
     path: &Path,
     kept: Option<PreparedFile>,
+    purpose: Purpose<'_>,
 ) -> Result<FileEvaluation, StudyError> {
     let _span = tracing::info_span!("file", path = %path.display()).entered();
     let read = match kept {
@@ -51,17 +62,21 @@ pub fn evaluate_file(
     let mut whole = FileEvaluation::nothing(study, ladder);
     whole.findings = file.findings;
     let other = other(study);
+    let rungs_before = match purpose {
+        Purpose::Fit => rungs_before(ladder),
+        Purpose::Validate(_) => &[],
+    };
     for (recording, prepared) in file.recordings {
-        for (rung, share) in rungs_before(ladder).iter().zip(&mut whole.rungs) {
-            let (evaluated, _) = evaluate(rung, &recording, &prepared)?;
+        for (rung, share) in rungs_before.iter().zip(&mut whole.rungs) {
+            let (evaluated, _) = evaluate(rung, &recording, &prepared, purpose)?;
             share.add(RungShare::of(&evaluated, ladder.and_then(Ladder::shown)));
         }
-        let (evaluated, findings) = evaluate(study, &recording, &prepared)?;
+        let (evaluated, findings) = evaluate(study, &recording, &prepared, purpose)?;
         whole.findings.extend(prepared.findings);
         whole.findings.extend(findings);
         if let (Some(other), Some(there)) = (&other, &mut whole.other_preset) {
             let prepared = preprocess(&recording, &other.preprocess, other.identify.fitted_output)?;
-            let (evaluated, findings) = evaluate(other, &recording, &prepared)?;
+            let (evaluated, findings) = evaluate(other, &recording, &prepared, purpose)?;
             there.extend(outcomes(&evaluated));
             if study.preprocess.preset == Preset::Thesis {
                 let seen = prepared.findings.into_iter().chain(findings);
@@ -142,13 +157,16 @@ fn evaluate(
     study: &Study,
     recording: &Recording,
     prepared: &Preprocessed,
+    purpose: Purpose<'_>,
 ) -> Result<(Vec<Evaluated>, Vec<Finding>), StudyError> {
     let mut findings = Vec::new();
     let only_simulated = study.validation_segments();
-    let (kept, to_fit): (Vec<&Prepared>, Vec<&Prepared>) = prepared
-        .tightenings
-        .iter()
-        .partition(|one| only_simulated.contains(&one.tightening.id.number));
+    let is_kept = |number: u32| match purpose {
+        Purpose::Fit => only_simulated.contains(&number),
+        Purpose::Validate(_) => true,
+    };
+    let (kept, to_fit): (Vec<&Prepared>, Vec<&Prepared>) =
+        (prepared.tightenings.iter()).partition(|one| is_kept(one.tightening.id.number));
     let outcomes = in_batches(&to_fit, |batch| fitted(study, batch))?;
     let mut evaluated = Vec::new();
     for (one, outcome) in to_fit.iter().zip(outcomes) {
@@ -159,16 +177,35 @@ fn evaluate(
             }
         }
     }
-    if let Some(mean) = mean_estimate(&evaluated) {
-        for one in kept {
-            findings.extend(not_scored(study, one));
-            evaluated.push(validated(study, one, &mean)?);
+    let found_here = || {
+        mean_estimate(
+            evaluated
+                .iter()
+                .filter_map(|one| one.result.estimate.as_ref()),
+        )
+    };
+    let found = match purpose {
+        Purpose::Fit => found_here(),
+        Purpose::Validate(found) => found.cloned(),
+    };
+    for one in kept {
+        match &found {
+            Some(found) => {
+                findings.extend(not_scored(study, one));
+                evaluated.push(validated(study, one, found)?);
+            }
+            None => findings.push(nothing_to_validate(&one.tightening.id)),
         }
     }
     let done: Vec<u32> = evaluated.iter().map(|one| one.result.id.number).collect();
     for segment in &prepared.segments {
         if !done.contains(&segment.number) {
-            evaluated.push(without_estimate(study, recording, segment));
+            let mut without = without_estimate(study, recording, segment);
+            if is_kept(segment.number) {
+                let rejections = &mut without.result.selection.rejections;
+                rejections.push(Rejection::Validation);
+            }
+            evaluated.push(without);
         }
     }
     evaluated.sort_by_key(|one| one.result.id.number);
@@ -194,6 +231,18 @@ fn not_scored(study: &Study, prepared: &Prepared) -> Option<Finding> {
     })
 }
 
+fn nothing_to_validate(id: &TighteningId) -> Finding {
+    Finding {
+        severity: Severity::LeftOut,
+        code: "nothing_to_validate".to_owned(),
+        file: id.file.clone(),
+        tightening: Some(id.number),
+        channel: None,
+        message: "kept for validation, but no fit of what is not kept found an optimum whose parameters it could be simulated with"
+            .to_owned(),
+    }
+}
+
 fn not_identified(id: &TighteningId, why: &str) -> Finding {
     Finding {
         severity: Severity::LeftOut,
@@ -203,24 +252,4 @@ fn not_identified(id: &TighteningId, why: &str) -> Finding {
         channel: None,
         message: format!("{why}; the tightening is left out"),
     }
-}
-
-/// The mean of every parameter over a file's converged fits, carried by the first of them.
-fn mean_estimate(evaluated: &[Evaluated]) -> Option<Estimate> {
-    let converged: Vec<&Estimate> = evaluated
-        .iter()
-        .filter_map(|one| one.result.estimate.as_ref())
-        .filter(|estimate| {
-            matches!(
-                estimate.status,
-                FitStatus::Converged | FitStatus::ConvergedAtConstraint
-            )
-        })
-        .collect();
-    let mut mean = (*converged.first()?).clone();
-    for (index, parameter) in mean.parameters.iter_mut().enumerate() {
-        let sum: f64 = converged.iter().map(|e| e.parameters[index].value).sum();
-        parameter.value = sum / converged.len() as f64;
-    }
-    Some(mean)
 }

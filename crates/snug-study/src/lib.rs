@@ -1,5 +1,6 @@
 #![doc = include_str!("../README.md")]
 
+mod campaign_result;
 mod cases;
 mod comparable;
 mod diagnosis;
@@ -22,6 +23,7 @@ mod settling;
 mod statistics;
 mod study;
 mod syntax;
+mod validation;
 
 #[doc(hidden)]
 pub use cases::cases;
@@ -34,4 +36,5 @@ pub use rewriting::rewrite_effects;
 pub use run::{Outcome, RunSettings, run};
 pub use selection::SelectionSettings;
 pub use snug_preprocess::Preset;
-pub use study::{Study, ValidationSettings};
+pub use study::Study;
+pub use validation::ValidationSettings;

@@ -44,7 +44,8 @@ impl Workplace {
         interrupted: &AtomicBool,
     ) -> Result<Self, StudyError> {
         let disk = &*settings.disk;
-        let listing = snug_ingest::list_on(disk, &study.source, &study.source.path)?;
+        let mut listing = snug_ingest::list_on(disk, &study.source, &study.source.path)?;
+        listing.files = study.validation.last(listing.files)?;
         let inputs = Inputs {
             data: Some(&study.source.path),
             measurements: &listing.files,

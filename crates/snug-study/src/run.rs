@@ -1,25 +1,23 @@
 //! The order of work: list, evaluate file by file, record, and at the end tables and report.
 
+use crate::campaign_result::{meanings, preset_summary, vocabulary};
 use crate::cases::chosen;
 use crate::evaluation::Evaluated;
 use crate::examples::Examples;
-use crate::file_evaluation::{FileEvaluation, evaluate_file, other, outcomes};
+use crate::file_evaluation::{FileEvaluation, Purpose, evaluate_file, other, outcomes};
 use crate::output::{Output, Workplace};
 use crate::prepared_file::KeptFiles;
 use crate::rungs::{Ladder, RungShare};
 use crate::settling::{leaves_open, settle};
+use crate::validation::mean_estimate;
 use crate::{ProgressEvent, Study, StudyError, statistics};
 use rayon::prelude::*;
 use snug_campaign::words::reason::Reason;
-use snug_campaign::words::vocabulary::Vocabulary;
 use snug_campaign::{
-    CampaignResult, Finding, ParameterMeaning, PresetSummary, Rejection, RejectionCount, Severity,
-    SignalUnits, TighteningId, TighteningResult,
+    CampaignResult, Estimate, Finding, Rejection, Severity, TighteningId, TighteningResult,
 };
 use snug_files::{Disk, Host};
 use snug_ingest::Listing;
-use snug_model::{BASE_PARAMETERS, Law, Model, Scale};
-use snug_preprocess::Window;
 use snug_record::Recorder;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -268,7 +266,7 @@ impl Run<'_> {
         })
     }
 
-    /// Evaluates file after file; returns those that were not reached.
+    /// Evaluates file after file, first those that are fitted; returns those that were not reached.
     fn evaluate<'f>(
         &mut self,
         files: &'f [PathBuf],
@@ -277,10 +275,33 @@ impl Run<'_> {
     ) -> Result<&'f [PathBuf], StudyError> {
         (self.progress)(ProgressEvent::Started { files: files.len() });
         let pool = pool(self.settings.threads)?;
+        let settings = &self.task.study.validation;
+        let fitted = files.iter().take_while(|file| !settings.keeps(file));
+        let (fitted, kept) = files.split_at(fitted.count());
+        let done = self.evaluate_some(fitted, Purpose::Fit, &pool, collected, output)?;
+        if done < fitted.len() {
+            return Ok(&files[done..]);
+        }
+        // What is kept is simulated with what was found of all the others.
+        let found = collected.mean_estimate();
+        let purpose = Purpose::Validate(found.as_ref());
+        let done = self.evaluate_some(kept, purpose, &pool, collected, output)?;
+        Ok(&kept[done..])
+    }
+
+    /// Evaluates files for one purpose; returns how many were reached.
+    fn evaluate_some(
+        &mut self,
+        files: &[PathBuf],
+        purpose: Purpose<'_>,
+        pool: &rayon::ThreadPool,
+        collected: &mut Collected,
+        output: &mut Output,
+    ) -> Result<usize, StudyError> {
         let at_once = pool.current_num_threads();
         for (number, group) in files.chunks(at_once).enumerate() {
             if self.interrupted.load(Ordering::Relaxed) {
-                return Ok(&files[number * at_once..]);
+                return Ok(number * at_once);
             }
             let Task {
                 study,
@@ -292,7 +313,7 @@ impl Run<'_> {
             let group: Vec<_> = (group.iter()).map(|path| (path, kept.take(path))).collect();
             let evaluated: Vec<Result<FileEvaluation, StudyError>> = pool.install(|| {
                 (group.into_par_iter())
-                    .map(|(path, kept)| evaluate_file(study, ladder, disk, path, kept))
+                    .map(|(path, kept)| evaluate_file(study, ladder, disk, path, kept, purpose))
                     .collect()
             });
             for file in evaluated {
@@ -302,7 +323,7 @@ impl Run<'_> {
                 });
             }
         }
-        Ok(&[])
+        Ok(files.len())
     }
 }
 
@@ -372,6 +393,16 @@ impl Collected {
         Ok(())
     }
 
+    /// What was found of everything that is fitted, on average.
+    fn mean_estimate(&self) -> Option<Estimate> {
+        let is_kept = |one: &&TighteningResult| {
+            let rejections = &one.selection.rejections;
+            rejections.contains(&Rejection::Validation)
+        };
+        let estimates = self.tightenings.iter().filter(|one| !is_kept(one));
+        mean_estimate(estimates.filter_map(|one| one.estimate.as_ref()))
+    }
+
     fn note(&mut self, findings: Vec<Finding>, output: &mut Output) -> Result<(), StudyError> {
         for finding in findings {
             output.record(|recorder| recorder.finding(&finding))?;
@@ -409,56 +440,6 @@ impl Collected {
             examples: self.examples.into_kept(),
             diagnosis: None,
         })
-    }
-}
-
-/// Whether the results are told of a hand or of a machine, and whether that turns or slides.
-fn vocabulary(study: &Study, units: &SignalUnits) -> Vocabulary {
-    let is_settled = matches!(study.model.scale, Scale::Rig { .. });
-    let is_open = study.model.scale == Scale::Automatic && study.preprocess.window == Window::Whole;
-    match is_settled || is_open {
-        true => Vocabulary::of_machine(units, study.preprocess.rig.lever_arm_m),
-        false => Vocabulary::Hand,
-    }
-}
-
-/// What the parameters of the model's effects are.
-fn meanings(model: &Model) -> Vec<ParameterMeaning> {
-    let effects: Vec<_> = model.effects().collect();
-    let described = effects.iter().flat_map(|effect| {
-        let specs = effect.description().parameters.iter();
-        specs.map(move |spec| (effect.name(), spec.meaning))
-    });
-    model.parameters()[BASE_PARAMETERS.len()..]
-        .iter()
-        .zip(described)
-        .map(|(parameter, (effect, meaning))| ParameterMeaning {
-            name: parameter.name.clone(),
-            effect: effect.to_owned(),
-            meaning: meaning.to_owned(),
-        })
-        .collect()
-}
-
-fn preset_summary(study: &Study, outcomes: Vec<(TighteningId, Vec<Rejection>)>) -> PresetSummary {
-    let mut counts: BTreeMap<Rejection, usize> = BTreeMap::new();
-    for rejection in outcomes.iter().flat_map(|(_, rejections)| rejections) {
-        *counts.entry(*rejection).or_default() += 1;
-    }
-    let mut rejections: Vec<RejectionCount> = counts
-        .into_iter()
-        .map(|(rejection, tightenings)| RejectionCount {
-            rejection,
-            tightenings,
-        })
-        .collect();
-    rejections.sort_by_key(|count| std::cmp::Reverse(count.tightenings));
-    PresetSummary {
-        preset: study.preprocess.preset.name().to_owned(),
-        tightenings: outcomes.len(),
-        selected: outcomes.iter().filter(|(_, r)| r.is_empty()).count(),
-        rejections,
-        outcomes,
     }
 }
 

@@ -3,6 +3,7 @@
 
 use crate::Study;
 use crate::cases::with_settled;
+use crate::validation::every_s_of;
 use snug_campaign::Quantity;
 use snug_campaign::words::reason::Reason;
 use snug_identify::{
@@ -43,7 +44,6 @@ pub(crate) fn settle(study: &Study, cases: &[FitTask<'_>]) -> Option<Settled> {
             told.or_default().value = Some(value);
         }
     }
-    let cases = &with_settled(&settled.study, cases.iter().map(FitTask::lent).collect()).ok()?;
     if study.model.scale == Scale::Automatic {
         settled.study.model.scale = Scale::Rig {
             torque_nm: sizes.torque_nm,
@@ -51,14 +51,15 @@ pub(crate) fn settle(study: &Study, cases: &[FitTask<'_>]) -> Option<Settled> {
             time_s: sizes.time_s,
         };
     }
+    let cases = &with_settled(&settled.study, cases.iter().map(FitTask::lent).collect()).ok()?;
     if study.identify.simulation == Simulation::Automatic {
         let missed = missed(cases);
-        let every_s = sizes.period_s() / STRETCHES_PER_PERIOD;
-        settled.study.identify.simulation = match missed {
-            Some(share) if share > POOR && every_s >= FEWEST_SAMPLES * interval_s(&cases[0]) => {
+        let every_s = every_s_of(sizes.period_s(), &cases[0].tightening);
+        settled.study.identify.simulation = match (missed, every_s) {
+            (Some(share), Some(every_s)) if share > POOR => {
                 settled.reasons.push(Reason::Restarted {
                     missed: share,
-                    every_s: three_digits(every_s),
+                    every_s,
                 });
                 let search = &mut settled.study.diagnosis.search;
                 for gain in [
@@ -75,23 +76,16 @@ pub(crate) fn settle(study: &Study, cases: &[FitTask<'_>]) -> Option<Settled> {
     Some(settled)
 }
 
-/// Whether the study says where m, c or k begin.
+/// Whether the study says where those of m, c and k begin that it leaves free; a parameter that is held begins nowhere.
 fn states_a_start(study: &Study) -> bool {
-    let told = |name: &&str| study.model.parameters.get(*name).and_then(|p| p.value);
-    BASE_PARAMETERS.iter().any(|name| told(name).is_some())
-}
-
-/// `value` as people write it who mean no more than three digits.
-fn three_digits(value: f64) -> f64 {
-    format!("{value:.2e}").parse().unwrap_or(value)
+    let told = |name: &&str| study.model.parameters.get(*name);
+    let is_free = |name: &&&str| told(name).is_none_or(|one| !one.fixed);
+    let mut free = BASE_PARAMETERS.iter().filter(is_free).peekable();
+    free.peek().is_none() || free.any(|name| told(name).is_some_and(|one| one.value.is_some()))
 }
 
 /// Root mean square of a free run's error over that of the measured motion beyond which it is restarted.
 const POOR: f64 = 0.25;
-/// Restarts per period of the motion: short enough that small errors stay small, long enough that forces show.
-const STRETCHES_PER_PERIOD: f64 = 8.0;
-/// Fewest samples between restarts: fewer say nothing of a motion, and rigs so fast are sampled for a free run.
-const FEWEST_SAMPLES: f64 = 8.0;
 /// Smallest gain that matters where a model is restarted: less is within reach of errors of the motion taken up.
 const RESTARTED_GAIN: f64 = 0.05;
 /// Places in each record at which its motion is looked at.

@@ -13,6 +13,7 @@ use snug_record::RecordSettings;
 use std::path::{Path, PathBuf};
 
 use crate::selection::SelectionSettings;
+use crate::validation::ValidationSettings;
 
 /// A study: which data, how they are prepared, which model is fitted how, and what is reported.
 ///
@@ -40,16 +41,6 @@ pub struct Study {
     pub record: RecordSettings,
     /// Seed of everything random (permutation tests); default 0.
     pub seed: u64,
-}
-
-/// Which tightenings are not fitted but only simulated, with the mean parameters of the fitted ones.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct ValidationSettings {
-    /// Names of the source's ranges; default none.
-    pub ranges: Vec<String>,
-    /// Samples at the start of each that are simulated but not scored; default 0.
-    pub unscored_samples: usize,
 }
 
 impl Study {
@@ -102,7 +93,7 @@ impl Study {
             .map_err(|source| StudyError::Serialize { source })
     }
 
-    /// Numbers of the segments that are only simulated.
+    /// Numbers of the segments of a fitted file that are only simulated.
     pub(crate) fn validation_segments(&self) -> Vec<u32> {
         (1..)
             .zip(self.source.ranges())

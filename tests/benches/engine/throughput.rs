@@ -170,6 +170,7 @@ fn result(case: &FitTask<'_>) -> (TighteningResult, Traces) {
         selection: Selection::default(),
         corrections: tightening.corrections.clone(),
         noise: tightening.noise.clone(),
+        validation: None,
     };
     (result, traces)
 }

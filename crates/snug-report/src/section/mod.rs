@@ -21,6 +21,7 @@ mod study;
 mod tightening_figures;
 mod tightening_table;
 mod torque;
+mod validation;
 mod verdict;
 
 use crate::grouping::grouped;
@@ -45,6 +46,8 @@ pub struct Section {
 pub enum Render {
     /// It is always there.
     Always(fn(&CampaignResult) -> Markup),
+    /// It is there when there is something to show, else `None`.
+    Sometimes(fn(&CampaignResult) -> Option<Markup>),
     /// It is there when the model was put to the question; `None` when there is nothing to show.
     Diagnosed(fn(&Diagnosis, &CampaignResult) -> Option<Markup>),
 }
@@ -56,6 +59,7 @@ pub fn rendered(result: &CampaignResult) -> Vec<(&'static Section, Markup)> {
         .filter_map(|section| {
             let content = match section.render {
                 Render::Always(render) => render(result),
+                Render::Sometimes(render) => render(result)?,
                 Render::Diagnosed(render) => render(result.diagnosis.as_ref()?, result)?,
             };
             Some((section, content))
@@ -75,6 +79,7 @@ const SECTIONS: &[Section] = &[
     comparison::SECTION,
     detectability::SECTION,
     effort::SECTION,
+    validation::SECTION,
     selection::SECTION,
     corrections::SECTION,
     tightening_figures::SECTION,

@@ -112,6 +112,7 @@ fn tightening(index: usize, noise: &mut Noise) -> (TighteningResult, Traces) {
         estimate: (index != 18).then(|| estimate(&oscillator, index, noise)),
         measures: measures(&oscillator, &traces, index, rejections.is_empty()),
         selection: Selection { rejections },
+        validation: None,
         corrections: vec![correction(noise)],
         noise: (index != 18).then(|| NoiseFloor {
             source: NoiseSource::PreRoll,
