@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "a failing story should say where")]
 #![allow(clippy::print_stdout, reason = "a skipped or measured check says so")]
 
+mod any_units;
 mod bad_input;
 mod blind;
 mod campaign;
