@@ -2,5 +2,6 @@
 
 pub(crate) mod cases;
 pub(crate) mod clusters;
+pub(crate) mod machine;
 pub(crate) mod simulation;
 pub(crate) mod thresholds;

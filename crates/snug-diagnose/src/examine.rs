@@ -3,10 +3,12 @@
 use crate::data::cases::{Cases, Tally};
 use crate::data::clusters::Clusters;
 use crate::error::DiagnoseError;
+use crate::pooled::decimated::decimated;
 use crate::pooled::fit::fit_effects;
 use crate::pooled::thresholds::ONE_MACHINE;
 use crate::question::{Goal, Question};
 use crate::selection::model_selection::ModelSelection;
+use crate::selection::path::SelectionPath;
 use crate::settings::DiagnoseSettings;
 use crate::verdict::answer::{Answer, Examination};
 use crate::watch::Watch;
@@ -40,11 +42,21 @@ pub fn examine(
         settings,
         watch,
     };
-    let path = match &question.goal {
-        Goal::Compare => selection.compare()?,
-        Goal::Diagnose => selection.diagnose()?,
-        Goal::Add(effects) => selection.add(effects)?,
-        Goal::Improve => selection.improve()?,
+    let compared = selection.compare()?;
+    let slow = match question.goal {
+        Goal::Compare => None,
+        _ => decimated(&counted, compared.last()),
+    };
+    let path = match &slow {
+        None => selected(&selection, &question.goal, compared)?,
+        Some(slow) => {
+            let search = ModelSelection {
+                cases: counted.others(slow),
+                ..selection
+            };
+            let path = selected(&search, &question.goal, search.compare()?)?;
+            selection.at_full_rate(path, compared)?
+        }
     };
     Examination {
         question,
@@ -55,6 +67,20 @@ pub fn examine(
         watch: watch.to_the_end(),
     }
     .answer()
+}
+
+/// What a goal makes of the study's own model.
+fn selected(
+    selection: &ModelSelection<'_>,
+    goal: &Goal,
+    compared: SelectionPath,
+) -> Result<SelectionPath, DiagnoseError> {
+    match goal {
+        Goal::Compare => Ok(compared),
+        Goal::Diagnose => selection.diagnose(compared),
+        Goal::Add(effects) => selection.add(effects, compared),
+        Goal::Improve => selection.improve(compared),
+    }
 }
 
 /// Recordings of one machine share mass, damping and stiffness, unless each with its own leaves far less: then something differs

@@ -2,7 +2,9 @@
 
 pub(crate) mod backward_elimination;
 pub(crate) mod forward_selection;
+pub(crate) mod full_rate;
 pub(crate) mod model_selection;
 pub(crate) mod path;
+pub(crate) mod simpler;
 pub(crate) mod thresholds;
 pub(crate) mod two_at_once;

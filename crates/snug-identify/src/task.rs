@@ -1,6 +1,7 @@
 //! What is identified: one tightening with all it takes to fit it.
 
 mod contradiction;
+pub(crate) mod decimated;
 
 use crate::error::IdentifyError;
 use crate::residual::restarts::motions_at;

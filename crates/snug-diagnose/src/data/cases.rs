@@ -1,11 +1,11 @@
 //! The tightenings of a question together with the count of what is done with them.
 
 use crate::data::clusters::Clusters;
+use crate::data::machine::is_machine;
 use crate::error::DiagnoseError;
 use snug_campaign::{Estimate, WorkDone};
 use snug_identify::{FitTask, IdentifyError};
 use snug_least_squares::Work;
-use snug_model::Scale;
 use std::ops::Deref;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -15,11 +15,6 @@ pub(crate) struct Cases<'a> {
     all: &'a [FitTask<'a>],
     tally: &'a Tally,
     is_one_machine: bool,
-}
-
-/// Whether nobody holds the rig.
-pub(crate) fn is_machine(case: &FitTask<'_>) -> bool {
-    matches!(case.model.scale(), Scale::Rig { .. })
 }
 
 impl<'a> Cases<'a> {

@@ -1,5 +1,6 @@
 //! What counts as one independent piece of evidence: a tightening, or, where there are few, a stretch of one.
 
+use crate::data::machine::is_machine;
 use crate::data::thresholds::{FEWEST_WHOLE, LONG_RECORD, SHORTEST_STRETCH, STRETCHES_WANTED};
 use snug_campaign::words::reason::Cluster;
 use snug_identify::FitTask;
@@ -19,7 +20,12 @@ impl Clusters {
             .iter()
             .map(|case| case.measured().len() - case.unscored());
         let shortest = lengths.min().unwrap_or(0);
-        if cases.len() >= FEWEST_WHOLE && shortest < LONG_RECORD {
+        // Hands differ from one tightening to the next; of a machine's recordings each is as good a part of all as a stretch is.
+        let fewest_whole = match cases.iter().all(is_machine) {
+            true => STRETCHES_WANTED,
+            false => FEWEST_WHOLE,
+        };
+        if cases.len() >= fewest_whole && shortest < LONG_RECORD {
             return Self { per_case: 1 };
         }
         let room = shortest / SHORTEST_STRETCH;

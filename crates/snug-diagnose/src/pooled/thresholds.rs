@@ -40,3 +40,14 @@ pub(crate) const A_FEW_STEPS: PooledSettings = PooledSettings {
     max_iterations: 4,
     cost_tolerance: 1e-4,
 };
+/// Samples of all records together that are enough to look for effects in, where they are decimated. Chosen; with it twelve records of
+/// 20 000 samples take a fifth of the time.
+pub(crate) const ENOUGH_TO_SEARCH: usize = 15_000;
+/// Fewest samples of a decimated record. Chosen.
+pub(crate) const SHORTEST_DECIMATED: usize = 500;
+/// Fewest samples of a decimated record from one restart to the next. Chosen.
+pub(crate) const FEWEST_BETWEEN_RESTARTS: usize = 16;
+/// Share of the squared error that may be lost of the output between decimated samples \[–\]. Chosen.
+pub(crate) const LOST: f64 = 0.01;
+/// Correlation of neighbouring samples below which what is lost is noise \[–\]. Chosen.
+pub(crate) const WHITE: f64 = 0.1;

@@ -1,9 +1,10 @@
 //! Which effects of the catalogue can act on the rig at all.
 
-use crate::data::cases::is_machine;
+use crate::data::machine::is_machine;
 use crate::error::DiagnoseError;
 use crate::library::terms;
 use crate::pooled::fitted::Fitted;
+use crate::ranking::kin::are_kin;
 use crate::ranking::thresholds::FEW_TURNS;
 use snug_campaign::Quantity;
 use snug_identify::FitTask;
@@ -26,13 +27,14 @@ pub(crate) fn candidates(
     all.retain(|effect| !(only_this && effect.same_as(compared).is_some()));
     all.extend(custom);
     all.extend(terms(case.model.scale(), case.model.rig())?);
-    // What goes with the angle is told by the catalogue where it knows how to.
-    let goes_with_angle =
-        |effect: &Effect| effect.description().acts_on == ActsOn::MachinesOfFewTurns;
-    if all.iter().any(goes_with_angle) {
-        all.retain(|effect| effect.name() != "sine_law");
-    }
+    // What goes with the angle of a machine is told by the catalogue, where the angle is known: a weight on an arm, or what comes again
+    // with every turn.
+    let knows_angle = case.tightening.motion.displacement_rad.is_some();
+    all.retain(|effect| !(is_machine(case) && knows_angle && effect.name() == "sine_law"));
     all.retain(|effect| !current.effects.contains(effect));
+    // Of a few long records kin of what is there may come in its place, not beside it: dry friction with a shape is one friction.
+    let has_kin = |effect: &Effect| current.effects.iter().any(|&one| are_kin(one, *effect));
+    all.retain(|effect| !(current.are_stretches() && has_kin(effect)));
     // What a simulation cannot carry beside the effects that are there is no candidate.
     all.retain(|&effect| {
         let with = [current.effects.as_slice(), &[effect]].concat();
@@ -45,7 +47,7 @@ pub(crate) fn candidates(
 ///
 /// Every effect says on which rigs it acts; a machine has no muscles and nerves; what an accelerometer does wrong is not in a
 /// displacement that was measured by itself; and a simulation that takes up the measured motion begins with it.
-fn can_act(effect: Effect, case: &FitTask<'_>) -> bool {
+pub(crate) fn can_act(effect: Effect, case: &FitTask<'_>) -> bool {
     let description = effect.description();
     let has_accelerometer = case.quantity() == Quantity::Acceleration
         || case.tightening.motion.acceleration_rad_per_s2.is_some();
@@ -124,8 +126,9 @@ mod tests {
     }
 
     #[test]
-    fn a_drive_that_makes_many_turns_has_no_weight_on_an_arm() {
+    fn a_drive_that_makes_many_turns_has_no_weight_on_an_arm_but_a_ripple() {
         let names = names(machine(50.0));
-        assert!(!names.contains(&"gravity_torque") && names.contains(&"sine_law"));
+        assert!(!names.contains(&"gravity_torque") && !names.contains(&"sine_law"));
+        assert!(names.contains(&"torque_ripple"));
     }
 }

@@ -18,7 +18,7 @@ use crate::ranking::refit::{followed, refit};
 use crate::ranking::score_test::{Control, Scored, Scorer};
 use crate::ranking::sensitivity::Column;
 use crate::ranking::thresholds::{
-    BEST, BEST_BY_GROUP, BEST_OF_LONG, CONTROL_FLIPS, SHAPES_TRIED, STRICTER,
+    BEST, BEST_BY_GROUP, BEST_OF_LONG, CONTROL_FLIPS, MOST_OF_ALL, SHAPES_TRIED, STRICTER,
 };
 use crate::settings::DiagnoseSettings;
 use crate::watch::{Pieces, Watch};
@@ -204,9 +204,13 @@ fn follow_best(
         watch.go_on()?;
         candidate.settle(cases, clusters, heldout)
     })?;
-    let family_size = candidates.len() * STRICTER;
+    let family_size = candidates.len();
+    let left: f64 = heldout.iter().sum();
     for candidate in &mut *candidates {
-        let p = candidate.p_family.min(candidate.p_of_gain(family_size));
+        let takes_most = !clusters.are_whole() && candidate.gain() > MOST_OF_ALL * left;
+        let stricter = if takes_most { 1 } else { STRICTER };
+        let p_of_gain = candidate.p_of_gain(family_size * stricter);
+        let p = candidate.p_family.min(p_of_gain);
         candidate.p_family = (p * shapes_tried(candidate.effect)).min(1.0);
     }
     sort(candidates);

@@ -8,8 +8,7 @@ use crate::selection::thresholds::MOST_EFFECTS;
 
 impl ModelSelection<'_> {
     /// Adds to the study's own effects as far as the data justify, or until whoever watches ends it.
-    pub fn improve(&self) -> Result<SelectionPath, DiagnoseError> {
-        let mut path = self.compare()?;
+    pub fn improve(&self, mut path: SelectionPath) -> Result<SelectionPath, DiagnoseError> {
         let ended = self.add_justified(&mut path);
         path.until_interrupted(ended)
     }
@@ -52,7 +51,7 @@ impl ModelSelection<'_> {
         for (addition, fitted) in steps {
             path.add(addition, self.settled(&fitted)?);
         }
-        Ok(())
+        self.exchange_kin(path)
     }
 }
 
@@ -87,7 +86,8 @@ mod tests {
             settings: &settings,
             watch: &Watch::new(&tell).until(&ended),
         };
-        selection.improve().expect("it can be fitted")
+        let path = selection.compare().expect("it can be fitted");
+        selection.improve(path).expect("it can be fitted")
     }
 
     #[test]

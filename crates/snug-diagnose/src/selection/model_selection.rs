@@ -23,6 +23,7 @@ use snug_least_squares::PooledSettings;
 use snug_model::{Effect, Law};
 
 /// What stays the same while effects are looked for.
+#[derive(Clone, Copy)]
 pub(crate) struct ModelSelection<'a> {
     pub cases: Cases<'a>,
     /// Effects of the study's own model.
@@ -43,9 +44,8 @@ impl ModelSelection<'_> {
         Ok(SelectionPath::only(fitted))
     }
 
-    /// The study's own model and what could be missing beside it; nothing is added. Whoever watches may end it.
-    pub fn diagnose(&self) -> Result<SelectionPath, DiagnoseError> {
-        let mut path = self.compare()?;
+    /// What could be missing beside the study's own model; nothing is added. Whoever watches may end it.
+    pub fn diagnose(&self, mut path: SelectionPath) -> Result<SelectionPath, DiagnoseError> {
         let ended = self.name_the_first(&mut path);
         path.until_interrupted(ended)
     }
@@ -68,8 +68,11 @@ impl ModelSelection<'_> {
 
     /// The study's own model with `effects` added one after the other, and what is missing then, or as many of them as
     /// were added before whoever watches ended it.
-    pub fn add(&self, effects: &[Effect]) -> Result<SelectionPath, DiagnoseError> {
-        let mut path = self.compare()?;
+    pub fn add(
+        &self,
+        effects: &[Effect],
+        mut path: SelectionPath,
+    ) -> Result<SelectionPath, DiagnoseError> {
         let ended = self.put_in(effects, &mut path);
         path.until_interrupted(ended)
     }
@@ -84,7 +87,7 @@ impl ModelSelection<'_> {
         }
         self.rank_last(path)?;
         match justified(&path.ranking, path.last(), &path.rungs[0], self.settings) {
-            Ok(best) => path.chosen = Some(self.single(&path.ranking, best)),
+            Ok(best) => path.chosen = Some(self.single(path.last(), &path.ranking, best)),
             Err(stop) => path.stopped = Some(stop),
         }
         Ok(())
@@ -227,10 +230,14 @@ impl ModelSelection<'_> {
 
     /// The best candidate, or a supported one that is as good and the likelier story: an effect of the catalogue, else the
     /// term that makes most of the base model superfluous.
-    fn single(&self, ranking: &Ranking, best: usize) -> usize {
+    fn single(&self, current: &Fitted, ranking: &Ranking, best: usize) -> usize {
         let all = &ranking.candidates;
         let is_equal = |other: usize| all[other].keeps_up_with(&all[best], &self.clusters);
-        if let Some(listed) = self.listed(ranking).filter(|&listed| is_equal(listed)) {
+        let does = |listed: usize| {
+            let is_richer = all[best].is_richer_than(&all[listed]);
+            is_equal(listed) || (is_richer && all[listed].does_for(&all[best], current))
+        };
+        if let Some(listed) = self.listed(current, ranking).filter(|&listed| does(listed)) {
             return listed;
         }
         let equals: Vec<usize> = (best..all.len())
@@ -246,15 +253,18 @@ impl ModelSelection<'_> {
     }
 
     /// The first supported effect of the catalogue, or of those that explain as much the one with the fewest sizes and shapes to do
-    /// it with: a law that holds a simpler one as a special case explains all that that does.
-    fn listed(&self, ranking: &Ranking) -> Option<usize> {
+    /// it with: a law that holds a simpler one as a special case explains all that that does. Of a few long records one that does for
+    /// the first explains as much, too.
+    fn listed(&self, current: &Fitted, ranking: &Ranking) -> Option<usize> {
         let all = &ranking.candidates;
         let is_listed = |c: &Candidate| !is_unlisted(c.effect) && c.is_supported(self.settings);
         let first = all.iter().position(is_listed)?;
         let explains_as_much = |&other: &usize| {
-            is_listed(&all[other])
-                && all[other].gain() > JUST_AS_MUCH * all[first].gain()
-                && all[other].keeps_up_with(&all[first], &self.clusters)
+            let (other, first) = (&all[other], &all[first]);
+            let as_much = other.gain() > JUST_AS_MUCH * first.gain()
+                && other.keeps_up_with(first, &self.clusters);
+            let is_richer = first.is_richer_than(other);
+            is_listed(other) && (as_much || (is_richer && other.does_for(first, current)))
         };
         let parameters = |&other: &usize| all[other].effect.description().parameters.len();
         (first..all.len())
@@ -272,10 +282,11 @@ impl ModelSelection<'_> {
         room: usize,
     ) -> Result<Vec<Step>, DiagnoseError> {
         let winner = &ranking.candidates[best];
-        let single = self.single(ranking, best);
+        let single = self.single(current, ranking, best);
         let leaves_much = self.leaves_much(&ranking.candidates[single].fitted, current);
         let half = |listed: usize| ranking.candidates[listed].gain() > 0.5 * winner.gain();
-        let challenged = is_unlisted(winner.effect) && self.listed(ranking).is_some_and(half);
+        let challenged =
+            is_unlisted(winner.effect) && self.listed(current, ranking).is_some_and(half);
         let alone = vec![self.step(ranking, single, current)];
         // In stretches of one long record the next rung shows as much, for a third of the work.
         let pays = room > 1 && self.clusters.are_whole();

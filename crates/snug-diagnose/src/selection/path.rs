@@ -7,7 +7,7 @@ use crate::pooled::fitted::Fitted;
 use crate::ranking::paired_gain::agreement;
 use crate::ranking::rank::{Candidate, Ranking};
 use crate::selection::thresholds::{
-    AS_MUCH, EQUAL, GOOD_PART, PLAINLY_MORE, PROMISING_P, SMALL, TRIFLE,
+    AS_MUCH, EQUAL, GOOD_PART, MATTERS, MOST, PLAINLY_MORE, PROMISING_P, SMALL, TRIFLE,
 };
 use crate::settings::DiagnoseSettings;
 use snug_model::Effect;
@@ -107,16 +107,25 @@ impl SelectionPath {
     }
 
     /// A candidate that is not supported, but might be with more tightenings: chance seldom does as much, or it explains a
-    /// good part of an error that is beyond the noise.
+    /// good part of an error that is beyond the noise, or most of one of which nobody knows how much is noise.
     pub fn is_promising(&self, settings: &DiagnoseSettings) -> Option<&Candidate> {
-        let last = self.last();
+        let (first, last) = (&self.rungs[0], self.last());
         self.ranking.candidates.iter().find(|candidate| {
             let is_seldom = candidate.p_family < PROMISING_P;
-            let explains = last.is_beyond_noise() && candidate.gain() > GOOD_PART * misfit(last);
+            let gain = candidate.gain();
+            let explains = match last.is_weighted {
+                true => last.is_beyond_noise() && gain > GOOD_PART * misfit(last),
+                false => {
+                    !is_unlisted(candidate.effect)
+                        && gain > MOST * misfit(last)
+                        && gain > SMALL * misfit(first)
+                }
+            };
             candidate.p_family > settings.level
                 && (is_seldom || explains)
                 && candidate.gain() > 2.0 * settings.smallest_gain * last.squares()
                 && candidate.clearness() > 1.0
+                && (last.is_weighted || gain > least_share(candidate.effect) * first.squares())
         })
     }
 }
@@ -211,7 +220,7 @@ pub(crate) fn justified(
 /// Share of what the study's own model left that an effect must take away where the noise is not known.
 pub(crate) fn least_share(effect: Effect) -> f64 {
     match is_unlisted(effect) {
-        true => SMALL,
+        true => MATTERS,
         false => TRIFLE,
     }
 }

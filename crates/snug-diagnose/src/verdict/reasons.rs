@@ -1,7 +1,7 @@
 //! What speaks for a verdict, as data: the sentences stand in `snug_campaign::words`.
 
-use crate::data::cases::is_machine;
 use crate::data::clusters::Clusters;
+use crate::data::machine::is_machine;
 use crate::library::{declaration, in_words};
 use crate::pooled::fitted::Fitted;
 use crate::ranking::rank::Candidate;

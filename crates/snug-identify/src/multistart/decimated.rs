@@ -13,6 +13,7 @@ use crate::residual::restarts::motions_at;
 use crate::residual::tightening::TighteningResidual;
 use crate::settings::IdentifySettings;
 use crate::task::FitTask;
+use crate::task::decimated::means;
 use snug_campaign::{Intersample, Quantity};
 use snug_least_squares::{Constraints, Fit, Settings, SolveError, Work};
 use snug_model::{Input, Model};
@@ -137,12 +138,4 @@ pub(crate) fn apart(mut ends: Vec<Fit>, most: usize) -> Vec<Vec<f64>> {
         .into_iter()
         .filter(|end| end.cost <= COST_RATIO_LIMIT * lowest);
     worthy.map(|end| end.values).take(most).collect()
-}
-
-/// Of every `factor` samples; what is left over at the end is left out.
-fn means(signal: &[f64], factor: usize) -> Vec<f64> {
-    let parts = signal.chunks_exact(factor);
-    parts
-        .map(|part| part.iter().sum::<f64>() / factor as f64)
-        .collect()
 }

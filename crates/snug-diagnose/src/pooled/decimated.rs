@@ -1,0 +1,108 @@
+//! Long records at a lower rate, to look for effects in: what moves slowly for its rate says as much in a fraction of the samples.
+
+use crate::data::machine::is_machine;
+use crate::pooled::fitted::Fitted;
+use crate::pooled::long_record::take_long;
+use crate::pooled::thresholds::{
+    ENOUGH_TO_SEARCH, FEWEST_BETWEEN_RESTARTS, LOST, SHORTEST_DECIMATED, WHITE,
+};
+use snug_identify::FitTask;
+
+/// The records at the lowest rate that is needed, where they take long and hardly anything is lost; `fitted` is the study's own model at
+/// the full rate, whose error is what effects are looked for in.
+pub(crate) fn decimated(records: &[FitTask<'_>], fitted: &Fitted) -> Option<Vec<FitTask<'static>>> {
+    let is_possible = fitted.are_stretches() && !fitted.is_weighted;
+    if !is_possible || !take_long(records) || !records.iter().all(is_machine) {
+        return None;
+    }
+    let samples: usize = records.iter().map(|one| one.measured().len()).sum();
+    let shortest = records.iter().map(|one| one.measured().len()).min()?;
+    let apart = records
+        .iter()
+        .filter_map(|one| one.input.samples_between_restarts());
+    let most = (samples / ENOUGH_TO_SEARCH)
+        .min(shortest / SHORTEST_DECIMATED)
+        .min(apart.min().unwrap_or(usize::MAX) / FEWEST_BETWEEN_RESTARTS);
+    let halves = std::iter::successors(Some(most), |factor| Some(factor / 2));
+    let factor = halves
+        .take_while(|&factor| factor >= 2)
+        .find(|&factor| keeps_what_matters(records, fitted, factor))?;
+    Some(records.iter().map(|one| one.decimated(factor)).collect())
+}
+
+/// Whether what means over `factor` samples lose of the output is little beside the error, or white.
+fn keeps_what_matters(records: &[FitTask<'_>], fitted: &Fitted, factor: usize) -> bool {
+    let lost: Vec<Vec<f64>> = (records.iter())
+        .map(|one| between_means(&one.measured()[one.unscored()..], factor))
+        .collect();
+    let products = |lag: usize| -> f64 {
+        let of_one =
+            |lost: &Vec<f64>| -> f64 { lost.iter().zip(&lost[lag..]).map(|(a, b)| a * b).sum() };
+        lost.iter().map(of_one).sum()
+    };
+    let squares = products(0);
+    let is_white = || {
+        let expected = 1.0 / factor as f64;
+        (1..=3).all(|lag| products(lag).abs() < (WHITE + expected) * squares)
+    };
+    squares <= LOST * fitted.squares() || is_white()
+}
+
+/// A signal less the straight lines between the means of every `factor` samples, from the middle of the first to that of the last.
+fn between_means(signal: &[f64], factor: usize) -> Vec<f64> {
+    let means: Vec<f64> = (signal.chunks_exact(factor))
+        .map(|part| part.iter().sum::<f64>() / factor as f64)
+        .collect();
+    let middle = 0.5 * (factor - 1) as f64;
+    let end = (means.len().saturating_sub(1)) * factor;
+    let first = middle.ceil() as usize;
+    (first..(first + end).min(signal.len()))
+        .filter_map(|sample| {
+            let place = (sample as f64 - middle) / factor as f64;
+            let (before, part) = (place as usize, place.fract());
+            let (a, b) = (means.get(before)?, means.get(before + 1)?);
+            Some(signal[sample] - a - part * (b - a))
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn correlation(lost: &[f64]) -> f64 {
+        let squares: f64 = lost.iter().map(|x| x * x).sum();
+        lost.windows(2).map(|pair| pair[0] * pair[1]).sum::<f64>() / squares
+    }
+
+    /// A straight line loses nothing; of sin t the second difference over 8 h is lost, (8 h)² / 8 at most, and a bit by the means.
+    #[test]
+    fn what_bends_is_lost() {
+        let line: Vec<f64> = (0..400).map(|k| 3.0 + 0.5 * f64::from(k)).collect();
+        let lost = between_means(&line, 8);
+        assert!(lost.len() > 380 && lost.iter().all(|x| x.abs() < 1e-9));
+        let sine: Vec<f64> = (0..4000).map(|k| (0.01 * f64::from(k)).sin()).collect();
+        let lost = between_means(&sine, 8);
+        let largest = lost.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        assert!(
+            (0.4..1.6).contains(&(largest / (0.08_f64.powi(2) / 8.0))),
+            "{largest}"
+        );
+        assert!(correlation(&lost) > 0.9);
+    }
+
+    #[test]
+    fn noise_is_lost_but_stays_white() {
+        let mut state = 1_u64;
+        let noise: Vec<f64> = (0..8000)
+            .map(|_| {
+                state = state
+                    .wrapping_mul(6_364_136_223_846_793_005)
+                    .wrapping_add(1);
+                (state >> 33) as f64 / 2.0_f64.powi(31) - 0.5
+            })
+            .collect();
+        let lost = between_means(&noise, 8);
+        assert!(correlation(&lost).abs() < WHITE + 0.125);
+    }
+}

@@ -1,0 +1,40 @@
+//! A selection that was made on records of a lower rate, with its models fitted to every sample.
+
+use crate::error::DiagnoseError;
+use crate::pooled::fit::fit_effects;
+use crate::pooled::fitted::Fitted;
+use crate::selection::model_selection::ModelSelection;
+use crate::selection::path::SelectionPath;
+
+impl ModelSelection<'_> {
+    /// `path` with every model fitted to all samples from where it ended, the study's own as `compared` where that is better, and what
+    /// the candidates gain in proportion to the samples.
+    pub fn at_full_rate(
+        &self,
+        mut path: SelectionPath,
+        compared: SelectionPath,
+    ) -> Result<SelectionPath, DiagnoseError> {
+        let watch = self.watch.to_the_end();
+        watch.begin("fitting every sample")?;
+        let at_full_rate =
+            |fitted: &Fitted| fit_effects(self.cases, &fitted.effects, Some(fitted), self.clusters);
+        let before = path.last().squares();
+        let rungs: Result<Vec<Fitted>, _> = path.rungs.iter().map(at_full_rate).collect();
+        path.rungs = rungs?;
+        let known = compared.rungs.into_iter();
+        for (rung, known) in path.rungs.iter_mut().zip(known) {
+            if known.squares() < rung.squares() {
+                *rung = known;
+            }
+        }
+        let grown = path.last().squares() / before;
+        for candidate in &mut path.ranking.candidates {
+            candidate.gains.iter_mut().for_each(|gain| *gain *= grown);
+        }
+        if let Some(chosen) = path.chosen {
+            let chosen = &mut path.ranking.candidates[chosen];
+            chosen.fitted = at_full_rate(&chosen.fitted)?;
+        }
+        Ok(path)
+    }
+}
