@@ -33,7 +33,7 @@ impl Scale {
         let expression = match effect {
             Effect::CoulombFriction => format!("fc_n*tanh(v/{turn_m_per_s:e})"),
             Effect::StribeckFriction => {
-                format!("(fc_n+(fs_n-fc_n)*exp(-(v/v_s_m_per_s)^2))*tanh(v/{turn_m_per_s:e})")
+                format!("(fc_n+max(0,fs_n-fc_n)*exp(-(v/v_s_m_per_s)^2))*tanh(v/{turn_m_per_s:e})")
             }
             // Where its zero of x is says nothing of where it is at rest.
             Effect::TorqueRipple => {

@@ -1,6 +1,7 @@
 //! Dry friction that is larger until it moves: +F = (F_c + (F_s − F_c) exp(−(v/v_s)²)) tanh(v / v_0), v_0 = 0.01 m/s.
 //!
-//! Against the motion for F_c, F_s > 0: F_s near rest, F_c far above v_s. F_s = F_c is dry friction alone, both 0 the base model.
+//! Against the motion for F_c, F_s > 0: F_s near rest, F_c far above v_s. F_s = F_c, and anything less, is dry friction alone, both 0
+//! the base model.
 //! Excited by motion that is slow for a while: reversals, weak pulses. In the residual a step at every reversal that fades
 //! as the speed grows.
 //!
@@ -12,6 +13,7 @@
 use crate::description::{ActsOn, Description, Kind, OnMachine, ParameterSpec, Scope, state};
 use crate::law::{Instant, Law};
 use crate::numeric::number::Number;
+use crate::numeric::real::Real;
 
 state! {
     summary: "Dry friction holds more firmly at low speed and gives way as the motion gets faster.",
@@ -85,7 +87,9 @@ impl Law for StribeckFriction {
     fn force<N: Number>(&self, p: &[N], at: &Instant<N>, _own: &[N]) -> Option<N> {
         let v = at.v_m_per_s;
         let share = (-(v / p[2]).power(2)).exp();
-        let force = p[0] + (p[1] - p[0]) * share;
+        // Friction that grows with the speed is another law's.
+        let slow = N::select(p[1].value().is_above(p[0].value()), p[1], p[0]);
+        let force = p[0] + (slow - p[0]) * share;
         Some(force * (v * (1.0 / SMOOTHING_M_PER_S)).tanh())
     }
 }
@@ -115,8 +119,8 @@ mod tests {
 
     #[test]
     fn without_an_excess_it_is_dry_friction() {
-        for v_m_per_s in [-0.3, -0.004, 0.02, 0.5] {
-            let found_n = trial::force(&StribeckFriction, &[4.0, 4.0, 0.1], 0.0, v_m_per_s);
+        for (v_m_per_s, slow_n) in [(-0.3, 4.0), (-0.004, 4.0), (0.02, 1.0), (0.5, 0.0)] {
+            let found_n = trial::force(&StribeckFriction, &[4.0, slow_n, 0.1], 0.0, v_m_per_s);
             let dry_n = trial::force(&CoulombFriction, &[4.0], 0.0, v_m_per_s);
             trial::assert_near(found_n, dry_n);
         }
