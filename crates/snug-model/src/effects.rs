@@ -157,6 +157,9 @@ hooks!(forward);
 pub const TRENDS: &[Description] = &[fatigue::DESCRIPTION];
 
 impl Effect {
+    /// What a plain regression of the equation of motion takes beside torque, velocity and angle: sgn v and 1.
+    pub const PLAIN: &[Self] = &[Self::CoulombFriction, Self::TorqueOffset];
+
     /// The effect called `name`, if the catalogue has it.
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL
@@ -189,6 +192,11 @@ impl Effect {
     /// True when the effect only changes what is measured, so that the motion itself stays the base model's.
     pub fn measurement_only(&self) -> bool {
         AnsweredHooks::of(self).are_of_sensors()
+    }
+
+    /// Whether what is measured of the motion differs from it where it acts.
+    pub fn changes_what_is_measured(&self) -> bool {
+        AnsweredHooks::of(self).are_heard_by_sensors()
     }
 
     /// Whether it says with which motion the window begins.

@@ -36,4 +36,5 @@ pub use numeric::dual::Dual;
 pub use numeric::number::Number;
 pub use numeric::real::{Real, Task};
 pub use numeric::simd::{LaneTask, in_lanes, with_processor_instructions};
+pub use simulate::along_motion::GivenMotion;
 pub use simulate::side_by_side::{Run, simulate_side_by_side};

@@ -286,7 +286,7 @@ impl Input {
     }
 
     /// Whether the input keeps each grid value until the next.
-    pub(crate) fn held(&self) -> bool {
+    pub fn held(&self) -> bool {
         self.held
     }
 }
