@@ -4,6 +4,7 @@ use crate::data::cases::{Cases, Tally};
 use crate::data::clusters::Clusters;
 use crate::error::DiagnoseError;
 use crate::pooled::decimated::decimated;
+use crate::pooled::equation::is_one_with_friction;
 use crate::pooled::fit::fit_effects;
 use crate::pooled::thresholds::ONE_MACHINE;
 use crate::question::{Goal, Question};
@@ -84,7 +85,8 @@ fn selected(
 }
 
 /// Recordings of one machine share mass, damping and stiffness, unless each with its own leaves far less: then something differs
-/// between them, as how warm a bearing is or which way it turns.
+/// between them, as how warm a bearing is or which way it turns. Dry friction and an offset make such differences, too; where they
+/// explain as much, the machine is one.
 fn one_machine_or_several<'a>(
     cases: Cases<'a>,
     effects: &[Effect],
@@ -95,7 +97,8 @@ fn one_machine_or_several<'a>(
     }
     let several = cases.each_its_own();
     let left = |cases| fit_effects(cases, effects, None, clusters).map(|fitted| fitted.squares());
-    Ok(match left(several)? < ONE_MACHINE * left(cases)? {
+    let leaves_far_less = left(several)? < ONE_MACHINE * left(cases)?;
+    Ok(match leaves_far_less && !is_one_with_friction(&cases) {
         true => several,
         false => cases,
     })

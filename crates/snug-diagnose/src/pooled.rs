@@ -1,6 +1,7 @@
 //! One set of effects as a statement about all tightenings, fitted to them together.
 
 pub(crate) mod decimated;
+pub(crate) mod equation;
 pub(crate) mod fit;
 pub(crate) mod fitted;
 pub(crate) mod group_sizes;

@@ -2,6 +2,7 @@
 
 pub(crate) mod applicability;
 pub(crate) mod by_group;
+pub(crate) mod first_ranking;
 pub(crate) mod kin;
 pub(crate) mod max_t;
 pub(crate) mod nuisance;

@@ -4,6 +4,7 @@ pub(crate) mod answer;
 pub(crate) mod detectability;
 pub(crate) mod earned;
 pub(crate) mod experiment;
+pub(crate) mod floor;
 pub(crate) mod ladder;
 pub(crate) mod preparation;
 pub(crate) mod reasons;

@@ -4,6 +4,7 @@ mod base_model;
 mod batch;
 mod constraint_kind;
 pub mod derived;
+mod equation_error;
 mod error;
 mod identify;
 mod multistart;
@@ -14,6 +15,8 @@ mod task;
 
 pub use batch::{SIDE_BY_SIDE, in_batches};
 pub use constraint_kind::{ConstraintKind, convex_set};
+pub use equation_error::equation::{Acting, EquationFit, MotionEquation, Term};
+pub use equation_error::modulation::{Modulation, integral};
 pub use error::IdentifyError;
 pub use identify::{identify, identify_all};
 pub use multistart::smoothing::{HALF_WIDTHS, smooth};

@@ -1,12 +1,17 @@
 //! What to check where no model fits, each as data, and the sentence it is said with.
 
+use super::effect_name::effect_name;
 use super::explained::at_most_all;
+use super::joined;
+use super::number::significant;
 use std::fmt::{self, Display, Formatter};
 
 /// Something that may be why no model fits; shares are those of the output's power that mass, damping and stiffness alone would
 /// explain then \[–\].
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Suspicion {
+    /// The simulated fit falls short of a plain regression.
+    FailedFit(FailedFit),
     /// The fit ended in a poor minimum: where the spectra put m, c, k, they do better.
     PoorMinimum(f64),
     /// The input's sign is the other one.
@@ -26,9 +31,50 @@ pub enum Suspicion {
     NoOscillator,
 }
 
+/// A simulated fit beside a plain regression of the equation of motion; shares are those of the measured acceleration's power, averaged
+/// over neighbouring samples \[–\].
+#[derive(Debug, Clone, PartialEq)]
+pub struct FailedFit {
+    /// Effects of the model.
+    pub effects: Vec<String>,
+    /// Whether the regression has dry friction and an offset beside them.
+    pub is_plain: bool,
+    /// Share that the regression explains.
+    pub promised: f64,
+    /// Share that the numbers of the fit explain; below 0 where no motion at all would do better.
+    pub kept: f64,
+    /// Mass, damping and stiffness as the regression puts them.
+    pub sizes: Vec<(String, f64)>,
+}
+
+impl Display for FailedFit {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let mut on: Vec<String> = ["torque", "speed", "angle"].map(str::to_owned).to_vec();
+        on.extend(self.effects.iter().map(|name| effect_name(name)));
+        if self.is_plain {
+            on.extend(["the sign of the speed", "a constant"].map(str::to_owned));
+        }
+        let kept = match self.kept > 0.0 {
+            true => at_most_all(self.kept),
+            false => "nothing".to_owned(),
+        };
+        let sizes: Vec<String> = (self.sizes.iter())
+            .map(|(name, value)| format!("{name} {}", significant(*value, 3)))
+            .collect();
+        write!(
+            f,
+            "A plain regression of acceleration on {} explains {}, the simulated fit {kept}: the fit failed, and its numbers are no physics. Start it from the regression's (`model.parameters`): {}.",
+            joined(&on),
+            at_most_all(self.promised),
+            sizes.join(", ")
+        )
+    }
+}
+
 impl Display for Suspicion {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self {
+            Self::FailedFit(failed) => failed.fmt(f),
             Self::PoorMinimum(share) => write!(
                 f,
                 "Check the starting values: where the spectra put them, mass, damping and stiffness alone explain {}, so the fit ended in a poor minimum. Leave m, c and k out of the study's `model.parameters`, or start them elsewhere.",

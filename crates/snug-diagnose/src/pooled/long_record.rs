@@ -1,6 +1,7 @@
 //! A candidate's refit to a few long records, where mass, damping and stiffness are no matter of each tightening.
 
 use crate::error::DiagnoseError;
+use crate::pooled::equation::regression_start;
 use crate::pooled::model::{PooledModel, Start};
 use crate::pooled::thresholds::{
     A_FEW_STEPS, BEGINNING, SHORTEST_BEGINNING, SIEVE, SIEVED, SOON, TRIAL_OF_A_START,
@@ -67,7 +68,23 @@ pub(crate) fn from_the_records(pooled: &mut PooledModel<'_>) -> Result<PooledFit
         [only] => only.clone(),
         several => Start::at(&ends(pooled, several, &TRIAL_OF_A_START)?[0]),
     };
-    to_the_end(pooled, &start)
+    let end = to_the_end(pooled, &start)?;
+    no_less_than_a_regression(pooled, end)
+}
+
+/// The fit that ended at `end`, or where it falls short of a regression of the equation of motion, one from where that puts the
+/// numbers, if it is lower.
+fn no_less_than_a_regression(
+    pooled: &mut PooledModel<'_>,
+    end: PooledFit,
+) -> Result<PooledFit, DiagnoseError> {
+    let Some(start) = regression_start(pooled, &Start::at(&end)) else {
+        return Ok(end);
+    };
+    match to_the_end(pooled, &start) {
+        Ok(other) if other.cost() < end.cost() => Ok(other),
+        _ => Ok(end),
+    }
 }
 
 /// Tries each start and goes on to the end from where the lowest led.

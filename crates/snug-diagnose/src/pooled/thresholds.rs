@@ -51,3 +51,12 @@ pub(crate) const FEWEST_BETWEEN_RESTARTS: usize = 16;
 pub(crate) const LOST: f64 = 0.01;
 /// Correlation of neighbouring samples below which what is lost is noise \[–\]. Chosen.
 pub(crate) const WHITE: f64 = 0.1;
+/// Share of the measured acceleration's power that a plain regression must explain before a simulated fit is held against it \[–\]:
+/// with less, most of what is averaged is noise. Chosen.
+pub(crate) const PROMISES: f64 = 0.8;
+/// Times as much of that power as the regression leaves, taken as no less than a hundredth, from which a simulated fit falls short of
+/// it \[–\].
+pub(crate) const FALLS_SHORT: f64 = 4.0;
+/// Equation error of one machine with dry friction and an offset, over that of several without, up to which they are one \[–\]. Chosen;
+/// a motor of four tests has 0.3.
+pub(crate) const AS_WELL: f64 = 1.0;

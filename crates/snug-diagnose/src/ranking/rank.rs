@@ -11,6 +11,7 @@ use crate::pooled::model::PooledModel;
 use crate::pooled::sharing::Groups;
 use crate::pooled::sizes::is_told_from_nothing;
 use crate::ranking::by_group::{by_group, promised};
+use crate::ranking::first_ranking::first_ranking;
 use crate::ranking::max_t::Family;
 use crate::ranking::paired_gain::{chance, clearness, gains, spread_of_sum};
 use crate::ranking::pairs::{Pair, promising_pairs};
@@ -140,11 +141,18 @@ pub(crate) fn rank(
     cases.tally().signatures(cases.len() * columns.len());
     let family = Family::new(&columns, settings.sign_flips, settings.seed);
     let heldout = current.heldout_beyond_torque_noise();
+    let promises = match clusters.are_whole() {
+        true => Vec::new(),
+        false => first_ranking(cases, current, candidates),
+    };
     let refitted: Vec<Result<Option<Candidate>, DiagnoseError>> = candidates
         .par_iter()
         .map(|&effect| {
             watch.go_on()?;
-            let fitted = refit(cases, current, effect, &columns, clusters, settings);
+            let promise = promises.iter().find(|promise| promise.effect == effect);
+            let fitted = refit(
+                cases, current, effect, &columns, promise, clusters, settings,
+            );
             watch.pieces(Pieces::Done);
             let Some(fitted) = possible(fitted)? else {
                 return Ok(None);

@@ -4,15 +4,18 @@ use crate::data::cases::Cases;
 use crate::data::clusters::Clusters;
 use crate::error::DiagnoseError;
 use crate::library::is_unlisted;
+use crate::pooled::equation::with_base;
 use crate::pooled::fitted::Fitted;
 use crate::pooled::long_record;
 use crate::pooled::model::{PooledModel, Start, pick};
 use crate::pooled::parameter_place::first_parameter;
+use crate::pooled::thresholds::A_FEW_STEPS;
+use crate::ranking::first_ranking::Promise;
 use crate::ranking::resonances;
 use crate::ranking::sensitivity::Column;
 use crate::ranking::thresholds::{
     CANDIDATE, FARTHER, FEW, FREELY, GLANCE, LED, LED_REACH, LEFT_BEHIND, LITTLE, MOST_ROUNDS,
-    ROUGH_REFIT,
+    ROUGH_REFIT, WORTH_A_START,
 };
 use crate::ranking::wavelengths;
 use crate::settings::DiagnoseSettings;
@@ -28,6 +31,7 @@ pub(crate) fn refit(
     current: &Fitted,
     effect: Effect,
     columns: &[Column],
+    promise: Option<&Promise>,
     clusters: Clusters,
     settings: &DiagnoseSettings,
 ) -> Result<Fitted, DiagnoseError> {
@@ -50,7 +54,10 @@ pub(crate) fn refit(
         .map(|values| with_effect(&pooled, current, effect, values))
         .collect();
     let end = led_by(&mut pooled, current, &starts, clusters);
-    let end = no_worse(&mut pooled, current, &nothing, end)?;
+    let mut end = no_worse(&mut pooled, current, &nothing, end)?;
+    if !clusters.are_whole() {
+        end = as_promised(&mut pooled, current, promise, end)?;
+    }
     Ok(Fitted::new(&pooled, end, &clusters))
 }
 
@@ -165,6 +172,29 @@ fn nothing_of(pooled: &PooledModel<'_>, effect: Effect, start: Option<&[f64]>) -
             .collect();
     }
     all
+}
+
+/// The fit that ended at `end`, or where that is lower, one from where the equation of motion puts the numbers, if the effect
+/// promises much there.
+fn as_promised(
+    pooled: &mut PooledModel<'_>,
+    current: &Fitted,
+    promise: Option<&Promise>,
+    end: PooledFit,
+) -> Result<PooledFit, DiagnoseError> {
+    let Some(promise) = promise.filter(|promise| promise.share >= WORTH_A_START) else {
+        return Ok(end);
+    };
+    let start = with_effect(pooled, current, promise.effect, &promise.own);
+    let start = with_base(pooled, &start, &promise.base);
+    let settings = match long_record::take_long(&pooled.cases) {
+        true => &A_FEW_STEPS,
+        false => &CANDIDATE,
+    };
+    match pooled.fit(&start, settings) {
+        Ok(other) if other.cost() < end.cost() => Ok(other),
+        _ => Ok(end),
+    }
 }
 
 /// At most `most` different starts of an effect, those whose columns promise most.

@@ -200,7 +200,7 @@ pub(crate) fn directions(effect: Effect, ranges: &[PlausibleRange], whole: bool)
 }
 
 /// Every combination of the starts of an effect's parameters.
-fn combinations(ranges: &[PlausibleRange]) -> Vec<Vec<f64>> {
+pub(crate) fn combinations(ranges: &[PlausibleRange]) -> Vec<Vec<f64>> {
     ranges.iter().fold(vec![Vec::new()], |partial, range| {
         partial
             .iter()

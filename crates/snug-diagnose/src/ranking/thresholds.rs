@@ -101,3 +101,9 @@ pub(crate) const DAMPING_RATIOS: [f64; 3] = [0.005, 0.03, 0.15];
 pub(crate) const LINES: usize = 20_000;
 /// Ratio of two frequencies from which they are two resonances to begin with \[–\]. Chosen.
 pub(crate) const APART: f64 = 1.1;
+/// Samples of all records from which the first ranking is made, whole records, one at least. Chosen.
+pub(crate) const MOST_OF_FIRST_RANKING: usize = 60_000;
+/// Shapes of an effect that are looked at there. Chosen.
+pub(crate) const MOST_SHAPES: usize = 12;
+/// Share of the equation error from which the sizes that take it are one more start of a refit \[–\]. Chosen.
+pub(crate) const WORTH_A_START: f64 = 0.05;

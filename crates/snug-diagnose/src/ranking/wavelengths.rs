@@ -14,7 +14,7 @@ use crate::ranking::thresholds::{
 };
 use rayon::prelude::*;
 use snug_campaign::Quantity;
-use snug_identify::FitTask;
+use snug_identify::{FitTask, Modulation, integral};
 use snug_least_squares::matrix::{SymmetricMatrix, inner_product as dot};
 use snug_model::{Effect, Instant, Law, PlausibleRange};
 
@@ -177,7 +177,7 @@ struct Balance {
     lever_arm_m: f64,
     /// Displacement of the grip at every sample \[m\].
     x_m: Vec<f64>,
-    weights: Weights,
+    weights: Modulation,
     /// First sample of every place.
     places: Vec<usize>,
     /// Orthonormal: what every model may explain.
@@ -189,7 +189,7 @@ struct Balance {
 impl Balance {
     /// At no more than `most` places; nothing where angle or velocity are not known.
     fn of(case: &FitTask<'_>, half_width: usize, most: usize) -> Option<Self> {
-        let weights = Weights::new(half_width, case.tightening.time_base.interval_s);
+        let weights = Modulation::new(half_width, case.tightening.time_base.interval_s);
         let (lever_arm_m, torque_nm) = (case.model.rig().lever_arm_m, &case.tightening.torque_nm);
         let known = |quantity| case.tightening.motion.get(quantity);
         let acceleration = known(Quantity::Acceleration);
@@ -198,7 +198,7 @@ impl Balance {
         let angle = match (known(Quantity::Displacement), velocity) {
             (Some(angle), _) => angle,
             (None, Some(velocity)) => {
-                summed = sums(velocity, case.tightening.time_base.interval_s);
+                summed = integral(velocity, case.tightening.time_base.interval_s);
                 &summed
             }
             _ => return None,
@@ -314,50 +314,6 @@ fn smooth([angle, velocity, acceleration]: [Vec<f64>; 3]) -> [Vec<f64>; 8] {
     ]
 }
 
-/// φ(u) = (1 − u²)⁴ between −1 and 1 over some samples, of mean 1, and what stands for it under derivatives.
-struct Weights {
-    of_value: Vec<f64>,
-    /// −φ' per second: makes the mean rate of what it weighs.
-    of_slope: Vec<f64>,
-    /// φ'' per square second.
-    of_curvature: Vec<f64>,
-}
-
-impl Weights {
-    fn new(half_width: usize, interval_s: f64) -> Self {
-        let (half, per_s) = (half_width as f64, 1.0 / (half_width as f64 * interval_s));
-        let places: Vec<f64> = (0..=2 * half_width)
-            .map(|index| index as f64 / half - 1.0)
-            .collect();
-        let each = |f: &dyn Fn(f64, f64) -> f64| -> Vec<f64> {
-            places.iter().map(|&u| f(u, 1.0 - u * u)).collect()
-        };
-        let of_value = each(&|_, w| w.powi(4));
-        let sum: f64 = of_value.iter().sum();
-        let scaled = |of: Vec<f64>, by: f64| of.into_iter().map(|value| value * by / sum).collect();
-        Self {
-            of_value: scaled(of_value, 1.0),
-            of_slope: scaled(each(&|u, w| 8.0 * u * w.powi(3)), per_s),
-            of_curvature: scaled(
-                each(&|u, w| 48.0 * u * u * w * w - 8.0 * w.powi(3)),
-                per_s * per_s,
-            ),
-        }
-    }
-}
-
-/// ∫ by trapezoids, from 0.
-fn sums(rate: &[f64], interval_s: f64) -> Vec<f64> {
-    let mut sum = 0.0;
-    let mut before = rate.first().copied().unwrap_or(0.0);
-    let next = |&rate: &f64| {
-        sum += 0.5 * interval_s * (before + rate);
-        before = rate;
-        sum
-    };
-    rate.iter().map(next).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -397,16 +353,5 @@ mod tests {
     #[test]
     fn other_effects_have_none() {
         assert!(first(exact, Effect::CubicStiffness, &[8.0, 4.0, 0.006]).is_none());
-    }
-
-    /// x² on a grid of 1 s: the mean of its second derivative is 2, of its first 2 x, by parts.
-    #[test]
-    fn derivatives_come_by_parts() {
-        let weights = Weights::new(9, 0.5);
-        let signal: Vec<f64> = (0..19)
-            .map(|index| (0.5 * f64::from(index)).powi(2))
-            .collect();
-        close(dot(&signal, &weights.of_slope), 2.0 * 4.5, 1e-2);
-        close(dot(&signal, &weights.of_curvature), 2.0, 1e-2);
     }
 }

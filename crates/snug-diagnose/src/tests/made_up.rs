@@ -86,6 +86,43 @@ pub(crate) fn noisy(number: usize, effects: &[Effect], sizes: &[f64]) -> FitTask
     case
 }
 
+/// A machine of 0.4 kg m², 1.9 Nm s/rad and 30 Nm/rad whose velocity is written down, a sum of two sines, with the torque that this
+/// takes beside dry friction of `friction_nm`: 15 s at 200 Hz.
+pub(crate) fn machine_with_friction(friction_nm: f64) -> FitTask<'static> {
+    const RIG: Rig = Rig {
+        lever_arm_m: 1.0,
+        known_inertia_kg_m2: 0.0,
+    };
+    const INTERVAL_S: f64 = 5e-3;
+    let scale = Scale::Rig {
+        torque_nm: 15.0,
+        angle_rad: 0.8,
+        time_s: 0.15,
+    };
+    let (mut torque_nm, mut measured) = (Vec::new(), Vec::new());
+    for sample in 0..3000 {
+        let t = f64::from(sample) * INTERVAL_S;
+        let (x, y) = (5.0 * t, 11.0 * t);
+        let angle = x.sin() + 0.5 * y.sin();
+        let velocity = 5.0 * x.cos() + 5.5 * y.cos();
+        let acceleration = -25.0 * x.sin() - 60.5 * y.sin();
+        let friction = friction_nm * velocity.signum();
+        torque_nm.push(0.4 * acceleration + 1.9 * velocity + 30.0 * angle + friction);
+        measured.push(velocity);
+    }
+    let input = Input::new(&torque_nm, INTERVAL_S, Intersample::Linear);
+    let tightening = Tightening::from_torque(RIG, INTERVAL_S, torque_nm);
+    FitTask {
+        tightening: Cow::Owned(tightening.with(Quantity::Velocity, measured)),
+        input: Cow::Owned(input),
+        model: Cow::Owned(Model::scaled(RIG, &[], scale).expect("the rig is one")),
+        settings: Cow::Owned(IdentifySettings {
+            fitted_output: Quantity::Velocity,
+            ..IdentifySettings::default()
+        }),
+    }
+}
+
 /// A candidate that leaves nothing but noise, in as many tightenings as it has `gains`.
 pub(crate) fn candidate(effect: Effect, p_family: f64, gains: &[f64]) -> Candidate {
     Candidate {

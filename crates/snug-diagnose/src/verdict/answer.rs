@@ -20,11 +20,11 @@ use crate::verdict::reasons::{
 use crate::verdict::thresholds::{BESIDE_EFFECTS, REPEATS, WHITE};
 use crate::verdict::tightening_fits::TighteningFits;
 use crate::verdict::trend::trends;
-use crate::verdict::{detectability, ladder, preparation};
+use crate::verdict::{detectability, floor, ladder, preparation};
 use crate::watch::Watch;
 use snug_campaign::words::explained::Explained;
 use snug_campaign::words::statement;
-use snug_campaign::words::suspicion::Suspicion;
+use snug_campaign::words::suspicion::{FailedFit, Suspicion};
 use snug_campaign::{
     AddedEffect, Comparison, CorrectedEffect, Diagnosis, Drift, EffectParameter, Experiment,
     Location, NegativeControl, RankedEffect, UnlistedTerm, Verdict, sharing,
@@ -211,15 +211,31 @@ impl Examination<'_> {
     /// an effect that does most of the work is for `diagnose` to find.
     fn verdict_and_suspicions(&self, places: &Places) -> (Verdict, Vec<Suspicion>) {
         let is_white = (places.explained.as_ref()).is_some_and(|all| all.neighbours.abs() < WHITE);
-        let verdict = self.verdict(places.last().repeatable_share, is_white);
+        let failed = self.failed_fit();
+        let verdict = match (&failed, self.path.is_interrupted()) {
+            (Some(_), false) => Verdict::NotFitted,
+            _ => self.verdict(places.last().repeatable_share, is_white),
+        };
         let (Verdict::NotFitted, Some(explained)) = (verdict, places.explained) else {
             return (verdict, Vec::new());
         };
-        let suspicions = earned::suspicions(self.question.cases, explained);
+        let mut suspicions = earned::suspicions(self.question.cases, explained);
+        if let Some(failed) = failed {
+            suspicions.retain(|one| *one != Suspicion::NoOscillator);
+            suspicions.insert(0, Suspicion::FailedFit(failed));
+        }
         match (&self.question.goal, suspicions.as_slice()) {
             (Goal::Compare, [Suspicion::NoOscillator]) => (Verdict::Undecided, Vec::new()),
             _ => (verdict, suspicions),
         }
+    }
+
+    /// How the best model falls short of a plain regression, if it does.
+    fn failed_fit(&self) -> Option<FailedFit> {
+        let candidates = &self.path.ranking.candidates;
+        let best = (self.path.chosen).map_or(self.path.last(), |index| &candidates[index].fitted);
+        let were_tried = !candidates.is_empty();
+        floor::shortfall(self.cases, best, were_tried)
     }
 
     /// `is_white` where what is left is as white as noise, whatever candidates promise.

@@ -159,7 +159,7 @@ pub(crate) fn headline(situation: &Situation<'_>) -> Headline {
 /// Why.
 pub(crate) fn reasons(situation: &Situation<'_>) -> Vec<Reason> {
     let mut reasons = vec![what_is_left(situation)];
-    reasons.extend(situation.suspicions.iter().copied().map(Reason::Check));
+    reasons.extend(situation.suspicions.iter().cloned().map(Reason::Check));
     let additions = situation.additions.iter();
     reasons.extend(
         additions.map(|one| removes(one.effect, one.heldout_gain, one.p_family, situation)),

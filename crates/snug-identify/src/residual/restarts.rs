@@ -65,6 +65,12 @@ pub fn motions(
         .collect()
 }
 
+/// Value and rate, at one `place` of a few samples, of the cubic that fits those best.
+pub(crate) fn cubic_at(samples: &[f64], interval_s: f64, place: usize) -> [f64; 2] {
+    let local = Local::fit(samples, place, samples.len());
+    [local.value, local.slope / interval_s]
+}
+
 /// Samples on either side of a restart from which its velocity is most certain: where twice as few say most nearly the
 /// same. With fewer, noise and vibration speak; with more, the motion bends too much for a cubic.
 fn calmest_half_width(displacement_rad: &[f64], apart: usize) -> usize {

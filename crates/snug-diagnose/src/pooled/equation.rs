@@ -1,0 +1,166 @@
+//! The equation of motion of a few long recordings of a machine, regressed: what a simulated fit is held against, and from where
+//! it is fitted again where it falls short.
+
+use crate::data::cases::Cases;
+use crate::data::machine::is_machine;
+use crate::pooled::fitted::Fitted;
+use crate::pooled::model::{PooledModel, Start};
+use crate::pooled::parameter_place::first_parameter;
+use crate::pooled::thresholds::{AS_WELL, FALLS_SHORT, PROMISES};
+use snug_identify::{EquationFit, FitTask, MotionEquation};
+use snug_model::{BASE_PARAMETERS, Effect, Law, Model};
+
+/// The equation, and the effects of a plain regression as they act on the rig.
+pub(crate) struct PlainEquation<'a> {
+    pub equation: MotionEquation<'a>,
+    pub plain: Vec<Effect>,
+}
+
+impl<'a> PlainEquation<'a> {
+    /// `None` where somebody holds the rig, the noise is known and says more, or a regression has no answer.
+    pub fn of(cases: &'a [FitTask<'a>]) -> Option<Self> {
+        let first = cases.first()?;
+        if !cases.iter().all(is_machine) || first.whitening().is_some() {
+            return None;
+        }
+        let rig = first.model.rig();
+        let on_rig = |&effect: &Effect| first.model.scale().effect(effect, rig).ok();
+        let plain: Vec<Effect> = Effect::PLAIN.iter().filter_map(on_rig).collect();
+        let equation = MotionEquation::of(cases, &plain)?;
+        Some(Self { equation, plain })
+    }
+
+    /// The regression with the effects of a model as they act with these values of all its parameters, recording by recording.
+    pub fn as_fitted(&self, effects: &[Effect], at: &[Vec<f64>]) -> Option<EquationFit> {
+        let terms = self.equation.terms(effects, at)?;
+        let terms: Vec<_> = terms.into_iter().flatten().collect();
+        self.equation.fit(&terms)
+    }
+
+    /// The regression with dry friction and an offset beside the effects of a model, so far as it does not have them.
+    pub fn plainly(&self, effects: &[Effect], at: &[Vec<f64>]) -> Option<EquationFit> {
+        let terms = self.equation.terms(effects, at)?;
+        let known = |effect: &Effect| effects.iter().any(|one| one.name() == effect.name());
+        let further = self.plain.iter().filter(|effect| !known(effect));
+        let further = further.filter_map(|&effect| self.equation.term(effect, &[1.0]));
+        let terms: Vec<_> = terms.into_iter().flatten().chain(further).collect();
+        self.equation.fit(&terms)
+    }
+}
+
+/// Whether one mass, damping and stiffness, with dry friction and an offset beside them, explain the measured acceleration as well as
+/// those of each recording by itself do without: what a rub or an offset asks of each is then no difference between machines.
+pub(crate) fn is_one_with_friction(cases: &[FitTask<'_>]) -> bool {
+    let all = || {
+        let PlainEquation { equation, plain } = PlainEquation::of(cases)?;
+        let terms = plain.iter().map(|&effect| equation.term(effect, &[1.0]));
+        let together = equation.fit(&terms.collect::<Option<Vec<_>>>()?)?;
+        let left = |alone: &MotionEquation<'_>| -> f64 {
+            let left = alone.fit(&[]).map_or(1.0, |fit| 1.0 - fit.explained);
+            left * alone.power()
+        };
+        let apart: f64 = equation.apart().iter().map(left).sum();
+        Some((1.0 - together.explained) * equation.power() <= AS_WELL * apart)
+    };
+    all().unwrap_or(false)
+}
+
+/// All parameters of every recording where `fitted` ended.
+pub(crate) fn values(cases: Cases<'_>, fitted: &Fitted) -> Option<Vec<Vec<f64>>> {
+    let pooled = PooledModel::shared_by(cases, &fitted.effects, &fitted.sharing).ok()?;
+    Some(values_at(&pooled, &fitted.start(&pooled)))
+}
+
+/// The same at one place of a model.
+pub(crate) fn values_at(pooled: &PooledModel<'_>, place: &Start) -> Vec<Vec<f64>> {
+    let own = place.own.iter().enumerate();
+    own.map(|(member, own)| pooled.values(member, own, &place.shared))
+        .collect()
+}
+
+/// Whether numbers that explain the share `kept` of the measured acceleration fall short of what a regression promises.
+pub(crate) fn falls_short(kept: f64, promised: &EquationFit) -> bool {
+    let left = 1.0 - promised.explained;
+    promised.is_driven()
+        && promised.explained >= PROMISES
+        && 1.0 - kept > FALLS_SHORT * left.max(0.01)
+}
+
+/// Where the regression puts the numbers of a model whose fit ended at `end` and falls short of it; `None` where it does not.
+pub(crate) fn regression_start(pooled: &PooledModel<'_>, end: &Start) -> Option<Start> {
+    let all: &[FitTask<'_>] = &pooled.cases;
+    let plain = PlainEquation::of(all)?;
+    let at = values_at(pooled, end);
+    let kept = plain.equation.explained_by(&pooled.effects, &at)?;
+    let terms = plain.equation.terms(&pooled.effects, &at)?;
+    let there: Vec<Effect> = (pooled.effects.iter().zip(&terms))
+        .filter_map(|(&effect, term)| term.as_ref().map(|_| effect))
+        .collect();
+    let found = plain
+        .equation
+        .fit(&terms.into_iter().flatten().collect::<Vec<_>>())?;
+    if !falls_short(kept, &found) {
+        return None;
+    }
+    let mut start = with_base(pooled, end, &found.base);
+    for (effect, times) in there.iter().zip(&found.times) {
+        multiply(pooled, &mut start, *effect, *times);
+    }
+    Some(start)
+}
+
+/// The place with another mass, damping and stiffness, those of all recordings.
+pub(crate) fn with_base(pooled: &PooledModel<'_>, place: &Start, base: &[f64]) -> Start {
+    let mut start = place.clone();
+    for own in &mut start.own {
+        set(pooled.own.iter().copied(), own, base);
+    }
+    let shared = pooled.shared.iter().map(|size| size.index);
+    set(shared, &mut start.shared, base);
+    start
+}
+
+fn set(indices: impl Iterator<Item = usize>, values: &mut [f64], base: &[f64]) {
+    for (index, value) in indices.zip(values) {
+        *value = base.get(index).copied().unwrap_or(*value);
+    }
+}
+
+/// The sizes of `effect`, those numbers of it that are 0 where it is not there, so many times as large.
+fn multiply(pooled: &PooledModel<'_>, start: &mut Start, effect: Effect, times: f64) {
+    let first = first_parameter(&pooled.effects, effect);
+    let specs = effect.description().parameters;
+    let is_size = |index: usize| {
+        let spec = index
+            .checked_sub(first)
+            .and_then(|offset| specs.get(offset));
+        spec.is_some_and(|spec| spec.vanishes_at == Some(0.0))
+    };
+    let model: &Model = &pooled.models[0];
+    let scaled = |index: usize, value: f64| {
+        let parameter = &model.parameters()[index];
+        (times * value).clamp(parameter.minimum, parameter.maximum)
+    };
+    for own in &mut start.own {
+        for (&index, value) in pooled.own.iter().zip(own) {
+            *value = if is_size(index) {
+                scaled(index, *value)
+            } else {
+                *value
+            };
+        }
+    }
+    for (size, value) in pooled.shared.iter().zip(&mut start.shared) {
+        *value = if is_size(size.index) {
+            scaled(size.index, *value)
+        } else {
+            *value
+        };
+    }
+}
+
+/// Names and values of the study's own mass, damping and stiffness as a regression puts them.
+pub(crate) fn named(base: &[f64; 3]) -> Vec<(String, f64)> {
+    let names = BASE_PARAMETERS.iter().map(|name| (*name).to_owned());
+    names.zip(base.iter().copied()).collect()
+}

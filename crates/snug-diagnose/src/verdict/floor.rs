@@ -1,0 +1,52 @@
+//! The plain regression is the floor: a simulated fit whose numbers explain far less of the measured acceleration than a regression
+//! of the equation of motion does is a failed fit, and no physics.
+
+use crate::data::cases::Cases;
+use crate::pooled::equation::{PlainEquation, falls_short, named, values};
+use crate::pooled::fitted::Fitted;
+use snug_campaign::words::suspicion::FailedFit;
+use snug_identify::EquationFit;
+
+/// What is wrong with `fitted`, if it falls short of the regression with its own effects or, where candidates were tried as well,
+/// of one with dry friction and an offset.
+pub(crate) fn shortfall(cases: Cases<'_>, fitted: &Fitted, were_tried: bool) -> Option<FailedFit> {
+    if fitted.is_weighted {
+        return None;
+    }
+    let plain = PlainEquation::of(&cases)?;
+    let at = values(cases, fitted)?;
+    let kept = plain.equation.explained_by(&fitted.effects, &at)?;
+    let own = plain.as_fitted(&fitted.effects, &at);
+    let plainly = || plain.plainly(&fitted.effects, &at);
+    let further = were_tried.then(plainly).flatten();
+    for (with, found) in [("own effects", &own), ("friction and offset", &further)] {
+        if let Some(found) = found {
+            tracing::debug!(
+                with,
+                promised = found.explained,
+                kept,
+                by_torque = found.by_torque,
+                half_width = plain.equation.half_width,
+                "plain regression"
+            );
+        }
+    }
+    let effects: Vec<String> = fitted
+        .effects
+        .iter()
+        .map(|one| one.name().to_owned())
+        .collect();
+    let told = |found: EquationFit, is_plain: bool| FailedFit {
+        effects: effects.clone(),
+        is_plain,
+        promised: found.explained,
+        kept,
+        sizes: named(&found.base),
+    };
+    let fails = |found: &EquationFit| falls_short(kept, found);
+    let own = own.filter(fails).map(|found| told(found, false));
+    own.or_else(|| further.filter(fails).map(|found| told(found, true)))
+}
+
+#[cfg(test)]
+mod tests;

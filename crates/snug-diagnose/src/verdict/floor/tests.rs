@@ -1,0 +1,70 @@
+//! What is said of fits that were lost on purpose.
+#![allow(clippy::unwrap_used)]
+
+use super::*;
+use crate::data::cases::Tally;
+use crate::tests::made_up::machine_with_friction as machine;
+use snug_model::Effect;
+
+/// m, c, k of the machine.
+const TRUTH: [f64; 3] = [0.4, 1.9, 30.0];
+const SAMPLES: usize = 3000;
+
+/// What is said of a fit of the base model that ended at these numbers.
+fn said(friction_nm: f64, values: [f64; 3], were_tried: bool) -> Option<FailedFit> {
+    let cases = [machine(friction_nm)];
+    let names = ["mass_kg", "damping_kg_per_s", "stiffness_n_per_m"];
+    let fitted = Fitted::made_up(&[], &[1.0], SAMPLES).unweighted();
+    let fitted = fitted.with_own(&names, vec![values.to_vec()], 0);
+    let tally = Tally::default();
+    shortfall(Cases::new(&cases, &tally), &fitted, were_tried)
+}
+
+#[test]
+fn a_good_fit_is_no_failed_one() {
+    assert_eq!(said(0.0, TRUTH, true), None);
+    // Nor one that is some per cent off.
+    assert_eq!(said(0.0, [0.42, 2.0, 29.0], true), None);
+}
+
+#[test]
+fn a_lost_fit_is_told_with_both_shares_and_where_to_begin() {
+    let failed = said(0.0, [4.0, 30.0, 900.0], false).unwrap();
+    assert!(failed.promised > 0.999 && failed.kept < 0.5, "{failed:?}");
+    for ((_, found), truth) in failed.sizes.iter().zip(TRUTH) {
+        assert!((found - truth).abs() < 0.02 * truth, "{failed:?}");
+    }
+    let words = failed.to_string();
+    assert!(
+        words.contains("explains more than 99.99\u{a0}%") && words.contains("the fit failed"),
+        "{words}"
+    );
+}
+
+/// Without friction the regression does no better than a fit of the base model; with it both lack something, and only a search that
+/// did not find it has failed.
+#[test]
+fn what_an_effect_lacks_is_held_against_a_search_only() {
+    let plain = machine(15.0);
+    let cases = [plain];
+    let equation = PlainEquation::of(&cases).unwrap();
+    let best = equation.as_fitted(&[], &[TRUTH.to_vec()]).unwrap().base;
+    assert_eq!(said(15.0, best, false), None);
+    let failed = said(15.0, best, true).unwrap();
+    assert!(failed.is_plain && failed.promised > 0.98, "{failed:?}");
+}
+
+/// Dry friction, found, is what was promised.
+#[test]
+fn a_fit_with_the_effect_keeps_the_promise() {
+    let cases = [machine(15.0)];
+    let plain = PlainEquation::of(&cases).unwrap();
+    let friction = plain
+        .plain
+        .iter()
+        .find(|one| one.name() == Effect::CoulombFriction.name());
+    let effects = [*friction.unwrap()];
+    let at = [[TRUTH.as_slice(), &[15.0]].concat()];
+    let kept = plain.equation.explained_by(&effects, &at).unwrap();
+    assert!(!falls_short(kept, &plain.plainly(&effects, &at).unwrap()));
+}
