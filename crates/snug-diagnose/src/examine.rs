@@ -86,7 +86,7 @@ fn selected(
 
 /// Recordings of one machine share mass, damping and stiffness, unless each with its own leaves far less: then something differs
 /// between them, as how warm a bearing is or which way it turns. Dry friction and an offset make such differences, too; where they
-/// explain as much, the machine is one.
+/// explain far more, the machine is one.
 fn one_machine_or_several<'a>(
     cases: Cases<'a>,
     effects: &[Effect],

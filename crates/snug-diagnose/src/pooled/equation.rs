@@ -6,7 +6,7 @@ use crate::data::machine::is_machine;
 use crate::pooled::fitted::Fitted;
 use crate::pooled::model::{PooledModel, Start};
 use crate::pooled::parameter_place::first_parameter;
-use crate::pooled::thresholds::{AS_WELL, FALLS_SHORT, PROMISES};
+use crate::pooled::thresholds::{FALLS_SHORT, ONE_WITH_FRICTION, PROMISES};
 use snug_identify::{EquationFit, FitTask, MotionEquation};
 use snug_model::{BASE_PARAMETERS, Effect, Law, Model};
 
@@ -48,8 +48,9 @@ impl<'a> PlainEquation<'a> {
     }
 }
 
-/// Whether one mass, damping and stiffness, with dry friction and an offset beside them, explain the measured acceleration as well as
-/// those of each recording by itself do without: what a rub or an offset asks of each is then no difference between machines.
+/// Whether one mass, damping and stiffness, with dry friction and an offset beside them, leave far less of the measured acceleration
+/// than those of each recording by itself do without: what a rub or an offset asks of each is then no difference between machines.
+/// Where both leave nothing but noise, that says nothing.
 pub(crate) fn is_one_with_friction(cases: &[FitTask<'_>]) -> bool {
     let all = || {
         let PlainEquation { equation, plain } = PlainEquation::of(cases)?;
@@ -60,7 +61,12 @@ pub(crate) fn is_one_with_friction(cases: &[FitTask<'_>]) -> bool {
             left * alone.power()
         };
         let apart: f64 = equation.apart().iter().map(left).sum();
-        Some((1.0 - together.explained) * equation.power() <= AS_WELL * apart)
+        let left = (1.0 - together.explained) * equation.power() / apart;
+        tracing::debug!(
+            left,
+            "one machine with friction and offset, over several without"
+        );
+        Some(left < ONE_WITH_FRICTION)
     };
     all().unwrap_or(false)
 }

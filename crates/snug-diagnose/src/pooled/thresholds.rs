@@ -57,6 +57,6 @@ pub(crate) const PROMISES: f64 = 0.8;
 /// Times as much of that power as the regression leaves, taken as no less than a hundredth, from which a simulated fit falls short of
 /// it \[–\].
 pub(crate) const FALLS_SHORT: f64 = 4.0;
-/// Equation error of one machine with dry friction and an offset, over that of several without, up to which they are one \[–\]. Chosen;
-/// a motor of four tests has 0.3.
-pub(crate) const AS_WELL: f64 = 1.0;
+/// Equation error of one machine with dry friction and an offset, over that of several without, below which they are one \[–\]: as
+/// far below as several must leave of the simulated error to be several.
+pub(crate) const ONE_WITH_FRICTION: f64 = ONE_MACHINE;

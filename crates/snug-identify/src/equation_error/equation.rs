@@ -208,9 +208,8 @@ impl<'a> MotionEquation<'a> {
             .collect()
         };
         let driven: Vec<Vec<f64>> = self.records.iter().map(driven).collect();
-        let known_inertia = mass
-            .is_fixed
-            .then(|| rig.known_inertia_kg_m2 + mass.value * square);
+        let known_inertia =
+            (mass.is_fixed).then_some(rig.known_inertia_kg_m2 + mass.value * square);
         let left = self.left(&driven, known_inertia)?;
         let columns = self.columns(driven, known_inertia.is_none(), [damping, stiffness], terms);
         let power = self.power();

@@ -182,7 +182,7 @@ fn refitted(effect: Effect, size: f64, columns: &[Column]) -> Fitted {
     let counted = Cases::new(&cases, &tally);
     let current = fit_effects(counted, &[], None, WHOLE).expect("the base model can be fitted");
     let settings = DiagnoseSettings::default();
-    refit(counted, &current, effect, columns, WHOLE, &settings).expect("it can be fitted")
+    refit(counted, &current, effect, columns, None, WHOLE, &settings).expect("it can be fitted")
 }
 
 #[test]
@@ -242,7 +242,7 @@ fn a_term_in_no_catalogue_is_followed_from_its_best_start_only() {
     let before = tally.done().pooled_fits;
     let columns = [at(0.009, 9.0), at(0.04, 4.0)];
     let settings = DiagnoseSettings::default();
-    let fitted = refit(counted, &current, stop, &columns, WHOLE, &settings).expect("fitted");
+    let fitted = refit(counted, &current, stop, &columns, None, WHOLE, &settings).expect("fitted");
     assert_eq!(tally.done().pooled_fits, before + 1);
     close(fitted.shared[0], 3000.0, 0.01);
 }
