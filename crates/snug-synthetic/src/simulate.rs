@@ -138,7 +138,7 @@ impl Bench<'_> {
         index: usize,
     ) -> (Vec<Law>, BTreeMap<String, Vec<f64>>) {
         let mut rng = Stream::Effect.rng(self.seed, number, index);
-        let factor = self.plan.whose.factor(file, self.seed);
+        let factor = self.plan.whose.factor(file, number, index, self.seed);
         let mut laws = Vec::new();
         let mut used = BTreeMap::new();
         for &effect in &self.plan.effects {
