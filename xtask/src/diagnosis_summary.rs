@@ -244,7 +244,10 @@ fn next(page: &mut Page, diagnosis: &Diagnosis, following: &Following<'_>) {
     let climbed = is_fitted && matches!(diagnosis.verb.as_str(), "add" | "improve");
     match diagnosis.verdict {
         Verdict::MissingEffect => {
-            if let Some(best) = diagnosis.ranking.first() {
+            let is_added = |name: &str| diagnosis.added.iter().any(|one| one.effect == name);
+            let best = diagnosis.ranking.first();
+            // What the model has already gets a size for each group by `improve` alone.
+            if let Some(best) = best.filter(|best| !is_added(&best.effect)) {
                 page.paragraph("  ", "Add it and see the error before and after:");
                 command(page, &format!("add {}", best.effect));
             }

@@ -74,6 +74,18 @@ pub struct GroupSizes {
     pub factor: Factor,
     /// In the order of the groups.
     pub groups: Vec<GroupSize>,
+    /// Where it changes at a number or place: between which the later size begins, at 95 %.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub change: Option<ChangePoint>,
+}
+
+/// Where a size changes: the 95 % interval of the first tightening that has the later one.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ChangePoint {
+    /// It may be this one: a number within the file, or file and number.
+    pub first: String,
+    /// Or one of those up to this one.
+    pub last: String,
 }
 
 /// The size of one group; numbers in the parameter's unit.
@@ -97,11 +109,12 @@ pub struct GroupSize {
     pub present: bool,
 }
 
-/// How tightenings share the sizes of an effect: `shared`, `per tightening`, or `per participant` and so on.
+/// How tightenings share the sizes of an effect: `shared`, `per tightening`, `per participant` and so on, or `before and from
+/// number 13 on`.
 pub fn sharing(parameters: &[EffectParameter]) -> String {
     let factor = parameters.iter().find_map(|one| one.by_group.as_ref());
     match factor {
-        Some(sizes) => format!("per {}", sizes.factor),
+        Some(sizes) => sizes.factor.sharing(),
         None if parameters.iter().any(|one| one.per_tightening) => "per tightening".to_owned(),
         None => "shared".to_owned(),
     }
@@ -197,6 +210,28 @@ pub struct AddedEffect {
     pub needed: Option<f64>,
     /// Sentences for a tool engineer.
     pub explanation: Vec<String>,
+    /// Whether its size differs between conditions and people.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub comparisons: Vec<SizeComparison>,
+}
+
+/// Whether the size of an effect differs between the groups of a factor, by the sizes that single tightenings ask for.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct SizeComparison {
+    /// What groups them.
+    pub factor: Factor,
+    /// `mixed_model` or `welch_anova`, as in statistics.json.
+    pub method: String,
+    /// Name of the statistic.
+    pub statistic_name: String,
+    /// The statistic; no unit.
+    pub statistic: f64,
+    /// Its degrees of freedom.
+    pub degrees_of_freedom: Vec<f64>,
+    /// Chance of as much where all groups are alike.
+    pub p: f64,
+    /// The same, adjusted over all comparisons of the model's effects (Benjamini and Hochberg).
+    pub p_adjusted: f64,
 }
 
 /// An effect that preparation measured in the quiet part and took out before the fit.
@@ -260,8 +295,24 @@ pub struct Detectability {
     pub smallest_detectable: Option<f64>,
     /// The largest plausible size, to compare with.
     pub largest_plausible: f64,
+    /// The same where only some people or tools have it; `None` where tightenings form no groups.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub in_some_groups: Option<InSomeGroups>,
     /// In words.
     pub statement: String,
+}
+
+/// How large an effect that only some groups have would have to be to be seen, and how few may have it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct InSomeGroups {
+    /// What groups the tightenings.
+    pub factor: Factor,
+    /// How many groups there are.
+    pub groups: usize,
+    /// Size from which it is found in a single group, in the parameter's unit; `None` where that is not plausible.
+    pub in_one: Option<f64>,
+    /// Fewest groups in which it is found at its largest plausible size; `None` where even all are too few.
+    pub fewest: Option<usize>,
 }
 
 /// The ranking on data that hide nothing: simulated from the accepted model with noise like the measured.

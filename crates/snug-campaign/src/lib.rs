@@ -28,9 +28,9 @@ pub use campaign::{
 pub use comparison::{Comparison, Misfit, TighteningMisfit};
 pub use conditions::Conditions;
 pub use diagnosis::{
-    AddedEffect, CorrectedEffect, Detectability, Diagnosis, Doubt, EffectParameter, Experiment,
-    GroupSize, GroupSizes, NegativeControl, NoiseStatement, RankedEffect, Removal, Rung, Showcase,
-    UnlistedTerm, Verdict, WorkDone, sharing,
+    AddedEffect, ChangePoint, CorrectedEffect, Detectability, Diagnosis, Doubt, EffectParameter,
+    Experiment, GroupSize, GroupSizes, InSomeGroups, NegativeControl, NoiseStatement, RankedEffect,
+    Removal, Rung, Showcase, SizeComparison, UnlistedTerm, Verdict, WorkDone, sharing,
 };
 pub use diagnosis_summary::DiagnosisSummary;
 pub use estimate::{Estimate, FitStatus, Identifiability, Interval, NORMAL_95, ParameterEstimate};

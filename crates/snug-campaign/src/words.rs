@@ -1,6 +1,7 @@
 //! How results are said: numbers, sizes, chances, verdicts and their reasons, for someone who knows nutrunners, not
 //! statistics. Terminal, report, recording and verdict.json take their words from here.
 
+mod over_time;
 mod said;
 
 pub mod chance;

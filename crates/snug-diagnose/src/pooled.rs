@@ -1,5 +1,7 @@
 //! One set of effects as a statement about all tightenings, fitted to them together.
 
+pub(crate) mod between;
+pub(crate) mod change_point;
 pub(crate) mod decimated;
 pub(crate) mod equation;
 pub(crate) mod fit;
@@ -9,6 +11,7 @@ pub(crate) mod hold_out;
 pub(crate) mod long_record;
 pub(crate) mod model;
 pub(crate) mod parameter_place;
+mod residual;
 pub(crate) mod sharing;
 pub(crate) mod sizes;
 pub(crate) mod thresholds;

@@ -42,9 +42,9 @@ impl<'a> Question<'a> {
         for (name, factor) in &self.by_group {
             let index = model.parameters().iter().position(|p| p.name == *name);
             if let Some((effect, _)) = index.and_then(|index| effect_of(&self.effects, index))
-                && Groups::of(self.cases, *factor).is_some()
+                && Groups::of(self.cases, factor).is_some()
             {
-                sharing = sharing.with(effect, Some(*factor));
+                sharing = sharing.with(effect, Some(factor.clone()));
             }
         }
         Ok(sharing)

@@ -2,6 +2,7 @@
 
 pub(crate) mod applicability;
 pub(crate) mod by_group;
+mod by_time;
 pub(crate) mod first_ranking;
 pub(crate) mod kin;
 pub(crate) mod max_t;
@@ -15,3 +16,4 @@ pub(crate) mod score_test;
 pub(crate) mod sensitivity;
 pub(crate) mod thresholds;
 pub(crate) mod wavelengths;
+mod where_it_shows;

@@ -1,6 +1,7 @@
 //! Which effects to add, one after the other, and which of them are still needed.
 
 pub(crate) mod backward_elimination;
+mod differing;
 pub(crate) mod forward_selection;
 pub(crate) mod full_rate;
 pub(crate) mod model_selection;

@@ -1,10 +1,12 @@
 //! What was found, as the answer to a question.
 
 pub(crate) mod answer;
+mod comparisons;
 pub(crate) mod detectability;
 pub(crate) mod earned;
 pub(crate) mod experiment;
 pub(crate) mod floor;
+mod in_some_groups;
 pub(crate) mod ladder;
 pub(crate) mod preparation;
 pub(crate) mod reasons;

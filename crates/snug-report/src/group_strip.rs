@@ -20,8 +20,12 @@ pub fn group_strips(parameters: &[EffectParameter]) -> Markup {
 
 fn strip(parameter: &EffectParameter, sizes: &GroupSizes) -> Markup {
     let mut drawn: Vec<&GroupSize> = sizes.groups.iter().collect();
-    if drawn.len() > DRAWN {
-        drawn.sort_by(|a, b| b.value.abs().total_cmp(&a.value.abs()));
+    // Who has it stands on top, most of it first; paces, targets and times keep their order.
+    if drawn.len() > DRAWN || sizes.factor.is_sample() {
+        drawn.sort_by(|a, b| {
+            let by_size = b.value.abs().total_cmp(&a.value.abs());
+            b.present.cmp(&a.present).then(by_size)
+        });
         drawn.truncate(DRAWN);
     }
     let unit = unit_text(&parameter.unit);
@@ -59,9 +63,10 @@ fn strip(parameter: &EffectParameter, sizes: &GroupSizes) -> Markup {
     });
     captioned(
         &format!(
-            "{} by {}",
+            "{} by {}: {}",
             crate::quantity::capitalised(&name),
-            sizes.factor
+            sizes.factor,
+            who(sizes)
         ),
         html! {
             (figure.svg())
@@ -69,6 +74,16 @@ fn strip(parameter: &EffectParameter, sizes: &GroupSizes) -> Markup {
         },
         note.as_deref(),
     )
+}
+
+/// How many have it.
+fn who(sizes: &GroupSizes) -> String {
+    let all = sizes.groups.len();
+    match sizes.groups.iter().filter(|one| one.present).count() {
+        0 => format!("none of {all} plainly has it"),
+        with if with == all => format!("all {all} have it"),
+        with => format!("{with} of {all} have it"),
+    }
 }
 
 /// Whiskers and dots of the groups that have it, or of those that have not.

@@ -331,7 +331,7 @@ fn values_by_group(sizes: &GroupSizes) -> ValuesByGroup {
         .iter()
         .map(|one| (one.group.clone(), value(one)));
     ValuesByGroup {
-        factor: sizes.factor,
+        factor: sizes.factor.clone(),
         values: values.collect(),
     }
 }

@@ -167,14 +167,17 @@ impl Study {
 
     /// The model of one tightening, with what its groups have of the sizes.
     pub(crate) fn model_for(&self, tightening: &Tightening) -> Result<Model, ModelError> {
-        let group = |factor: Factor| factor.level(tightening).map(|level| level.name);
+        let group = |factor: &Factor| {
+            let shares = factor.shares(tightening).unwrap_or_default().into_iter();
+            shares.map(|(level, share)| (level.name, share)).collect()
+        };
         self.model.model_of_group(tightening.rig, &group)
     }
 
     /// The parameters that differ between groups of tightenings, and what groups these.
     pub(crate) fn sizes_by_group(&self) -> Vec<(String, Factor)> {
         let by_group = |(name, told): (&String, &ParameterSettings)| {
-            Some((name.clone(), told.by_group.as_ref()?.factor))
+            Some((name.clone(), told.by_group.as_ref()?.factor.clone()))
         };
         self.model.parameters.iter().filter_map(by_group).collect()
     }

@@ -105,7 +105,7 @@ fn missing() -> Diagnosis {
             tightenings: 24,
             error: 6.4,
             is_at_floor: false,
-            is_adequate: false,
+            hardly_repeats: false,
         }],
         stopped: None,
         level: 0.05,

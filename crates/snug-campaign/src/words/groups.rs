@@ -1,8 +1,8 @@
 //! Whose effect it is, and how large for whom.
 
 use super::effect_name::unit_text;
-use super::joined;
 use super::number::{rounded, significant};
+use super::{joined, over_time};
 use crate::{Factor, GroupSize, GroupSizes, Interval};
 
 /// Groups that are told one by one; of more the first and how many there are. Chosen.
@@ -10,7 +10,7 @@ const TOLD: usize = 8;
 
 impl Factor {
     /// Several of its groups, as people call them.
-    pub fn plural(self) -> &'static str {
+    pub fn plural(&self) -> &'static str {
         match self {
             Self::Participant => "participants",
             Self::Strategy => "strategies",
@@ -18,6 +18,7 @@ impl Factor {
             Self::Pace => "paces",
             Self::TargetTorque => "target torques",
             Self::File => "files",
+            Self::FromNumber(_) | Self::Since(_) | Self::Course { .. } => "tightenings",
         }
     }
 }
@@ -27,6 +28,9 @@ impl GroupSizes {
     /// that all have it their sizes.
     pub fn sentence(&self, unit: &str) -> String {
         let unit = unit_text(unit);
+        if let Some(told) = over_time::sentence(self, &unit) {
+            return told;
+        }
         let mut with: Vec<&GroupSize> = self.groups.iter().filter(|one| one.present).collect();
         let without: Vec<&GroupSize> = self.groups.iter().filter(|one| !one.present).collect();
         let plural = self.factor.plural();
@@ -52,15 +56,18 @@ impl GroupSizes {
 
 impl GroupSize {
     fn said(&self, unit: &str) -> String {
+        format!("{} {}", self.group, self.amount(unit))
+    }
+
+    /// Its value with as many digits as its interval supports.
+    pub(super) fn amount(&self, unit: &str) -> String {
         let interval = (self.low.zip(self.high)).map(|(low, high)| Interval { low, high });
         let value = rounded(self.value, interval).value;
-        format!("{} {value}\u{a0}{unit}", self.group)
-            .trim_end()
-            .to_owned()
+        format!("{value}\u{a0}{unit}").trim_end().to_owned()
     }
 
     /// What its size is below, if it is there at all.
-    fn at_most(&self) -> Option<f64> {
+    pub(super) fn at_most(&self) -> Option<f64> {
         Some(self.low?.abs().max(self.high?.abs()))
     }
 }
@@ -100,6 +107,7 @@ mod tests {
         GroupSizes {
             factor: Factor::Participant,
             groups,
+            change: None,
         }
     }
 

@@ -66,6 +66,22 @@ pub enum Headline {
         /// How the error falls with it.
         fall: Fall,
     },
+    /// An effect that the model has is not the same for all.
+    Differs {
+        /// The effect.
+        effect: Named,
+        /// What groups differ in it, as `participants`.
+        groups: &'static str,
+        /// How the error falls with a size for each.
+        fall: Fall,
+    },
+    /// More than noise is left, and nothing that was tried explains it.
+    MoreThanNoise {
+        /// What was added all the same.
+        added: Vec<Named>,
+        /// How the error fell.
+        fall: Fall,
+    },
     /// Terms that are in no catalogue were added.
     Unlisted {
         /// What was added.
@@ -135,6 +151,16 @@ impl Display for Headline {
                     effect.with_twins()
                 )
             }
+            Self::Differs {
+                effect,
+                groups,
+                fall,
+            } => write!(
+                f,
+                "What the model lacks is that {} is not the same for all {groups}: with a size for each the error falls {fall}.",
+                effect.spoken()
+            ),
+            Self::MoreThanNoise { added, fall } => more_than_noise(f, added, *fall),
             Self::Unlisted {
                 added,
                 further,
@@ -221,6 +247,14 @@ fn too_little(
     }
 }
 
+fn more_than_noise(f: &mut Formatter<'_>, added: &[Named], fall: Fall) -> fmt::Result {
+    match added {
+        [] => write!(f, "The model leaves {}", fall.after),
+        added => write!(f, "With {} the error fell {fall}", named(added)),
+    }?;
+    f.write_str(", which is more than noise, and nothing that was tried explains the rest: the verdict is open.")
+}
+
 /// What is small beside what the verdict is about.
 fn aside(f: &mut Formatter<'_>, further: &[Named]) -> fmt::Result {
     match further {
@@ -271,6 +305,9 @@ impl Diagnosis {
             }
             Verdict::Undecided if is_comparison => {
                 "the model leaves an error, and the noise is not known"
+            }
+            Verdict::Undecided if matches!(self.headline, Headline::MoreThanNoise { .. }) => {
+                "more than noise is left, and nothing tried explains it"
             }
             Verdict::Undecided => "too little data to say",
             Verdict::NotFitted => "no model was found that fits",

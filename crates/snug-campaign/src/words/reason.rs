@@ -57,8 +57,8 @@ pub enum Reason {
         error: f64,
         /// Whether only noise is left.
         is_at_floor: bool,
-        /// Whether the model is called adequate all the same.
-        is_adequate: bool,
+        /// Whether what is left beyond it hardly repeats from tightening to tightening.
+        hardly_repeats: bool,
     },
     /// What an effect removes where its size was not fitted.
     Removes {
@@ -165,8 +165,8 @@ impl Display for Reason {
                 tightenings,
                 error,
                 is_at_floor,
-                is_adequate,
-            } => error_over_noise(f, *tightenings, *error, *is_at_floor, *is_adequate),
+                hardly_repeats,
+            } => error_over_noise(f, *tightenings, *error, *is_at_floor, *hardly_repeats),
             Self::Check(suspicion) => suspicion.fmt(f),
             Self::Removes {
                 effect,
@@ -234,7 +234,7 @@ fn error_over_noise(
     tightenings: usize,
     error: f64,
     is_at_floor: bool,
-    is_adequate: bool,
+    hardly_repeats: bool,
 ) -> fmt::Result {
     let decimals = if is_at_floor { 3 } else { 2 };
     write!(
@@ -245,7 +245,7 @@ fn error_over_noise(
         true => "1 means that only noise is left.",
         false => "with a complete model it would be 1.",
     })?;
-    match is_adequate && !is_at_floor {
+    match hardly_repeats && !is_at_floor {
         true => f.write_str(
             " What is left beyond the noise hardly repeats from tightening to tightening, as an effect that all share would: look at the tightenings that fit worst.",
         ),

@@ -2,7 +2,7 @@
 
 use super::effect_name::unit_text;
 use super::number::{rounded, short, significant};
-use crate::{EffectParameter, Interval};
+use crate::{EffectParameter, GroupSizes, Interval};
 use std::fmt::{self, Display, Formatter};
 
 /// A parameter's size in pieces, so that a page can set each in its own type.
@@ -48,7 +48,11 @@ impl EffectParameter {
             value: shown.value,
             interval: shown.interval,
             own: match &self.by_group {
-                Some(sizes) => Some(format!("on average; {}", sizes.sentence(&self.unit))),
+                Some(sizes) => Some(format!(
+                    "on average{}; {}",
+                    self.spread_over(sizes),
+                    sizes.sentence(&self.unit)
+                )),
                 None => self.per_tightening.then(|| {
                     "on average".to_owned() + &self.spread.map_or_else(String::new, spread)
                 }),
@@ -61,6 +65,21 @@ impl EffectParameter {
                 )
             }),
             unit,
+        }
+    }
+}
+
+impl EffectParameter {
+    /// How much its groups differ beyond their errors, where all of them have it and are a sample of many more.
+    fn spread_over(&self, sizes: &GroupSizes) -> String {
+        let all_have_it = sizes.groups.iter().all(|group| group.present);
+        match self.spread.filter(|spread| all_have_it && *spread > 0.0) {
+            Some(spread) if sizes.factor.is_sample() => format!(
+                ", standard deviation {} between {}",
+                with_unit(significant(spread, 2), &unit_text(&self.unit)),
+                sizes.factor.plural()
+            ),
+            _ => String::new(),
         }
     }
 }

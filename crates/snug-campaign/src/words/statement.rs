@@ -4,7 +4,7 @@ use super::effect_name::effect_name;
 use super::number::whole_percent;
 use super::reason::Cluster;
 use super::size::{amount, sizes};
-use crate::EffectParameter;
+use crate::{EffectParameter, InSomeGroups};
 
 /// What the sentences of every explanation of a catalogue effect are.
 pub fn described(summary: &str, shows_as: &str, check: &str) -> Vec<String> {
@@ -54,13 +54,37 @@ pub fn removal(name: &str, is_removed: bool, growth: f64) -> String {
 }
 
 /// How large an effect could be without having been seen.
-pub fn detectability(effect: &str, smallest: Option<f64>, unit: &str) -> String {
+pub fn detectability(
+    effect: &str,
+    smallest: Option<f64>,
+    unit: &str,
+    in_some: Option<&InSomeGroups>,
+) -> String {
     let name = effect_name(effect);
-    match smallest {
+    let all = match smallest {
         Some(size) => format!("{name}: absent or smaller than {}.", amount(size, unit)),
         None => {
             format!("{name}: these data could not show it, even at its largest plausible size.")
         }
+    };
+    match in_some.filter(|_| smallest.is_some()) {
+        Some(some) => format!("{all} {}", in_some_groups(some, unit)),
+        None => all,
+    }
+}
+
+/// What would be found where only some groups have it.
+pub fn in_some_groups(some: &InSomeGroups, unit: &str) -> String {
+    let of = format!("{} {}", some.groups, some.factor.plural());
+    match (some.in_one, some.fewest) {
+        (Some(size), _) => format!(
+            "If one of {of} has it, found from {} on.",
+            amount(size, unit)
+        ),
+        (None, Some(fewest)) => {
+            format!("At its largest plausible size found where {fewest} of {of} have it.")
+        }
+        (None, None) => format!("Found only where all {of} have it."),
     }
 }
 

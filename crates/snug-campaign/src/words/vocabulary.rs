@@ -4,7 +4,7 @@
 
 use super::statement;
 use crate::words::reason::Reason;
-use crate::{Diagnosis, EffectParameter, SignalUnits};
+use crate::{Diagnosis, EffectParameter, GroupSize, GroupSizes, SignalUnits};
 use serde::Serialize;
 
 /// In whose words results are told.
@@ -154,6 +154,7 @@ impl Vocabulary {
         for reason in &mut told.reasons {
             match reason {
                 Reason::Size(parameters) | Reason::Drifts { parameters, .. } => all(parameters),
+                Reason::Whose { parameter, .. } => *parameter = axis.size(parameter),
                 Reason::TakenOut { corrected, .. } => {
                     let (factor, unit) = axis.about(&corrected.unit);
                     corrected.size *= factor;
@@ -166,7 +167,15 @@ impl Vocabulary {
             let (factor, unit) = axis.about(&one.unit);
             one.smallest_detectable = one.smallest_detectable.map(|size| size * factor);
             one.largest_plausible *= factor;
-            one.statement = statement::detectability(&one.effect, one.smallest_detectable, &unit);
+            if let Some(some) = &mut one.in_some_groups {
+                some.in_one = some.in_one.map(|size| size * factor);
+            }
+            one.statement = statement::detectability(
+                &one.effect,
+                one.smallest_detectable,
+                &unit,
+                one.in_some_groups.as_ref(),
+            );
             one.unit = unit;
         }
         told
@@ -213,7 +222,27 @@ impl Axis {
             spread: scaled(size.spread),
             minimum: size.minimum * factor,
             maximum: size.maximum * factor,
+            by_group: size.by_group.as_ref().map(|sizes| sizes.times(factor)),
             ..size.clone()
+        }
+    }
+}
+
+impl GroupSizes {
+    /// Every group's size multiplied by `factor`.
+    fn times(&self, factor: f64) -> Self {
+        let scaled = |value: Option<f64>| value.map(|value| value * factor);
+        let group = |one: &GroupSize| GroupSize {
+            value: one.value * factor,
+            shrunk: one.shrunk * factor,
+            standard_error: scaled(one.standard_error),
+            low: scaled(one.low),
+            high: scaled(one.high),
+            ..one.clone()
+        };
+        Self {
+            groups: self.groups.iter().map(group).collect(),
+            ..self.clone()
         }
     }
 }
@@ -250,6 +279,7 @@ fn ends_a_word(after: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Factor;
 
     const CARRIAGE: Vocabulary = Vocabulary::Machine(Some(Axis::Slides(0.5)));
     const MOTOR: Vocabulary = Vocabulary::Machine(Some(Axis::Turns(0.5)));
@@ -278,5 +308,28 @@ mod tests {
         assert_eq!(turns.about("s"), (1.0, "s".into()));
         assert_eq!(Axis::Slides(0.5).about("Nm"), (2.0, "N".into()));
         assert_eq!(Axis::Slides(0.5).about("N"), (1.0, "N".into()));
+    }
+
+    #[test]
+    fn so_are_those_of_single_tools() {
+        let tool = GroupSize {
+            group: "tool 2".into(),
+            tightenings: 4,
+            value: 2.0,
+            standard_error: Some(0.1),
+            shrunk: 1.9,
+            low: Some(1.8),
+            high: Some(2.2),
+            present: true,
+        };
+        let sizes = GroupSizes {
+            factor: Factor::File,
+            groups: vec![tool],
+            change: None,
+        };
+        let told = &sizes.times(0.5).groups[0];
+        assert_eq!((told.value, told.shrunk), (1.0, 0.95));
+        assert_eq!((told.low, told.high), (Some(0.9), Some(1.1)));
+        assert_eq!((told.standard_error, told.tightenings), (Some(0.05), 4));
     }
 }

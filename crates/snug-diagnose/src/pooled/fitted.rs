@@ -38,6 +38,8 @@ pub(crate) struct Fitted {
     pub(super) shared_sizes: Vec<SharedSize>,
     /// Which of the shared sizes are each tightening's.
     pub(super) shared_of: Vec<Vec<usize>>,
+    /// How much of each; `None` where all count whole.
+    pub(super) shares: Option<Vec<Vec<f64>>>,
     pub own: Vec<Vec<f64>>,
     pub shared: Vec<f64>,
     pub converged: bool,
@@ -75,6 +77,7 @@ impl Fitted {
             own_indices: pooled.own.clone(),
             shared_sizes: pooled.shared.clone(),
             shared_of: pooled.shared_of.clone(),
+            shares: pooled.shares.clone(),
             converged: fit.converged,
             blocks: Vec::new(),
             members: Vec::new(),
@@ -254,8 +257,12 @@ impl Fitted {
 
     /// What one tightening has of its own and shares.
     pub fn all_named(&self, member: usize) -> Vec<(String, f64)> {
-        let shared = self.shared_of[member].iter();
-        let shared = shared.map(|&place| (self.shared_names[place].clone(), self.shared[place]));
+        let name = |index: usize| {
+            let place = self.shared_sizes.iter().position(|one| one.index == index);
+            place.map_or_else(String::new, |place| self.shared_names[place].clone())
+        };
+        let shared = self.parts(member, None).into_iter();
+        let shared = shared.map(|part| (name(part.index), part.value));
         self.own_named(member).into_iter().chain(shared).collect()
     }
 
@@ -363,6 +370,24 @@ impl Fitted {
             }
         }
         Some((curvature, gradient))
+    }
+
+    /// Gradient and curvature of one whole tightening over number `at` of its shared sizes, all others where they are.
+    pub fn of_one_size(&self, member: usize, at: usize) -> (f64, f64) {
+        let (curvature, gradient) = &self.profiles[member];
+        (gradient[at], curvature.at(at, at))
+    }
+
+    /// Gradient and curvature of one whole tightening over one of the model's parameters that it shares, all others where they are;
+    /// `None` where it knows nothing of it.
+    pub fn of_parameter(&self, member: usize, index: usize) -> Option<(f64, f64)> {
+        let share = |at: usize| self.shares.as_ref().map_or(1.0, |all| all[member][at]);
+        let own = self.shared_of(member).iter().enumerate();
+        let of_it = own.filter(|(_, place)| self.shared_sizes()[**place].index == index);
+        let (at, share) =
+            (of_it.map(|(at, _)| (at, share(at)))).max_by(|a, b| a.1.total_cmp(&b.1))?;
+        let (gradient, curvature) = self.of_one_size(member, at);
+        (curvature > 0.0).then(|| (gradient / share, curvature / (share * share)))
     }
 
     /// What is shared, and by which tightenings.

@@ -2,10 +2,11 @@
 //! have in common.
 
 use crate::data::clusters::student;
+use crate::pooled::change_point::change_point;
 use crate::pooled::fitted::Fitted;
 use crate::pooled::sharing::Groups;
 use crate::pooled::thresholds::FALSE_DISCOVERIES;
-use snug_campaign::{EffectParameter, GroupSize, GroupSizes};
+use snug_campaign::{ChangePoint, EffectParameter, GroupSize, GroupSizes};
 use snug_identify::FitTask;
 use snug_model::{Effect, Law};
 use snug_statistics::multiplicity::benjamini_hochberg;
@@ -21,6 +22,7 @@ pub(crate) struct OfGroups {
     nothing: Option<f64>,
     limits: (f64, f64),
     quantile: f64,
+    change: Option<ChangePoint>,
 }
 
 /// The parameter number `index` of the model, which is number `offset` of `effect`; `None` where all share it.
@@ -43,6 +45,7 @@ pub(crate) fn of(
     }
     let model = cases[0].model_with(&fitted.effects).ok()?;
     let parameter = &model.parameters()[index];
+    let change = change_point(cases, fitted, &groups.factor, &places);
     Some(OfGroups {
         groups,
         values: places.iter().map(|&place| fitted.shared[place]).collect(),
@@ -50,6 +53,7 @@ pub(crate) fn of(
         nothing: effect.description().parameters[offset].vanishes_at,
         limits: (parameter.minimum, parameter.maximum),
         quantile: student(fitted.blocks.len()),
+        change,
     })
 }
 
@@ -61,7 +65,16 @@ impl OfGroups {
         let variances: Option<Vec<f64>> =
             (self.errors.as_ref()).map(|errors| errors.iter().map(|error| error * error).collect());
         let mut shrunk = self.values.clone();
-        if let Some(all) = variances.and_then(|known| random_effects(&self.values, &known).ok()) {
+        if !self.groups.factor.is_sample() {
+            // Conditions are all there are: their mean is as well known as they are.
+            let error = variances.map(|known| known.iter().sum::<f64>().sqrt() / count);
+            let reach = error.map(|error| self.quantile * error);
+            size.standard_error = error;
+            size.low = reach.map(|reach| (size.value - reach).max(self.limits.0));
+            size.high = reach.map(|reach| (size.value + reach).min(self.limits.1));
+        } else if let Some(all) =
+            variances.and_then(|known| random_effects(&self.values, &known).ok())
+        {
             size.value = all.mean;
             size.standard_error = Some(all.standard_error);
             size.low = Some(all.interval.low.max(self.limits.0));
@@ -89,8 +102,9 @@ impl OfGroups {
             }
         };
         size.by_group = Some(GroupSizes {
-            factor: self.groups.factor,
+            factor: self.groups.factor.clone(),
             groups: (0..self.values.len()).map(group).collect(),
+            change: self.change.clone(),
         });
     }
 

@@ -4,12 +4,11 @@
 use crate::data::cases::Cases;
 use crate::data::simulation::{Asked, Simulated, simulate};
 use crate::error::DiagnoseError;
+use crate::pooled::between::{mix, once, places_in};
 use crate::pooled::parameter_place::first_parameter;
-use crate::pooled::sharing::{SharedSize, Sharing, shared_sizes};
-use snug_identify::{FitTask, Whitening, convex_set, identify_all, smooth};
-use snug_least_squares::{
-    Constraints, EvaluationError, PooledFit, PooledResidual, PooledSettings, Trial, solve_pooled,
-};
+use crate::pooled::sharing::{SharedSize, SharedSizes, Sharing, shared_sizes};
+use snug_identify::{FitTask, Whitening, convex_set, identify_all};
+use snug_least_squares::{Constraints, PooledFit, PooledSettings, solve_pooled};
 use snug_model::{BASE_PARAMETERS, Effect, Law, Model, Scope};
 
 /// A set of effects, ready to be fitted to all tightenings together.
@@ -21,23 +20,25 @@ pub(crate) struct PooledModel<'a> {
     whitenings: Vec<Option<Whitening>>,
     /// Indices (into the model's parameters) of what every tightening has of its own.
     pub own: Vec<usize>,
-    /// Indices of what is shared, whether by all or by the tightenings of a group.
+    /// Indices of what is shared, whether by all or by the tightenings of a group; of a size between two groups' it stands twice.
     pub common: Vec<usize>,
     /// What is shared: each of the common parameters, where a group has its own once for every group.
     pub shared: Vec<SharedSize>,
     /// Which of these are each member's, one for each of the common parameters in their order.
     pub shared_of: Vec<Vec<usize>>,
+    /// How much of each; `None` where all count whole.
+    pub shares: Option<Vec<Vec<f64>>>,
     own_sets: Vec<Constraints>,
     shared_set: Constraints,
-    room: Room,
+    pub(super) room: Room,
     /// Samples to either side over which residuals are averaged, see [`PooledModel::fit_averaged`].
-    reach: usize,
+    pub(super) reach: usize,
 }
 
 /// Buffers of one evaluation.
 #[derive(Default)]
 pub(crate) struct Room {
-    simulated: Vec<Simulated>,
+    pub(super) simulated: Vec<Simulated>,
     residual: Vec<f64>,
     jacobian: Vec<f64>,
 }
@@ -101,9 +102,15 @@ impl<'a> PooledModel<'a> {
             true => cases[0].settings.constraints.as_slice(),
             false => &[],
         };
-        let (shared, shared_of) = shared_sizes(&cases, effects, sharing, &common);
+        let of_first = held_but(first, &common);
+        let SharedSizes {
+            sizes: shared,
+            of: shared_of,
+            shares,
+            common,
+        } = shared_sizes(&cases, effects, sharing, &common);
         let shared_set = match sharing.is_by_group() {
-            false => convex_set(&held_but(first, &common), of_all),
+            false => convex_set(&of_first, of_all),
             true => bounds(first, &shared),
         };
         let own_sets = (models.iter().zip(cases.iter()))
@@ -125,6 +132,7 @@ impl<'a> PooledModel<'a> {
             common,
             shared,
             shared_of,
+            shares,
             own_sets,
             shared_set,
             room: Room::default(),
@@ -232,17 +240,20 @@ impl<'a> PooledModel<'a> {
     }
 
     /// All parameters of one member's model, given its own and its [part](Self::part) of the shared ones.
-    fn values_of(&self, member: usize, own: &[f64], part: &[f64]) -> Vec<f64> {
+    pub(super) fn values_of(&self, member: usize, own: &[f64], part: &[f64]) -> Vec<f64> {
         let parameters = self.models[member].parameters().iter();
         let mut values: Vec<f64> = parameters.map(|parameter| parameter.value).collect();
         let free = self.own.iter().zip(own).chain(self.common.iter().zip(part));
         for (&index, &value) in free {
             values[index] = value;
         }
+        if let Some(shares) = &self.shares {
+            mix(&mut values, &self.common, part, &shares[member]);
+        }
         values
     }
 
-    /// Indices of every member's free parameters: its own, then its part of the shared ones.
+    /// Indices of every member's free parameters: its own, then its part of the shared ones; what stands between two sizes twice.
     pub fn order(&self) -> Vec<usize> {
         [self.own.as_slice(), &self.common].concat()
     }
@@ -352,15 +363,16 @@ impl<'a> PooledModel<'a> {
             values,
         }];
         let simulated = &mut room.simulated;
-        simulate(&self.cases, &self.models, &asked, order, simulated);
-        self.weigh_simulated(member, order.len(), 0, room)
+        simulate(&self.cases, &self.models, &asked, &once(order), simulated);
+        self.weigh_simulated(member, order, 0, room)
     }
 
-    /// Weighted residual and Jacobian of `member`, whose simulation is number `index` of those in `room`.
-    fn weigh_simulated<'r>(
+    /// Weighted residual and, for the parameters in `order`, Jacobian of `member`, whose simulation is number `index` of those in
+    /// `room`.
+    pub(super) fn weigh_simulated<'r>(
         &self,
         member: usize,
-        columns: usize,
+        order: &[usize],
         index: usize,
         room: &'r mut Room,
     ) -> (&'r mut [f64], &'r mut [f64]) {
@@ -377,16 +389,23 @@ impl<'a> PooledModel<'a> {
             *simulated = measured - *simulated;
         }
         residual.resize(scored, 0.0);
-        jacobian.resize(scored * columns, 0.0);
+        jacobian.resize(scored * order.len(), 0.0);
         weigh(whitening, &simulated.output[case.unscored()..], residual);
         let samples = simulated.output.len();
-        for (column, weighted) in (simulated.sensitivity)
-            .chunks_exact(samples)
-            .zip(jacobian.chunks_exact_mut(scored))
-        {
+        let places = places_in(order);
+        for (place, weighted) in places.zip(jacobian.chunks_exact_mut(scored)) {
+            let column = &simulated.sensitivity[place * samples..][..samples];
             weigh(whitening, &column[case.unscored()..], weighted);
             for value in weighted {
                 *value = -*value;
+            }
+        }
+        if let Some(shares) = &self.shares
+            && order.len() == self.own.len() + self.common.len()
+        {
+            let columns = jacobian.chunks_exact_mut(scored).skip(self.own.len());
+            for (column, share) in columns.zip(&shares[member]) {
+                column.iter_mut().for_each(|value| *value *= share);
             }
         }
         (residual, jacobian)
@@ -441,57 +460,5 @@ fn weigh(whitening: Option<&Whitening>, signal: &[f64], weighted: &mut [f64]) {
     match whitening {
         Some(whitening) => whitening.apply(signal, weighted),
         None => weighted.copy_from_slice(signal),
-    }
-}
-
-impl PooledResidual for PooledModel<'_> {
-    fn member_count(&self) -> usize {
-        self.cases.len()
-    }
-
-    fn own_count(&self) -> usize {
-        self.own.len()
-    }
-
-    fn shared_count(&self) -> usize {
-        self.shared.len()
-    }
-
-    fn shared_of(&self, member: usize) -> Vec<usize> {
-        self.shared_of[member].clone()
-    }
-
-    fn linearize(&mut self, trials: &mut [Trial<'_>]) -> Result<(), EvaluationError> {
-        let order = self.order();
-        let mut room = std::mem::take(&mut self.room);
-        let values: Vec<Vec<f64>> = (trials.iter())
-            .map(|trial| {
-                let (own, part) = trial.parameters.split_at(self.own.len());
-                self.values_of(trial.member, own, part)
-            })
-            .collect();
-        let asked: Vec<Asked<'_>> = (trials.iter().zip(&values))
-            .map(|(trial, values)| Asked {
-                member: trial.member,
-                input: &self.cases[trial.member].input,
-                values,
-            })
-            .collect();
-        let simulated = &mut room.simulated;
-        simulate(&self.cases, &self.models, &asked, &order, simulated);
-        let mut outcome = Ok(());
-        for (index, trial) in trials.iter_mut().enumerate() {
-            let (residual, jacobian) =
-                self.weigh_simulated(trial.member, order.len(), index, &mut room);
-            if self.reach > 0 {
-                smooth(residual, self.reach);
-                for column in jacobian.chunks_exact_mut(residual.len()) {
-                    smooth(column, self.reach);
-                }
-            }
-            outcome = outcome.and(trial.linearization.set_jacobian(residual, jacobian));
-        }
-        self.room = room;
-        outcome
     }
 }

@@ -11,22 +11,22 @@ pub(crate) struct Sharing(Vec<(Effect, Factor)>);
 
 impl Sharing {
     /// By which factor the sizes of `effect` differ.
-    pub fn factor(&self, effect: Effect) -> Option<Factor> {
+    pub fn factor(&self, effect: Effect) -> Option<&Factor> {
         let known = self.0.iter().find(|(known, _)| *known == effect);
-        known.map(|&(_, factor)| factor)
+        known.map(|(_, factor)| factor)
     }
 
     /// The same with the sizes of `effect` the same for all, or another for each group.
     pub fn with(&self, effect: Effect, factor: Option<Factor>) -> Self {
         let others = self.0.iter().filter(|(known, _)| *known != effect);
         let this = factor.map(|factor| (effect, factor));
-        Self(others.copied().chain(this).collect())
+        Self(others.cloned().chain(this).collect())
     }
 
     /// What it says of these effects.
     pub fn among(&self, effects: &[Effect]) -> Self {
         let known = self.0.iter().filter(|(effect, _)| effects.contains(effect));
-        Self(known.copied().collect())
+        Self(known.cloned().collect())
     }
 
     pub fn is_by_group(&self) -> bool {
@@ -43,36 +43,59 @@ pub(crate) struct SharedSize {
     pub level: Option<Level>,
 }
 
+/// How cases share the parameters that are not each one's own.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct SharedSizes {
+    /// What is shared, in all.
+    pub sizes: Vec<SharedSize>,
+    /// Which of it each case has.
+    pub of: Vec<Vec<usize>>,
+    /// How much of each; `None` where all count whole.
+    pub shares: Option<Vec<Vec<f64>>>,
+    /// Which of the model's parameters these are, in every case; of one between two sizes it stands twice.
+    pub common: Vec<usize>,
+}
+
 /// What is shared of the parameters `common`, and which of it each case has.
 pub(crate) fn shared_sizes(
     cases: &[FitTask<'_>],
     effects: &[Effect],
     sharing: &Sharing,
     common: &[usize],
-) -> (Vec<SharedSize>, Vec<Vec<usize>>) {
-    let mut shared = Vec::new();
-    let mut shared_of = vec![Vec::new(); cases.len()];
+) -> SharedSizes {
+    let mut shared = SharedSizes {
+        of: vec![Vec::new(); cases.len()],
+        ..SharedSizes::default()
+    };
+    let mut shares: Vec<Vec<f64>> = vec![Vec::new(); cases.len()];
     for &index in common {
         let groups = effect_of(effects, index)
             .filter(|&(effect, offset)| differs_by_group(effect, offset))
             .and_then(|(effect, _)| sharing.factor(effect))
             .and_then(|factor| Groups::of(cases, factor));
-        let first = shared.len();
-        match groups {
-            Some(groups) => {
-                for (own, group) in shared_of.iter_mut().zip(groups.of) {
-                    own.push(first + group);
-                }
-                let levels = groups.levels.into_iter().map(Some);
-                shared.extend(levels.map(|level| SharedSize { index, level }));
-            }
-            None => {
-                shared_of.iter_mut().for_each(|own| own.push(first));
-                shared.push(SharedSize { index, level: None });
+        let first = shared.sizes.len();
+        shared.common.push(index);
+        let Some(groups) = groups else {
+            shared.of.iter_mut().for_each(|own| own.push(first));
+            shares.iter_mut().for_each(|own| own.push(1.0));
+            shared.sizes.push(SharedSize { index, level: None });
+            continue;
+        };
+        if groups.way.is_some() {
+            shared.common.push(index);
+        }
+        for (member, own) in shared.of.iter_mut().enumerate() {
+            for (group, share) in groups.shares(member) {
+                own.push(first + group);
+                shares[member].push(share);
             }
         }
+        let levels = groups.levels.into_iter().map(Some);
+        (shared.sizes).extend(levels.map(|level| SharedSize { index, level }));
     }
-    (shared, shared_of)
+    let is_whole = |own: &Vec<f64>| own.iter().all(|share| *share == 1.0);
+    shared.shares = (!shares.iter().all(is_whole)).then_some(shares);
+    shared
 }
 
 /// The groups of tightenings by one factor.
@@ -81,27 +104,49 @@ pub(crate) struct Groups {
     pub factor: Factor,
     /// In their order.
     pub levels: Vec<Level>,
-    /// The group of each tightening.
+    /// The group of each tightening, the nearer where it stands between two.
     pub of: Vec<usize>,
+    /// How far each tightening has come from the first of two groups to the second; `None` where each belongs to one.
+    pub way: Option<Vec<f64>>,
 }
 
 impl Groups {
     /// The groups of `factor`; `None` where it is not known of every tightening.
-    pub fn of(cases: &[FitTask<'_>], factor: Factor) -> Option<Self> {
-        let own: Option<Vec<Level>> = (cases.iter())
-            .map(|case| factor.level(&case.tightening))
+    pub fn of(cases: &[FitTask<'_>], factor: &Factor) -> Option<Self> {
+        let shares: Option<Vec<Vec<(Level, f64)>>> = (cases.iter())
+            .map(|case| factor.shares(&case.tightening))
             .collect();
-        let own = own?;
-        let mut levels = own.clone();
+        let shares = shares?;
+        let known = shares.iter().flatten();
+        let mut levels: Vec<Level> = known.map(|(level, _)| level.clone()).collect();
         levels.sort_by(|a, b| a.partial_cmp(b).unwrap_or(std::cmp::Ordering::Equal));
         levels.dedup();
-        let place = |level: &Level| levels.iter().position(|known| known == level);
-        let of: Option<Vec<usize>> = own.iter().map(place).collect();
+        let way = match factor {
+            Factor::Course { .. } => {
+                let ways = shares.iter().map(|own| own.get(1).map(|(_, way)| *way));
+                Some(ways.collect::<Option<Vec<f64>>>()?)
+            }
+            _ => None,
+        };
+        let nearer = |own: &Vec<(Level, f64)>| {
+            let nearer = own.iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
+            levels.iter().position(|known| *known == nearer.0)
+        };
+        let of: Option<Vec<usize>> = shares.iter().map(nearer).collect();
         Some(Self {
-            factor,
+            factor: factor.clone(),
             of: of?,
             levels,
+            way,
         })
+    }
+
+    /// The groups of one tightening, with the share of each.
+    pub fn shares(&self, member: usize) -> Vec<(usize, f64)> {
+        match &self.way {
+            None => vec![(self.of[member], 1.0)],
+            Some(ways) => vec![(0, 1.0 - ways[member]), (1, ways[member])],
+        }
     }
 
     /// The factors by which sizes could differ: with several groups of at least two tightenings each, and no factor that
@@ -109,7 +154,7 @@ impl Groups {
     pub fn worth_trying(cases: &[FitTask<'_>]) -> Vec<Self> {
         let mut worth: Vec<Self> = Vec::new();
         for factor in Factor::ALL {
-            let Some(groups) = Self::of(cases, factor) else {
+            let Some(groups) = Self::of(cases, &factor) else {
                 continue;
             };
             let mut counts = vec![0_usize; groups.levels.len()];

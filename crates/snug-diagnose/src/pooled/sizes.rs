@@ -247,16 +247,15 @@ pub(crate) fn held(
     errors: Option<&[f64]>,
 ) -> Option<Model> {
     let mut model = case.model_with(&fitted.effects).ok()?;
-    for &column in fitted.shared_of(member) {
-        let index = fitted.shared_sizes()[column].index;
-        let parameter = &mut model.parameters_mut()[index];
-        parameter.value = fitted.shared[column];
+    for part in fitted.parts(member, errors) {
+        let parameter = &mut model.parameters_mut()[part.index];
+        parameter.value = part.value;
         // Of one machine's recordings each has its own mass, damping and stiffness again once it is looked at alone.
-        if index < BASE_PARAMETERS.len() {
+        if part.index < BASE_PARAMETERS.len() {
             continue;
         }
         parameter.fixed = true;
-        parameter.standard_error = errors.map(|errors| errors[column]);
+        parameter.standard_error = part.standard_error;
     }
     Some(model)
 }

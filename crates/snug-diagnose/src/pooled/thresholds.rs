@@ -7,6 +7,9 @@ use snug_least_squares::PooledSettings;
 pub(crate) const HARDLY: f64 = 0.1;
 /// Share of the groups said to have an effect that may be without it \[–\]. As is usual.
 pub(crate) const FALSE_DISCOVERIES: f64 = 0.05;
+/// Growth of the squared residual, over its mean, up to which a change may also lie elsewhere \[–\]: −2 ln(1 − √0.95), the 95 %
+/// interval of a place from which a size is another (Siegmund 1988).
+pub(crate) const CHANGE_POINT: f64 = 7.35;
 /// Error over noise (root mean square) below which nothing but noise is left to look for \[–\]. Chosen.
 pub(crate) const AT_FLOOR: f64 = 1.02;
 /// Share of the squared error with one mass, damping and stiffness for all recordings that is left where each has its own, below

@@ -10,24 +10,31 @@ use crate::error::DiagnoseError;
 use crate::pooled::fitted::Fitted;
 use crate::pooled::model::PooledModel;
 use crate::pooled::sharing::Groups;
+use crate::ranking::by_time;
 use crate::ranking::paired_gain::{clearness, gains};
 use crate::ranking::thresholds::{CANDIDATE, CLEARLY, GROUPINGS_TRIED};
 use crate::settings::DiagnoseSettings;
-use snug_least_squares::matrix::inner_product as dot;
+use snug_campaign::Factor;
+use snug_least_squares::matrix::{SymmetricMatrix, inner_product as dot};
 use snug_model::Effect;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 /// What groups of one factor would make of the size of an effect that all share so far.
-struct Promise<'g> {
-    groups: &'g Groups,
+pub(super) struct Promise {
+    pub groups: Groups,
     /// Q: by how much the squared residual would fall.
-    gain: f64,
+    pub gain: f64,
     /// Chance of as much where all have the same size.
-    p: f64,
+    pub p: f64,
+    /// Q over the noise, less two for each size more and for each factor 2.7 of groupings among which this is the best (Akaike).
+    pub worth: f64,
 }
 
 /// The fit with the sizes of `effect` by group, by the factor that explains most, where that plainly explains more in
 /// tightenings that took no part than one size for all; `family` is how many effects are asked.
+///
+/// Of conditions that explain as much the one with fewest groups is taken; a part of the campaign's time only where it plainly explains
+/// more than any condition, and single files only where they plainly explain more than that.
 pub(crate) fn by_group(
     cases: Cases<'_>,
     fitted: &Fitted,
@@ -40,20 +47,15 @@ pub(crate) fn by_group(
     if !clusters.are_whole() || fitted.sharing.factor(effect).is_some() {
         return Ok(None);
     }
-    let places = fitted.places_that_may_differ(effect);
     let least = fitted.smallest_gain(settings) * fitted.squares();
     let level = settings.level / (family.max(1) * groupings.len().max(1)) as f64;
-    let mut promises: Vec<Promise<'_>> = (groupings.iter())
-        .filter_map(|groups| promise(fitted, &places, groups))
-        .filter(|promise| promise.gain > least && promise.p <= level)
-        .collect();
-    promises.sort_by(|a, b| b.gain.total_cmp(&a.gain));
-    promises.truncate(GROUPINGS_TRIED);
-    // Of those that explain as much the coarsest.
-    promises.sort_by_key(|promise| promise.groups.levels.len());
+    let promises = promises(cases, fitted, effect, groupings)
+        .into_iter()
+        .filter(|promise| promise.gain > least && promise.p <= level);
     let mut best: Option<Fitted> = None;
-    for promise in promises {
-        let sharing = fitted.sharing.with(effect, Some(promise.groups.factor));
+    for promise in worth_fitting(promises.collect()) {
+        let factor = Some(promise.groups.factor.clone());
+        let sharing = fitted.sharing.with(effect, factor);
         let mut pooled = PooledModel::shared_by(cases, &fitted.effects, &sharing)?;
         let start = fitted.start(&pooled);
         let Ok(end) = pooled.fit(&start, &CANDIDATE) else {
@@ -67,13 +69,55 @@ pub(crate) fn by_group(
     Ok(best)
 }
 
-/// By how much the squared residual would fall at most if sizes of `effect` differed between the groups of one factor.
-pub(crate) fn promised(fitted: &Fitted, effect: Effect, groupings: &[Groups]) -> f64 {
-    let places = fitted.places_that_may_differ(effect);
-    let promises = groupings
+/// The most promising groupings by conditions and files, and one by time where that is worth more than any by a condition, in the
+/// order in which they are tried.
+fn worth_fitting(promises: Vec<Promise>) -> Vec<Promise> {
+    let (of_time, mut others): (Vec<Promise>, Vec<Promise>) = promises
+        .into_iter()
+        .partition(|promise| promise.groups.factor.is_of_time());
+    let conditions = others
         .iter()
-        .filter_map(|groups| promise(fitted, &places, groups));
+        .filter(|promise| promise.groups.factor != Factor::File);
+    let of_conditions = conditions.map(|promise| promise.worth).fold(0.0, f64::max);
+    others.sort_by(|a, b| b.gain.total_cmp(&a.gain));
+    others.truncate(GROUPINGS_TRIED);
+    let of_time = of_time
+        .into_iter()
+        .max_by(|a, b| a.worth.total_cmp(&b.worth));
+    others.extend(of_time.filter(|promise| promise.worth > of_conditions));
+    let order = |promise: &Promise| match &promise.groups.factor {
+        Factor::File => (2, promise.groups.levels.len()),
+        factor => (u8::from(factor.is_of_time()), promise.groups.levels.len()),
+    };
+    others.sort_by_key(order);
+    others
+}
+
+/// By how much the squared residual would fall at most if sizes of `effect` differed between the groups of one factor.
+pub(crate) fn promised(
+    cases: Cases<'_>,
+    fitted: &Fitted,
+    effect: Effect,
+    groupings: &[Groups],
+) -> f64 {
+    let promises = promises(cases, fitted, effect, groupings).into_iter();
     promises.map(|promise| promise.gain).fold(0.0, f64::max)
+}
+
+/// What each of the groupings would make of the sizes of `effect`, and the best by time.
+fn promises(
+    cases: Cases<'_>,
+    fitted: &Fitted,
+    effect: Effect,
+    groupings: &[Groups],
+) -> Vec<Promise> {
+    let places = fitted.places_that_may_differ(effect);
+    let by_condition = groupings
+        .iter()
+        .filter_map(|groups| promise(fitted, &places, groups.clone(), 1));
+    by_condition
+        .chain(by_time::promises(&cases, fitted, &places))
+        .collect()
 }
 
 /// Whether `several` explains plainly more than `one` in tightenings that took no part.
@@ -82,39 +126,66 @@ pub(crate) fn explains_more(one: &Fitted, several: &Fitted, least: f64) -> bool 
     gains.iter().sum::<f64>() > least && clearness(&gains, several.scale()) > CLEARLY
 }
 
-/// Q of `groups` over the sizes at `places`.
-fn promise<'g>(fitted: &Fitted, places: &[usize], groups: &'g Groups) -> Option<Promise<'g>> {
-    let (mut gain, mut within) = (0.0, 0.0);
-    let mut counted = 0;
-    for members in groups.members() {
-        let (curvature, gradient) = fitted.of_sizes(&members, places)?;
-        let Some(shift) = curvature.solve_scaled(&gradient) else {
-            continue;
-        };
-        let shift: Vec<f64> = shift.iter().map(|step| -step).collect();
-        gain -= 2.0 * dot(&gradient, &shift) + curvature.quadratic(&shift);
-        for &member in &members {
-            let (own, mut left) = fitted.of_sizes(&[member], places)?;
-            for (row, left) in left.iter_mut().enumerate() {
-                *left += (0..shift.len())
-                    .map(|j| own.at(row, j) * shift[j])
-                    .sum::<f64>();
+/// Q of `groups`, the best of so many, over the sizes at `places`.
+pub(super) fn promise(
+    fitted: &Fitted,
+    places: &[usize],
+    groups: Groups,
+    of: usize,
+) -> Option<Promise> {
+    let (p, count) = (places.len(), groups.levels.len());
+    let shares: Vec<Vec<(usize, f64)>> = (0..groups.of.len())
+        .map(|member| groups.shares(member))
+        .collect();
+    let mut curvature = SymmetricMatrix::zero(p * count);
+    let mut gradient = vec![0.0; p * count];
+    let of_one: Vec<(SymmetricMatrix, Vec<f64>)> = (0..shares.len())
+        .map(|member| fitted.of_sizes(&[member], places))
+        .collect::<Option<_>>()?;
+    for ((own, g), shares) in of_one.iter().zip(&shares) {
+        for &(group, share) in shares {
+            for i in 0..p {
+                gradient[group * p + i] += share * g[i];
             }
-            let step = own.solve_scaled(&left).unwrap_or_default();
-            within += step
-                .iter()
-                .zip(&left)
-                .map(|(step, left)| step * left)
-                .sum::<f64>();
-            counted += 1;
+            for &(other, beside) in shares {
+                for i in 0..p {
+                    for j in 0..p {
+                        let (row, column) = (group * p + i, other * p + j);
+                        let sum = curvature.at(row, column) + share * beside * own.at(i, j);
+                        curvature.set(row, column, sum);
+                    }
+                }
+            }
         }
     }
-    let (sizes, of_groups) = (places.len() as f64, groups.levels.len() as f64);
-    let scatter = within / (sizes * (counted as f64 - of_groups)).max(1.0);
+    let shift: Vec<f64> = (curvature.solve_scaled(&gradient)?.iter())
+        .map(|step| -step)
+        .collect();
+    let gain = -2.0 * dot(&gradient, &shift) - curvature.quadratic(&shift);
+    let mut within = 0.0;
+    for ((own, g), shares) in of_one.iter().zip(&shares) {
+        let mut left = g.clone();
+        for &(group, share) in shares {
+            for (row, left) in left.iter_mut().enumerate() {
+                *left += (0..p)
+                    .map(|j| own.at(row, j) * share * shift[group * p + j])
+                    .sum::<f64>();
+            }
+        }
+        let step = own.solve_scaled(&left).unwrap_or_default();
+        within += dot(&step, &left);
+    }
+    let sizes = p as f64;
+    let scatter = within / (sizes * (shares.len() as f64 - count as f64)).max(1.0);
     let noise = fitted.scale().max(scatter);
-    let freedom = sizes * (of_groups - 1.0);
-    let p = ChiSquared::new(freedom).map_or(1.0, |chi| chi.sf(gain / noise));
-    Some(Promise { groups, gain, p })
+    let freedom = sizes * (count as f64 - 1.0);
+    let chance = ChiSquared::new(freedom).map_or(1.0, |chi| chi.sf(gain / noise));
+    Some(Promise {
+        groups,
+        gain,
+        p: (chance * of as f64).min(1.0),
+        worth: gain / noise - 2.0 * (freedom + (of as f64).ln()),
+    })
 }
 
 #[cfg(test)]
@@ -123,7 +194,6 @@ mod tests {
     use crate::data::cases::Tally;
     use crate::pooled::fit::fit_effects;
     use crate::tests::made_up::{WHOLE, close, noisy, quick};
-    use snug_campaign::Factor;
     use snug_identify::FitTask;
     use snug_model::Effect::CubicStiffness;
 
@@ -165,7 +235,7 @@ mod tests {
         let fitted = asked(&cases).expect("they differ");
         assert_eq!(
             fitted.sharing.factor(CubicStiffness),
-            Some(Factor::Participant)
+            Some(&Factor::Participant)
         );
         for (found, truth) in fitted.shared.iter().zip([2e6, 0.0, 4e6]) {
             close(found + 1e6, truth + 1e6, 0.05);
@@ -189,7 +259,7 @@ mod tests {
         }
         let asked: Vec<Factor> = Groups::worth_trying(&cases)
             .iter()
-            .map(|one| one.factor)
+            .map(|one| one.factor.clone())
             .collect();
         assert!(
             asked.starts_with(&[Factor::Participant, Factor::Joint]),

@@ -10,7 +10,7 @@ use crate::pooled::long_record;
 use crate::pooled::model::PooledModel;
 use crate::pooled::sharing::Groups;
 use crate::pooled::sizes::is_told_from_nothing;
-use crate::ranking::by_group::{by_group, promised};
+use crate::ranking::by_group::{by_group, explains_more, promised};
 use crate::ranking::first_ranking::first_ranking;
 use crate::ranking::max_t::Family;
 use crate::ranking::paired_gain::{chance, clearness, gains, spread_of_sum};
@@ -21,6 +21,7 @@ use crate::ranking::sensitivity::Column;
 use crate::ranking::thresholds::{
     BEST, BEST_BY_GROUP, BEST_OF_LONG, CONTROL_FLIPS, MOST_OF_ALL, SHAPES_TRIED, STRICTER,
 };
+use crate::ranking::where_it_shows::best_where_it_shows;
 use crate::settings::DiagnoseSettings;
 use crate::watch::{Pieces, Watch};
 use rayon::prelude::*;
@@ -63,9 +64,17 @@ impl Candidate {
         Ok(())
     }
 
+    /// Takes sizes by group in the place of one for all; it was chosen among so many.
+    fn becomes(&mut self, fitted: Fitted, cases: &Cases<'_>, heldout: &[f64], forms: usize) {
+        self.gains = gains(heldout, &fitted);
+        self.is_told_from_nothing = is_told_from_nothing(cases, &fitted, self.effect);
+        self.fitted = fitted;
+        self.p_family = self.p_family.min(self.p_of_gain(forms));
+    }
+
     /// What it would explain if groups of tightenings had sizes of their own.
-    fn promise_by_group(&self, groupings: &[Groups]) -> f64 {
-        self.gain() + promised(&self.fitted, self.effect, groupings)
+    fn promise_by_group(&self, cases: Cases<'_>, groupings: &[Groups]) -> f64 {
+        self.gain() + promised(cases, &self.fitted, self.effect, groupings)
     }
 
     /// Standard deviations by which that sum exceeds 0.
@@ -183,6 +192,7 @@ pub(crate) fn rank(
         watch,
     )?;
     try_by_group(cases, &heldout, &mut candidates, clusters, settings, watch)?;
+    look_where_it_shows(cases, current, &mut candidates, clusters, settings, watch)?;
     Ok(Ranking {
         candidates,
         impossible,
@@ -244,7 +254,7 @@ fn try_by_group(
     // Those that promise most, wherever they stand with one size for all: what few have is little of everyone.
     let mut promising: Vec<(f64, &mut Candidate)> = (candidates.iter_mut())
         .filter(|candidate| !is_unlisted(candidate.effect))
-        .map(|candidate| (candidate.promise_by_group(&groupings), candidate))
+        .map(|candidate| (candidate.promise_by_group(cases, &groupings), candidate))
         .collect();
     promising.sort_by(|a, b| b.0.total_cmp(&a.0));
     let best = promising.into_par_iter().take(BEST_BY_GROUP);
@@ -255,14 +265,46 @@ fn try_by_group(
             cases, fitted, effect, &groupings, family, clusters, settings,
         )?;
         if let Some(fitted) = found.filter(Fitted::is_noise) {
-            candidate.gains = gains(heldout, &fitted);
-            candidate.is_told_from_nothing = is_told_from_nothing(&cases, &fitted, effect);
-            candidate.fitted = fitted;
-            let forms = family * (1 + groupings.len());
-            candidate.p_family = candidate.p_family.min(candidate.p_of_gain(forms));
+            candidate.becomes(fitted, &cases, heldout, family * (1 + groupings.len()));
         }
         Ok::<(), DiagnoseError>(())
     })?;
+    sort(candidates);
+    Ok(())
+}
+
+/// Where nothing leaves as little as noise, and the misfit sits in some groups only: candidates are looked for there.
+fn look_where_it_shows(
+    cases: Cases<'_>,
+    current: &Fitted,
+    candidates: &mut [Candidate],
+    clusters: Clusters,
+    settings: &DiagnoseSettings,
+    watch: &Watch<'_>,
+) -> Result<(), DiagnoseError> {
+    if !clusters.are_whole() || candidates.iter().any(|one| one.fitted.is_noise()) {
+        return Ok(());
+    }
+    let groupings = Groups::worth_trying(&cases);
+    let effects: Vec<Effect> = (candidates.iter())
+        .map(|candidate| candidate.effect)
+        .filter(|effect| !is_unlisted(*effect))
+        .collect();
+    let found = best_where_it_shows(
+        cases, current, &effects, &groupings, clusters, settings, watch,
+    )?;
+    let heldout = current.heldout_beyond_torque_noise();
+    let forms = candidates.len() * (1 + groupings.len());
+    for (effect, fitted) in found {
+        let least = fitted.smallest_gain(settings) * fitted.squares();
+        let candidate = candidates.iter_mut().find(|one| one.effect == effect);
+        if let Some(candidate) = candidate
+            && fitted.is_at_floor()
+            && explains_more(&candidate.fitted, &fitted, least)
+        {
+            candidate.becomes(fitted, &cases, &heldout, forms);
+        }
+    }
     sort(candidates);
     Ok(())
 }
@@ -299,7 +341,9 @@ fn sort(candidates: &mut [Candidate]) {
 }
 
 /// A refit, or nothing where this rig cannot be simulated with the effect's starts: they are meant for a hand on a tool.
-fn possible(refitted: Result<Fitted, DiagnoseError>) -> Result<Option<Fitted>, DiagnoseError> {
+pub(super) fn possible(
+    refitted: Result<Fitted, DiagnoseError>,
+) -> Result<Option<Fitted>, DiagnoseError> {
     match refitted {
         Ok(fitted) if fitted.squares().is_finite() => Ok(Some(fitted)),
         Ok(_) | Err(DiagnoseError::Identify(_) | DiagnoseError::Solve(_)) => Ok(None),

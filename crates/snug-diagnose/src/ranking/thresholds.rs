@@ -27,6 +27,15 @@ pub(crate) const BEYOND_BOTH: f64 = 1.5;
 pub(crate) const UNLIKE: f64 = 1e-3;
 /// Factors, the most promising, by which the size of one effect is tried to differ. Chosen.
 pub(crate) const GROUPINGS_TRIED: usize = 2;
+/// Tightenings at least before and after a change of a size. Chosen: one or two are an exception, not a change.
+pub(crate) const FEWEST_BESIDE_A_CHANGE: usize = 3;
+/// Share of the misfit \[–\] that the groups in which it shows must hold. Chosen.
+pub(crate) const HOLDS_THE_MISFIT: f64 = 0.9;
+/// Mean squared residual, in units of the noise's variance, by which groups must leave more than the one that leaves least for it to
+/// show in them \[–\]. Chosen: twice of what groups of eight tightenings scatter by.
+pub(crate) const BEYOND_THE_QUIET: f64 = 0.03;
+/// Tightenings in which it must show for an effect to be looked for in them alone. Chosen.
+pub(crate) const FEWEST_WHERE_IT_SHOWS: usize = 4;
 /// Candidates, the best, whose sizes are tried to differ between groups. Chosen.
 pub(crate) const BEST_BY_GROUP: usize = 6;
 /// Standard deviations of the held-out gain from which sizes are said to differ: about 95 %.

@@ -52,7 +52,11 @@ impl ModelSelection<'_> {
 
     fn name_the_first(&self, path: &mut SelectionPath) -> Result<(), DiagnoseError> {
         self.rank_last(path)?;
-        match justified(&path.ranking, path.last(), &path.rungs[0], self.settings) {
+        let next = justified(&path.ranking, path.last(), &path.rungs[0], self.settings);
+        if self.puts_differing_first(path, next.ok())? {
+            return Ok(());
+        }
+        match next {
             Ok(best) => {
                 let steps = self.choose(path.last(), &path.ranking, best, MOST_EFFECTS)?;
                 let first = steps.first().map(|(addition, _)| addition.effect);
@@ -86,7 +90,11 @@ impl ModelSelection<'_> {
             path.add(addition, self.settled(&fitted)?);
         }
         self.rank_last(path)?;
-        match justified(&path.ranking, path.last(), &path.rungs[0], self.settings) {
+        let next = justified(&path.ranking, path.last(), &path.rungs[0], self.settings);
+        if self.puts_differing_first(path, next.ok())? {
+            return Ok(());
+        }
+        match next {
             Ok(best) => path.chosen = Some(self.single(path.last(), &path.ranking, best)),
             Err(stop) => path.stopped = Some(stop),
         }

@@ -12,6 +12,7 @@ use crate::question::{Goal, Question};
 use crate::ranking::rank::{Candidate, Ranking};
 use crate::selection::path::{Addition, SelectionPath, misfit, misfits, twins};
 use crate::settings::DiagnoseSettings;
+use crate::verdict::comparisons::compare_sizes;
 use crate::verdict::earned;
 use crate::verdict::experiment::separating_experiment;
 use crate::verdict::reasons::{
@@ -20,7 +21,7 @@ use crate::verdict::reasons::{
 use crate::verdict::thresholds::{BESIDE_EFFECTS, REPEATS, WHITE};
 use crate::verdict::tightening_fits::TighteningFits;
 use crate::verdict::trend::trends;
-use crate::verdict::{detectability, floor, ladder, preparation};
+use crate::verdict::{detectability, floor, in_some_groups, ladder, preparation};
 use crate::watch::Watch;
 use snug_campaign::words::explained::Explained;
 use snug_campaign::words::statement;
@@ -90,7 +91,8 @@ impl Examination<'_> {
         let (verdict, suspicions) = self.verdict_and_suspicions(&places);
         let ranking = self.ranking(&places.drift);
         let corrected = preparation::corrected(cases);
-        let added = self.added();
+        let mut added = self.added();
+        compare_sizes(cases, last, &mut added);
         let situation = Situation {
             in_model: &added,
             explained: places.explained,
@@ -124,7 +126,12 @@ impl Examination<'_> {
             drift: places.drift,
             location: places.location,
             final_location: places.final_location,
-            detectability: detectability::cards(&self.path.ranking, last, self.settings),
+            detectability: detectability::cards(
+                &self.path.ranking,
+                last,
+                in_some_groups::groups(cases).as_ref(),
+                self.settings,
+            ),
             control: self.control(),
             unlisted: self.unlisted(),
             experiment,
@@ -190,6 +197,7 @@ impl Examination<'_> {
             settings: self.settings,
             explained: None,
             suspicions: &[],
+            is_more_than_noise: verdict == Verdict::Undecided && self.is_more_than_noise(),
         }
     }
 
@@ -282,9 +290,22 @@ impl Examination<'_> {
         }
         match self.path.is_promising(self.settings) {
             Some(_) if !is_white => Verdict::Undecided,
+            _ if self.is_more_than_noise() => Verdict::Undecided,
             _ if earned::keeps_the_promise(share, self.question.cases) => Verdict::Adequate,
             _ => Verdict::NotFitted,
         }
+    }
+
+    /// Whether more is left than the noise is uncertain by, though no candidate is chosen or promising: that is no adequate model.
+    /// Beside an effect that lets go, the instants at which the grip sets in are never quite right.
+    fn is_more_than_noise(&self) -> bool {
+        let last = self.path.last();
+        let lets_go = last.effects.iter().any(|one| one.has_unilateral_contact());
+        let floor = if lets_go { BESIDE_EFFECTS } else { AT_FLOOR };
+        last.is_weighted
+            && last.error() > floor
+            && self.path.chosen.is_none()
+            && self.path.is_promising(self.settings).is_none()
     }
 
     /// The candidates, the chosen one first, and behind them the trends.
@@ -383,6 +404,7 @@ impl Examination<'_> {
                     explanation: explanation(effect, last, Held::of(cases)),
                     size: sharing(&sizes),
                     parameters: sizes,
+                    comparisons: Vec::new(),
                 }
             })
             .collect()

@@ -2,9 +2,11 @@
 
 use crate::library::is_unlisted;
 use crate::pooled::fitted::Fitted;
+use crate::pooled::sharing::Groups;
 use crate::ranking::rank::Ranking;
 use crate::ranking::sensitivity::Column;
 use crate::settings::DiagnoseSettings;
+use crate::verdict::in_some_groups::in_some_groups;
 use crate::verdict::thresholds::{FAMILY_Z, POWER_Z};
 use snug_campaign::Detectability;
 use snug_campaign::words::statement;
@@ -17,10 +19,15 @@ use snug_model::Law;
 pub(crate) fn cards(
     ranking: &Ranking,
     fitted: &Fitted,
+    groups: Option<&Groups>,
     settings: &DiagnoseSettings,
 ) -> Vec<Detectability> {
-    let needed = ((FAMILY_Z + POWER_Z).powi(2) * fitted.scale())
-        .max(fitted.smallest_gain(settings) * fitted.squares());
+    let least = fitted.smallest_gain(settings) * fitted.squares();
+    let asked = Asked {
+        noise: fitted.scale(),
+        least,
+        groups: groups.filter(|_| !fitted.are_stretches()),
+    };
     ranking
         .candidates
         .iter()
@@ -31,12 +38,23 @@ pub(crate) fn cards(
                 .iter()
                 .filter(|c| c.effect == candidate.effect);
             let best = columns.max_by(|a, b| a.information.total_cmp(&b.information))?;
-            Some(card(best, needed))
+            Some(card(best, &asked))
         })
         .collect()
 }
 
-fn card(column: &Column, needed: f64) -> Detectability {
+/// What must fall of the squared residual.
+struct Asked<'a> {
+    /// Mean squared residual, of which chance takes some multiples.
+    noise: f64,
+    /// What matters.
+    least: f64,
+    /// Who may have an effect or not.
+    groups: Option<&'a Groups>,
+}
+
+fn card(column: &Column, asked: &Asked<'_>) -> Detectability {
+    let needed = ((FAMILY_Z + POWER_Z).powi(2) * asked.noise).max(asked.least);
     let description = column.effect.description();
     let (parameter, unit_size) = column.size();
     let spec = &description.parameters[parameter];
@@ -46,6 +64,10 @@ fn card(column: &Column, needed: f64) -> Detectability {
         .is_finite()
         .then_some(multiple * unit_size.abs())
         .filter(|smallest| *smallest <= largest);
+    let in_some = asked.groups.and_then(|groups| {
+        let of_noise = (asked.noise, asked.least);
+        in_some_groups(column, groups, of_noise, unit_size.abs(), largest)
+    });
     Detectability {
         effect: description.name.to_owned(),
         parameter: spec.name.to_owned(),
@@ -53,7 +75,13 @@ fn card(column: &Column, needed: f64) -> Detectability {
         unit: spec.unit.to_owned(),
         smallest_detectable: smallest,
         largest_plausible: largest,
-        statement: statement::detectability(description.name, smallest, spec.unit),
+        statement: statement::detectability(
+            description.name,
+            smallest,
+            spec.unit,
+            in_some.as_ref(),
+        ),
+        in_some_groups: in_some,
     }
 }
 
@@ -77,7 +105,7 @@ mod tests {
         ]);
         ranking.columns = columns;
         let fitted = Fitted::made_up(&[], &[squares; 4], count);
-        cards(&ranking, &fitted, &DiagnoseSettings::default())
+        cards(&ranking, &fitted, None, &DiagnoseSettings::default())
     }
 
     fn column(effect: Effect, information: f64, start: f64) -> Column {

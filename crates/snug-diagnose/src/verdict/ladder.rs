@@ -65,8 +65,8 @@ fn rms_residual(cases: &[FitTask<'_>], fitted: &Fitted) -> f64 {
         for (&index, &value) in own {
             values[index] = value;
         }
-        for &place in fitted.shared_of(member) {
-            values[fitted.shared_sizes()[place].index] = fitted.shared[place];
+        for part in fitted.parts(member, None) {
+            values[part.index] = part.value;
         }
         let mut output = vec![0.0; case.measured().len()];
         model

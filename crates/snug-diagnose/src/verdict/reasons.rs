@@ -16,7 +16,7 @@ use snug_campaign::words::statement;
 use snug_campaign::words::stopped::Stopped;
 use snug_campaign::words::suspicion::Suspicion;
 use snug_campaign::{
-    AddedEffect, CorrectedEffect, EffectParameter, RankedEffect, Removal, Verdict,
+    AddedEffect, CorrectedEffect, EffectParameter, Factor, RankedEffect, Removal, Verdict,
 };
 use snug_identify::FitTask;
 use snug_model::{CustomEffectSettings, Description, Effect, Law, TRENDS};
@@ -49,6 +49,8 @@ pub(crate) struct Situation<'a> {
     pub explained: Option<Explained>,
     /// What to check where no model fits.
     pub suspicions: &'a [Suspicion],
+    /// Whether the verdict is open because more is left than noise, though it hardly repeats and nothing explains it.
+    pub is_more_than_noise: bool,
 }
 
 impl Situation<'_> {
@@ -124,6 +126,16 @@ pub(crate) fn headline(situation: &Situation<'_>) -> Headline {
         return Headline::Stopped { added, fall: fell };
     }
     match (situation.verdict, situation.chosen) {
+        (Verdict::MissingEffect, Some(chosen))
+            if situation.after.effects.contains(&chosen.effect) =>
+        {
+            let factor = chosen.fitted.sharing.factor(chosen.effect);
+            Headline::Differs {
+                effect: named(chosen.effect),
+                groups: factor.map_or("tightenings", Factor::plural),
+                fall: fall(situation.after, &chosen.fitted),
+            }
+        }
         (Verdict::MissingEffect | Verdict::UnlistedEffect, Some(chosen)) => Headline::Lacks {
             effect: with_twins(chosen.effect, &situation.twins, &chosen.fitted),
             fall: fall(situation.after, &chosen.fitted),
@@ -145,6 +157,10 @@ pub(crate) fn headline(situation: &Situation<'_>) -> Headline {
             (situation.explained).map_or(Headline::Compared(fell.after), Headline::NotFitted)
         }
         (Verdict::Undecided, _) if situation.verb == "compare" => Headline::Compared(fell.after),
+        (Verdict::Undecided, _) if situation.is_more_than_noise => Headline::MoreThanNoise {
+            added: [added, further].concat(),
+            fall: fell,
+        },
         (Verdict::Undecided | Verdict::MissingEffect, _) => Headline::TooLittle {
             tightenings: situation
                 .clusters
@@ -182,7 +198,7 @@ fn what_is_left(situation: &Situation<'_>) -> Reason {
             tightenings: situation.tightenings,
             error: situation.after.error(),
             is_at_floor: situation.after.is_at_floor(),
-            is_adequate: situation.verdict == Verdict::Adequate,
+            hardly_repeats: situation.verdict == Verdict::Adequate || situation.is_more_than_noise,
         },
     }
 }
@@ -250,7 +266,9 @@ fn taken_out(corrected: &CorrectedEffect, rig: Held) -> Reason {
 }
 
 fn what_would_decide(situation: &Situation<'_>) -> Option<Reason> {
-    let is_open = situation.verdict == Verdict::Undecided && !situation.is_interrupted();
+    let is_open = situation.verdict == Verdict::Undecided
+        && !situation.is_interrupted()
+        && !situation.is_more_than_noise;
     if !is_open || situation.verb == "compare" {
         return None;
     }

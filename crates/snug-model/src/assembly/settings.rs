@@ -52,7 +52,10 @@ pub struct ParameterSettings {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ValuesByGroup {
-    /// What groups the tightenings: `participant`, `strategy`, `joint`, `pace`, `target_torque` or `file`.
+    /// What groups the tightenings: `participant`, `strategy`, `joint`, `pace`, `target_torque`, `file`; or their time:
+    /// `from_number(13)` (those before and those from number 13 of a file on), `since((file: "…", number: 13))` (of the whole
+    /// campaign, files in the order of their names), `course(first: 1, last: 30)` (evenly from what is at one number of a file to
+    /// what is at another).
     pub factor: Factor,
     /// By the group's name.
     pub values: BTreeMap<String, GroupValue>,
@@ -93,17 +96,18 @@ impl ModelSettings {
     /// [`ModelError::UnknownEffect`], [`ModelError::UnknownParameter`] and [`ModelError::ParameterRange`] name what the
     /// settings got wrong and what is allowed; otherwise as [`Model::new`] and [`ModelSettings::custom_effects`].
     pub fn model(&self, rig: Rig) -> Result<Model, ModelError> {
-        self.model_of_group(rig, &|_| None)
+        self.model_of_group(rig, &|_| Vec::new())
     }
 
-    /// The same for tightenings of which `group` says the group by each factor.
+    /// The same for tightenings of which `group` says the group by each factor, or those between which they stand, with the share of
+    /// each.
     ///
     /// # Errors
     /// As [`ModelSettings::model`].
     pub fn model_of_group(
         &self,
         rig: Rig,
-        group: &dyn Fn(Factor) -> Option<String>,
+        group: &dyn Fn(&Factor) -> Vec<(String, f64)>,
     ) -> Result<Model, ModelError> {
         let custom = self.custom_effects()?;
         let effects = self
@@ -147,6 +151,14 @@ impl ModelSettings {
     }
 }
 
+/// Standard error of a value between others that are known independently of each other.
+fn error_between(values: &[(GroupValue, f64)]) -> Option<f64> {
+    let squares = values
+        .iter()
+        .map(|(one, share)| Some((share * one.standard_error?).powi(2)));
+    squares.sum::<Option<f64>>().map(f64::sqrt)
+}
+
 fn named(name: &str, custom: &[Effect]) -> Result<Effect, ModelError> {
     let known = custom.iter().chain(Effect::ALL);
     match known.clone().find(|effect| effect.name() == name) {
@@ -159,19 +171,28 @@ fn named(name: &str, custom: &[Effect]) -> Result<Effect, ModelError> {
 }
 
 impl ParameterSettings {
-    /// What it says of tightenings of which `group` says the group by each factor.
-    fn of_group(&self, group: &dyn Fn(Factor) -> Option<String>) -> Self {
-        let own = self.by_group.as_ref().and_then(|by_group| {
-            let name = group(by_group.factor)?;
-            by_group.values.get(&name).copied()
-        });
-        match own {
-            Some(own) => Self {
+    /// What it says of tightenings of which `group` says the group by each factor, or those between which they stand.
+    fn of_group(&self, group: &dyn Fn(&Factor) -> Vec<(String, f64)>) -> Self {
+        let Some(by_group) = &self.by_group else {
+            return self.clone();
+        };
+        let known = group(&by_group.factor).into_iter();
+        let known: Vec<(GroupValue, f64)> = known
+            .filter_map(|(name, share)| Some((*by_group.values.get(&name)?, share)))
+            .filter(|(_, share)| *share > 0.0)
+            .collect();
+        match known.as_slice() {
+            [] => self.clone(),
+            [(own, _)] => Self {
                 value: Some(own.value),
                 standard_error: own.standard_error.or(self.standard_error),
                 ..self.clone()
             },
-            None => self.clone(),
+            several => Self {
+                value: Some(several.iter().map(|(one, share)| share * one.value).sum()),
+                standard_error: error_between(several).or(self.standard_error),
+                ..self.clone()
+            },
         }
     }
 

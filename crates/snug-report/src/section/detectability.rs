@@ -5,6 +5,7 @@ use crate::effect_words::{parameter_name, sentence};
 use crate::number::{percent, percent_interval, significant};
 use maud::{Markup, html};
 use snug_campaign::words::effect_name::{effect_name, unit_text};
+use snug_campaign::words::statement::in_some_groups;
 use snug_campaign::{CampaignResult, Detectability, Diagnosis, Interval, NegativeControl};
 
 /// What would have been found, and how often something is found where nothing is.
@@ -53,7 +54,12 @@ fn absent(list: &[Detectability], result: &CampaignResult) -> Markup {
                 th scope="row" { (effect_name(&row.effect)) " " span.interval { (parameter_name(&row.meaning, &row.parameter, result)) } }
                 td {
                     @match row.smallest_detectable.filter(|size| size.is_finite()) {
-                        Some(size) => (amount(size, &row.unit)),
+                        Some(size) => {
+                            (amount(size, &row.unit))
+                            @if let Some(some) = &row.in_some_groups {
+                                " " span.interval { (sentence(in_some_groups(some, &row.unit))) }
+                            }
+                        },
                         None => span.interval { (sentence(&row.statement)) },
                     }
                 }

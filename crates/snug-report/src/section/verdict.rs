@@ -9,7 +9,8 @@ use snug_campaign::words::chance::{by_chance, share_with_error};
 use snug_campaign::words::effect_name::{called, effect_name, names_in, unit_text};
 use snug_campaign::words::{counted, joined};
 use snug_campaign::{
-    AddedEffect, CampaignResult, CorrectedEffect, Diagnosis, EffectParameter, RankedEffect, Verdict,
+    AddedEffect, CampaignResult, CorrectedEffect, Diagnosis, EffectParameter, RankedEffect,
+    SizeComparison, Verdict,
 };
 
 /// What is missing in the model, in one sentence, and why.
@@ -46,6 +47,7 @@ fn added(effect: &AddedEffect, diagnosis: &Diagnosis, result: &CampaignResult) -
             h4 { (called(&effect.effect, effect.expression.as_ref())) " " span.nature { (effect.kind) } }
             p.sizes { (sizes(&effect.parameters, result)) }
             (group_strips(&effect.parameters))
+            (comparisons(&effect.comparisons))
             @if let Some(gain) = effect.heldout_gain {
                 p { "It removes " strong { (fixed(100.0 * gain.min(1.0), 0)) "\u{a0}%" } " of the misfit in data that its size was not fitted to." }
             }
@@ -62,6 +64,32 @@ fn added(effect: &AddedEffect, diagnosis: &Diagnosis, result: &CampaignResult) -
             (implausible(&effect.parameters))
             @if !effect.explanation.is_empty() {
                 ul { @for line in &effect.explanation { li { (sentence(line)) } } }
+            }
+        }
+    }
+}
+
+/// Between whom its size differs, by the sizes that single tightenings ask for.
+fn comparisons(all: &[SizeComparison]) -> Markup {
+    let said =
+        |one: &SizeComparison| format!("{} ({})", one.factor.plural(), by_chance(one.p_adjusted));
+    let (differ, alike): (Vec<&SizeComparison>, Vec<&SizeComparison>) =
+        (all.iter()).partition(|one| one.p_adjusted <= 0.05);
+    let differ: Vec<String> = differ.into_iter().map(said).collect();
+    let alike: Vec<String> = alike
+        .into_iter()
+        .map(|one| one.factor.plural().to_owned())
+        .collect();
+    html! {
+        @if !all.is_empty() {
+            p.note {
+                "Its size, asked of every tightening by itself, "
+                @if differ.is_empty() { "does not differ beyond chance between " (joined(&alike)) }
+                @else {
+                    "differs between " (joined(&differ))
+                    @if !alike.is_empty() { ", not beyond chance between " (joined(&alike)) }
+                }
+                "."
             }
         }
     }
@@ -97,7 +125,11 @@ fn missing(diagnosis: &Diagnosis, result: &CampaignResult) -> Markup {
             div.effects { @for one in named(diagnosis, first) {
                 (candidate(one, result))
             } }
-            p { "To add it and see the error before and after: " code { "cargo xtask add " (first.effect) }
+            p { @if diagnosis.added.iter().any(|one| one.effect == first.effect) {
+                    "To give each group its own size and see the error before and after: " code { "cargo xtask improve" }
+                } @else {
+                    "To add it and see the error before and after: " code { "cargo xtask add " (first.effect) }
+                }
                 ", with the same " code { "--data" } " or " code { "--study" } " as now." }
         }
     }

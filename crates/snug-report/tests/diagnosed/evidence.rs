@@ -42,6 +42,7 @@ pub fn effect(name: &str, size: EffectParameter) -> AddedEffect {
         heldout_gain: None,
         needed: None,
         explanation: vec![],
+        comparisons: vec![],
     }
 }
 
@@ -129,6 +130,7 @@ pub fn detectability() -> Vec<Detectability> {
             unit: "N".into(),
             smallest_detectable: Some(0.83),
             largest_plausible: 30.0,
+            in_some_groups: None,
             statement: "Absent or smaller than 0.83 N.".into(),
         },
         Detectability {
@@ -138,6 +140,7 @@ pub fn detectability() -> Vec<Detectability> {
             unit: "kg".into(),
             smallest_detectable: None,
             largest_plausible: 2.0,
+            in_some_groups: None,
             statement: "Even the largest plausible size would not be seen in these data.".into(),
         },
     ]

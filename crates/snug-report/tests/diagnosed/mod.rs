@@ -44,7 +44,7 @@ pub fn improve() -> CampaignResult {
             tightenings: 24,
             error: 1.018,
             is_at_floor: true,
-            is_adequate: true,
+            hardly_repeats: true,
         }],
         stopped: Some(Stopped::NothingSupported {
             best_p: 0.43,
@@ -114,7 +114,7 @@ fn diagnosis(result: &CampaignResult) -> Diagnosis {
                 tightenings: 24,
                 error: 6.42,
                 is_at_floor: false,
-                is_adequate: false,
+                hardly_repeats: false,
             },
             Reason::Removes {
                 effect: named("cubic_stiffness"),

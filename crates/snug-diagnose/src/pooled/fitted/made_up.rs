@@ -24,6 +24,7 @@ impl Fitted {
             own_indices: Vec::new(),
             shared_sizes: Vec::new(),
             shared_of: vec![Vec::new(); squares.len()],
+            shares: None,
             sharing: Sharing::default(),
             own: vec![Vec::new(); squares.len()],
             shared: Vec::new(),
