@@ -108,14 +108,15 @@ pub fn campaign_of(preset: Preset, plan: &CampaignPlan, seed: u64) -> Campaign {
 }
 
 pub fn ask(cases: &[FitTask<'_>], goal: Goal) -> Diagnosis {
+    ask_telling(cases, goal, &|_| ())
+}
+
+/// The same, telling of every stage.
+pub fn ask_telling(cases: &[FitTask<'_>], goal: Goal, tell: &(dyn Fn(&str) + Sync)) -> Diagnosis {
     let question = Question::new(cases, goal);
-    examine(
-        &question,
-        &DiagnoseSettings::default(),
-        &Watch::new(&|_| ()),
-    )
-    .unwrap()
-    .diagnosis
+    examine(&question, &DiagnoseSettings::default(), &Watch::new(tell))
+        .unwrap()
+        .diagnosis
 }
 
 pub fn error(diagnosis: &Diagnosis) -> f64 {

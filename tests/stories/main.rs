@@ -17,6 +17,8 @@ mod mystery;
 mod one_pass;
 mod other_rigs;
 mod people;
+mod people_sealed;
+mod people_tools;
 mod practice;
 mod recording;
 mod round_trip;

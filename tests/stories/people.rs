@@ -63,7 +63,7 @@ impl Form {
 }
 
 /// Six people, each with two files of four tightenings under different conditions.
-fn plan() -> CampaignPlan {
+pub fn plan() -> CampaignPlan {
     let file = |index: usize| FilePlan {
         participant: index as u32 / 2 + 1,
         strategy: [Strategy::QuickStep, Strategy::TurboTight][(index / 2 + index) % 2],

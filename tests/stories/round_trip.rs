@@ -1,6 +1,10 @@
 //! One settling, one truth: whoever runs the study that a search wrote gets the numbers of its last rung.
 
+use crate::coarse;
+use crate::people_sealed::long_files;
+use snug_campaign::Factor;
 use snug_study::{RunSettings, Study, Verb, diagnose, run};
+use snug_synthetic::{HiddenEffect, Whose};
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
@@ -101,4 +105,41 @@ fn motor() -> String {
         }
     }
     rows
+}
+
+/// Of every form in which a size may depend on time: the study says it so that it means the same again.
+#[test]
+fn sizes_that_change_in_time_run_as_they_were_found() {
+    for (whose, is_it) in [
+        (
+            Whose::FromNumber(5),
+            (|factor| *factor == Factor::FromNumber(5)) as fn(&Factor) -> bool,
+        ),
+        (
+            Whose::Since(3, 4),
+            |factor| matches!(factor, Factor::Since(id) if id.number == 4),
+        ),
+        (Whose::Growing(0.0, 1.5), |factor| {
+            *factor == Factor::Course { first: 1, last: 8 }
+        }),
+    ] {
+        let folder = tempfile::tempdir().unwrap();
+        let plan = long_files()
+            .hiding(HiddenEffect::CoulombFriction, 1.0)
+            .of(whose.clone());
+        let study = coarse::study(plan, 3, folder.path());
+        let add = Verb::Add(vec!["coulomb_friction".into()]);
+        let out = folder.path().join("out");
+        let never = AtomicBool::new(false);
+        let outcome = diagnose(&study, &add, &RunSettings::new(&out), &quiet, &never).unwrap();
+        let diagnosis = outcome.result.diagnosis.unwrap();
+        let by_group = diagnosis.added[0].parameters[0].by_group.as_ref();
+        let factor = &by_group.expect("it changes").factor;
+        assert!(is_it(factor), "{whose:?}: {factor:?}");
+        let written = Study::read(&out.join("study.ron")).unwrap();
+        let again = folder.path().join("again");
+        run(&written, &RunSettings::new(&again), &quiet, &never).unwrap();
+        let table = |out: &Path| std::fs::read_to_string(out.join("tightenings.csv")).unwrap();
+        assert_eq!(table(&out), table(&again), "{whose:?}");
+    }
 }

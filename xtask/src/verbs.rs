@@ -99,6 +99,10 @@ pub enum Verb {
         /// Also every effect of the catalogue hidden and searched for (half an hour and more).
         #[arg(long)]
         blind: bool,
+        /// Also 37 campaigns of people, joints and times that differ, and 20 that hide nothing (half an hour); a word picks those whose
+        /// label has it.
+        #[arg(long, value_name = "WORD", num_args = 0..=1, require_equals = true, default_missing_value = "1")]
+        people: Option<String>,
         /// Only tests whose name contains this.
         filter: Option<String>,
     },
@@ -154,8 +158,9 @@ impl Verb {
             Self::Test {
                 many,
                 blind,
+                people,
                 filter,
-            } => test::test(many, blind, filter.as_deref()),
+            } => test::test(many, blind, people.as_deref(), filter.as_deref()),
             Self::Tidy { list } => tidy::tidy(list),
             Self::Fuzz {
                 target,

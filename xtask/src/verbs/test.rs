@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 /// Every test of the workspace, optimised, documentation examples included; then every example of the crates, run as it is.
-pub fn test(many: bool, blind: bool, filter: Option<&str>) -> ExitCode {
+pub fn test(many: bool, blind: bool, people: Option<&str>, filter: Option<&str>) -> ExitCode {
     let mut cargo = workspace::cargo();
     cargo.args(["test", "--release", "--workspace", "--no-fail-fast"]);
     if let Some(filter) = filter {
@@ -17,6 +17,9 @@ pub fn test(many: bool, blind: bool, filter: Option<&str>) -> ExitCode {
     }
     if blind {
         cargo.env("SNUG_BLIND", "1");
+    }
+    if let Some(picked) = people {
+        cargo.env("SNUG_PEOPLE", picked);
     }
     let mut is_well = workspace::succeeds(cargo);
     for name in examples() {
