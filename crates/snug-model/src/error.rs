@@ -7,6 +7,14 @@ use thiserror::Error;
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ModelError {
+    /// A simulation is asked for with a parameter that is no finite number.
+    #[error("{name} is {value}: a simulation needs finite numbers")]
+    ParameterValue {
+        /// The parameter.
+        name: String,
+        /// Its value.
+        value: f64,
+    },
     /// A constant of the rig is out of range.
     #[error("rig: {field} is {value}, allowed is {allowed}")]
     Rig {

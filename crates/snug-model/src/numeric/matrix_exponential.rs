@@ -2,14 +2,19 @@
 
 /// e^M for a small square matrix, by scaling and squaring of its Taylor series.
 ///
-/// After scaling, ‖M‖₁ ≤ 1/2 and the remainder of sixteen terms is below rounding (0.5¹⁷/17! < 1e−19).
+/// After scaling, ‖M‖₁ ≤ 1/2 and the remainder of sixteen terms is below rounding (0.5¹⁷/17! < 1e−19). Not a number where ‖M‖₁ is
+/// not finite.
 pub fn exponential<const N: usize>(matrix: &[[f64; N]; N]) -> [[f64; N]; N] {
     const TERMS: usize = 16;
     let norm = (0..N)
         .map(|column| (0..N).map(|row| matrix[row][column].abs()).sum::<f64>())
         .fold(0.0, f64::max);
+    let doubled = 2.0 * norm;
+    if !doubled.is_finite() {
+        return [[f64::NAN; N]; N];
+    }
     let squarings = if norm > 0.5 {
-        (2.0 * norm).log2().ceil() as i32
+        doubled.log2().ceil() as i32
     } else {
         0
     };
@@ -54,5 +59,14 @@ mod tests {
         assert!((rotation[1][0] - 7.0_f64.sin()).abs() < 1e-14);
         let shear = exponential(&[[0.0, 3.0, 0.0], [0.0, 0.0, 2.0], [0.0, 0.0, 0.0]]);
         assert!((shear[0][2] - 3.0).abs() < 1e-15, "3·2/2");
+    }
+
+    /// It ends, and soon.
+    #[test]
+    fn a_matrix_without_bounds_has_no_exponential() {
+        for size in [f64::INFINITY, f64::NAN, f64::MAX] {
+            let found = exponential(&[[size, -size], [size, size]]);
+            assert!(found.iter().flatten().all(|value| !value.is_finite()));
+        }
     }
 }

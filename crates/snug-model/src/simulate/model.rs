@@ -11,9 +11,17 @@ impl Model {
     /// The measured motion that `values` (all parameters) give under `input`.
     ///
     /// # Errors
-    /// [`ModelError::Length`] where `values` are not one per parameter, and as [`Input::check`].
+    /// [`ModelError::Length`] where `values` are not one per parameter, [`ModelError::ParameterValue`] where one is no finite
+    /// number, and as [`Input::check`].
     pub fn simulate(&self, values: &[f64], input: &Input) -> Result<Motion, ModelError> {
         self.check_simulation(values, input)?;
+        let mut named = self.parameters().iter().zip(values);
+        if let Some((parameter, &value)) = named.find(|(_, value)| !value.is_finite()) {
+            return Err(ModelError::ParameterValue {
+                name: parameter.name.clone(),
+                value,
+            });
+        }
         let mut signals: [Vec<f64>; 3] =
             std::array::from_fn(|_| Vec::with_capacity(input.samples()));
         let inputs = SimulationInputs::new(0.0, |_| (self.assembly(), input));
