@@ -3,7 +3,7 @@
 use super::events::Pulse;
 use super::numbers::{derivative, is_constant, median_step, rises, runs_away, work};
 use super::roles::{self, Meaning};
-use super::units::unit_of;
+use super::units::{self, unit_of};
 use super::{DraftColumn, text, told_place};
 use crate::{Study, StudyError};
 use snug_campaign::Quantity;
@@ -114,14 +114,17 @@ impl Choice {
                 Meaning::Time => "by its name",
                 _ => "it has no name and rises evenly",
             };
-            let step_s = median_step(&column(place).values) * unit.unwrap_or_default().seconds();
-            let unit_told = if unit.is_some() {
-                ""
-            } else {
-                "; no unit given: s"
+            let (unit, unit_told) = match (unit, units::since_1970(&column(place).values)) {
+                (Some(unit), _) => (unit, String::new()),
+                (None, Some(unit)) => {
+                    let told = format!("; no unit given: {unit:?}s since 1970, by its size");
+                    (unit, told.to_lowercase())
+                }
+                (None, None) => (TimeUnit::default(), "; no unit given: s".to_owned()),
             };
+            let step_s = median_step(&column(place).values) * unit.seconds();
             self.whys[place] = format!("time, {why}: {} Hz{unit_told}", text::short(1.0 / step_s));
-            self.clock = Clock::Column(Box::new(column(place).clone()), unit.unwrap_or_default());
+            self.clock = Clock::Column(Box::new(column(place).clone()), unit);
             return;
         }
         let rate = found.numbers.iter().find_map(|(name, value)| {

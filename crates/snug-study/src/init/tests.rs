@@ -268,3 +268,43 @@ fn what_cannot_be_drafted_says_why() {
     let thesis = Path::new(env!("CARGO_MANIFEST_DIR")).join("../snug-ingest/tests/data/thesis");
     assert!(told(&[thesis]).contains("need no study: cargo xtask run --data"));
 }
+
+#[test]
+fn a_clock_that_counts_since_1970_is_told_by_its_size() {
+    for (start, each, unit) in [
+        (1_700_000_000.0, 0.01, "Second"),
+        (1_700_000_000_000.0, 10.0, "Millisecond"),
+        (1_700_000_000_000_000.0, 10_000.0, "Microsecond"),
+    ] {
+        let content = table("timestamp,torque,speed", |place, [torque, _, speed]| {
+            format!("{:.2},{torque},{speed}", start + each * place as f64)
+        });
+        let (_, draft, _folder) = drafted("a.csv", &content);
+        assert!(
+            draft.text.contains(&format!("unit: {unit}")),
+            "{}",
+            draft.text
+        );
+        assert!(
+            draft.columns[0].told.contains("100 Hz"),
+            "{}",
+            draft.columns[0].told
+        );
+    }
+}
+
+/// A run leaves a record with such a gap out; that says nothing of its columns.
+#[test]
+fn what_cannot_be_tried_is_not_called_badly_explained() {
+    let content = table("t,torque,angle", |place, [torque, x, _]| {
+        let angle = if (300..400).contains(&place) {
+            f64::NAN
+        } else {
+            x
+        };
+        format!("{},{torque},{angle}", 0.01 * place as f64)
+    });
+    let (_, draft, _folder) = drafted("a.csv", &content);
+    assert!(draft.text.contains("could not be tried"), "{}", draft.text);
+    assert!(!draft.text.contains("0 %"), "{}", draft.text);
+}

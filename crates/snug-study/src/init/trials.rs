@@ -147,8 +147,16 @@ impl Choice {
         let mut turned = self.clone();
         let inputs = turned.taken.iter_mut().filter(|one| one.signal.is_input());
         inputs.for_each(|input| input.scale *= -1.0);
-        let explained = |choice: &Self| 1.0 - choice.unexplained(file).unwrap_or(1.0).min(1.0);
-        let (as_it_is, other) = (explained(self), explained(&turned));
+        let Some(left) = self.unexplained(file) else {
+            self.notes.push(format!(
+                "Whether mass, damping and stiffness explain the motion could not be tried: of {} a run has nothing to fit, and says \
+                 why.",
+                file.file_name().unwrap_or_default().display()
+            ));
+            return;
+        };
+        let as_it_is = 1.0 - left.min(1.0);
+        let other = 1.0 - turned.unexplained(file).unwrap_or(1.0).min(1.0);
         if other > as_it_is + CLEARLY {
             self.notes.push(format!(
                 "With the input's sign turned (scale) mass, damping and stiffness explained {:.0} % of the motion rather than \

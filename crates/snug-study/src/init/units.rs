@@ -2,6 +2,7 @@
 
 use super::numbers::largest;
 use super::roles::{self, Meaning};
+use snug_ingest::csv::TimeUnit;
 use snug_ingest::survey::{Survey, SurveyedColumn};
 use snug_ingest::{Signal, Unit};
 
@@ -50,6 +51,20 @@ pub(super) fn unit_of(
             "no unit given: the usual one".to_owned(),
         ),
     }
+}
+
+/// In which unit a clock counts since 1970, where its first reading then falls into this century.
+pub(super) fn since_1970(values: &[f64]) -> Option<TimeUnit> {
+    const YEAR_S: f64 = 365.25 * 86_400.0;
+    let units = [
+        TimeUnit::Second,
+        TimeUnit::Millisecond,
+        TimeUnit::Microsecond,
+        TimeUnit::Nanosecond,
+    ];
+    let first = values.iter().copied().find(|value| value.is_finite())?;
+    let is_now = |unit: &TimeUnit| (30.0..130.0).contains(&(first * unit.seconds() / YEAR_S));
+    units.into_iter().find(is_now)
 }
 
 fn usual(signal: Signal, linear: bool) -> Unit {
