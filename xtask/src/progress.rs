@@ -1,8 +1,9 @@
 //! Progress on standard error: a bar for people, a plain line every few seconds for files and pipes.
 
 use crate::terminal::complain;
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::{HumanDuration, ProgressBar, ProgressState, ProgressStyle};
 use snug_study::ProgressEvent;
+use std::fmt::Write;
 use std::io::IsTerminal;
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
@@ -12,7 +13,7 @@ const PLAIN_EVERY: Duration = Duration::from_secs(5);
 /// What is shown while nobody knows how much there is to do.
 const UNCOUNTED: &str = "{spinner} {msg}  {elapsed}";
 /// What is shown where it is known.
-const COUNTED: &str = "{spinner} {msg}  {pos} of {len}  {wide_bar}  {elapsed}, {eta} left";
+const COUNTED: &str = "{spinner} {msg}  {pos} of {len}  {wide_bar}  {elapsed}, {left}";
 
 /// Shows a run's progress: a bar with count and time left on a terminal, a line now and then elsewhere.
 pub struct Progress {
@@ -98,7 +99,17 @@ impl Progress {
 }
 
 fn style(template: &str) -> ProgressStyle {
-    ProgressStyle::with_template(template).expect("the template is well-formed")
+    let style = ProgressStyle::with_template(template).expect("the template is well-formed");
+    style.with_key("left", left)
+}
+
+/// `12s left`; before anything is done nobody knows.
+fn left(state: &ProgressState, text: &mut dyn Write) {
+    let told = match state.pos() {
+        0 => write!(text, "time left not known yet"),
+        _ => write!(text, "{:#} left", HumanDuration(state.eta())),
+    };
+    told.expect("a text takes every write");
 }
 
 fn on_bar(bar: &ProgressBar, event: ProgressEvent<'_>) {
@@ -132,7 +143,10 @@ impl Plain {
     fn report(&mut self, event: ProgressEvent<'_>) {
         match event {
             ProgressEvent::Started { files } => self.count = Count::of(files, "files"),
-            ProgressEvent::Candidates { of } => self.count = Count::of(of, "candidates"),
+            ProgressEvent::Candidates { of } => {
+                self.count = Count::of(of, "candidates");
+                complain(&format!("{}: {of} candidates to try", self.elapsed()));
+            }
             ProgressEvent::FileDone { .. } | ProgressEvent::CandidateDone => {
                 self.count.done += 1;
                 if self.last.elapsed() >= PLAIN_EVERY {
