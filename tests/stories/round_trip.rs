@@ -4,7 +4,7 @@ use crate::coarse;
 use crate::people_sealed::long_files;
 use snug_campaign::Factor;
 use snug_study::{RunSettings, Study, Verb, diagnose, run};
-use snug_synthetic::{HiddenEffect, Whose};
+use snug_synthetic::{CampaignPlan, HiddenEffect, Whose};
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
@@ -85,6 +85,24 @@ fn the_study_of_a_motor_runs_as_it_was_found_and_so_does_the_first_one() {
     let ran = run(&study, &RunSettings::new(ran.path()), &quiet, &never).unwrap();
     assert_eq!(compared.result.study_ron, ran.result.study_ron);
     assert_eq!(compared.result.tightenings, ran.result.tightenings);
+}
+
+/// Of four people two brake the tool by dry friction: each group's size stands in the study that was written, and gives the same
+/// numbers again; so do ranges that are kept for validation.
+#[test]
+fn the_study_of_people_who_differ_runs_as_it_was_found() {
+    let plan = CampaignPlan::of_size(8, 4).hiding(HiddenEffect::CoulombFriction, 1.0);
+    let plan = plan.of(Whose::Participants(vec![1, 3]));
+    let folder = tempfile::tempdir().unwrap();
+    let study = coarse::study(plan, 5, folder.path());
+    let verb = Verb::Add(vec!["coulomb_friction".into()]);
+    let out = tempfile::tempdir().unwrap();
+    let never = AtomicBool::new(false);
+    diagnose(&study, &verb, &RunSettings::new(out.path()), &quiet, &never).unwrap();
+    let written = Study::read(&out.path().join("study.ron")).unwrap();
+    let by_group = written.model.parameters["fc_n"].by_group.clone().unwrap();
+    assert_eq!(by_group.factor, Factor::Participant);
+    assert_same(&study, &verb);
 }
 
 fn motor() -> String {
