@@ -12,6 +12,7 @@ mod gap;
 mod interruption;
 mod intervals;
 mod layers;
+mod made_up_rigs;
 mod many;
 mod mystery;
 mod one_pass;

@@ -2,7 +2,8 @@
 
 use crate::Study;
 use crate::evaluation::Evaluated;
-use snug_campaign::{Diagnosis, Rejection, Rung, Showcase, TighteningId, Traces};
+use snug_campaign::words::headline::Headline;
+use snug_campaign::{Diagnosis, Rejection, Rung, Showcase, TighteningId, Traces, Verdict};
 use snug_statistics::descriptive::median;
 
 /// What a diagnosis found out, with the models whose evaluation completes it.
@@ -26,6 +27,10 @@ impl Ladder {
         let last = shares.len().saturating_sub(1);
         for (number, (rung, share)) in diagnosis.ladder.iter_mut().zip(shares).enumerate() {
             share.complete(rung);
+            if number == last && share.count > 0 && share.selected == 0 {
+                (diagnosis.verdict, diagnosis.headline) =
+                    with_nothing_usable(diagnosis.verdict, diagnosis.headline);
+            }
             match number {
                 0 => ends.0 = share.traces,
                 number if number == last => ends.1 = share.traces,
@@ -36,6 +41,26 @@ impl Ladder {
             diagnosis.showcase = Some(Showcase { id, before, after });
         }
         diagnosis
+    }
+}
+
+/// A model with which not a single recording can be used is not adequate, whatever candidates promise beside it.
+fn with_nothing_usable(verdict: Verdict, headline: Headline) -> (Verdict, Headline) {
+    match headline {
+        Headline::Adequate {
+            added,
+            further,
+            fall,
+            ..
+        } => {
+            let headline = Headline::TooLittle {
+                tightenings: None,
+                added: [added, further].concat(),
+                fall,
+            };
+            (Verdict::Undecided, headline)
+        }
+        headline => (verdict, headline),
     }
 }
 

@@ -18,7 +18,18 @@ impl ModelSelection<'_> {
         watch.begin("fitting every sample")?;
         let at_full_rate =
             |fitted: &Fitted| fit_effects(self.cases, &fitted.effects, Some(fitted), self.clusters);
-        let before = path.last().squares();
+        // What stretches that took no part gain has no bounds, what is left has: that is what is said of every sample.
+        let slow = path.last().clone();
+        for candidate in &mut path.ranking.candidates {
+            let (gain, bounded) = (candidate.gain(), candidate.gain_beside(&slow));
+            if bounded > 0.0 && bounded < gain {
+                candidate
+                    .gains
+                    .iter_mut()
+                    .for_each(|one| *one *= bounded / gain);
+            }
+        }
+        let before = slow.squares();
         let rungs: Result<Vec<Fitted>, _> = path.rungs.iter().map(at_full_rate).collect();
         path.rungs = rungs?;
         let known = compared.rungs.into_iter();

@@ -112,7 +112,7 @@ impl SelectionPath {
         let (first, last) = (&self.rungs[0], self.last());
         self.ranking.candidates.iter().find(|candidate| {
             let is_seldom = candidate.p_family < PROMISING_P;
-            let gain = candidate.gain();
+            let gain = candidate.gain_beside(last);
             let explains = match last.is_weighted {
                 true => last.is_beyond_noise() && gain > GOOD_PART * misfit(last),
                 false => {
@@ -123,7 +123,7 @@ impl SelectionPath {
             };
             candidate.p_family > settings.level
                 && (is_seldom || explains)
-                && candidate.gain() > 2.0 * settings.smallest_gain * last.squares()
+                && gain > 2.0 * settings.smallest_gain * last.squares()
                 && candidate.clearness() > 1.0
                 && (last.is_weighted || gain > least_share(candidate.effect) * first.squares())
         })
@@ -164,6 +164,15 @@ impl Candidate {
             && !self.falls_short_of(best, clusters)
     }
 
+    /// What held-out clusters gain beside `current`. Where leaving out a stretch leaves the others hardly a size, the gain in it has no
+    /// bounds; a fall of the error has.
+    pub fn gain_beside(&self, current: &Fitted) -> f64 {
+        match current.are_stretches() {
+            true => self.gain().min(current.squares() - self.fitted.squares()),
+            false => self.gain(),
+        }
+    }
+
     /// Whether held-out tightenings gain, and by more than one would expect of their scatter.
     fn gains_clearly(&self) -> bool {
         self.gain() > 0.0 && self.clearness() > 1.0
@@ -180,14 +189,7 @@ pub(crate) fn justified(
 ) -> Result<usize, Stop> {
     let all = &ranking.candidates;
     let supported = |index: &usize| all[*index].is_supported(settings);
-    // Where leaving out a stretch leaves the others hardly a size, the gain in it has no bounds; a fall of the error has.
-    let gain = |index: usize| match current.are_stretches() {
-        true => all[index]
-            .gain()
-            .min(current.squares() - all[index].fitted.squares()),
-        false => all[index].gain(),
-    };
-    let share = |index: usize, of: &Fitted| gain(index) / of.squares();
+    let share = |index: usize, of: &Fitted| all[index].gain_beside(current) / of.squares();
     let matters = |index: &usize| share(*index, current) >= current.smallest_gain(settings);
     let is_enough = |index: &usize| {
         current.is_weighted || share(*index, first) >= least_share(all[*index].effect)

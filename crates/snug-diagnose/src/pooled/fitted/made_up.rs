@@ -46,6 +46,12 @@ impl Fitted {
         self
     }
 
+    /// The same of stretches of a long record.
+    pub fn in_stretches(mut self) -> Self {
+        self.clusters = Clusters { per_case: 8 };
+        self
+    }
+
     /// The same with every tightening's own parameters, the model's first ones; the last `of_effects` of them belong to effects.
     pub fn with_own(mut self, names: &[&str], own: Vec<Vec<f64>>, of_effects: usize) -> Self {
         self.own_names = names.iter().map(|name| (*name).to_owned()).collect();

@@ -1,0 +1,177 @@
+//! Rigs that were made up here, by small steps of the midpoint rule, of which an engineer would say at once what they lack.
+
+use snug_campaign::{Diagnosis, Verdict};
+use snug_study::{RunSettings, Study, Verb, diagnose};
+use std::f64::consts::TAU;
+use std::path::Path;
+use std::sync::atomic::AtomicBool;
+
+/// Recordings of one machine: input and output, row by row.
+struct Rig {
+    recordings: Vec<Vec<[f64; 2]>>,
+    /// Unit of the input, signal and unit of the output.
+    declared: [&'static str; 3],
+    fitted: &'static str,
+}
+
+impl Rig {
+    /// The diagnosis of a study as README teaches it, sampled at 1 kHz.
+    fn told(&self, verb: &Verb) -> Diagnosis {
+        let (folder, out) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
+        for (number, recording) in self.recordings.iter().enumerate() {
+            let rows = recording.iter().map(|[u, y]| format!("{u:e},{y:e}\n"));
+            let table: String = std::iter::once("u,y\n".to_owned()).chain(rows).collect();
+            std::fs::write(folder.path().join(format!("r{number}.csv")), table).unwrap();
+        }
+        let ([input, signal, unit], fitted) = (self.declared, self.fitted);
+        let text = format!(
+            r#"(
+                source: (path: {path:?}, format: Csv(
+                    channels: [
+                        (column: Name("u"), {input}),
+                        (column: Name("y"), signal: {signal}, unit: {unit}),
+                    ],
+                    sampling: Rate(hz: 1000.0),
+                )),
+                preprocess: (window: Whole, rig: (lever_arm_m: 1.0, known_inertia: Fixed(0.0))),
+                identify: (fitted_output: {fitted}, constraints: [Positive]),
+            )"#,
+            path = folder.path(),
+        );
+        let study = Study::parse(&text, Path::new("rig.ron")).unwrap();
+        let quiet = |_: snug_study::ProgressEvent<'_>| ();
+        let never = AtomicBool::new(false);
+        let settings = RunSettings::new(out.path());
+        let outcome = diagnose(&study, verb, &settings, &quiet, &never).unwrap();
+        outcome.result.diagnosis.unwrap()
+    }
+}
+
+/// Samples every millisecond of what `rate` moves from rest, the input held from sample to sample.
+fn moved(
+    inputs: &[f64],
+    steps: u32,
+    rate: impl Fn([f64; 2], f64) -> [f64; 2],
+) -> impl Iterator<Item = [f64; 2]> {
+    let h = 1e-3 / f64::from(steps);
+    let mut state = [0.0; 2];
+    inputs.iter().map(move |&u| {
+        let sample = state;
+        for _ in 0..steps {
+            let [x, v] = state;
+            let [x_rate, v_rate] = rate(state, u);
+            let middle = rate([x + 0.5 * h * x_rate, v + 0.5 * h * v_rate], u);
+            state = [x + h * middle[0], v + h * middle[1]];
+        }
+        sample
+    })
+}
+
+/// Of unit variance and all the same at every run: twelve even numbers, summed.
+struct Noise(u64);
+
+impl Noise {
+    fn even(&mut self) -> f64 {
+        self.0 = (self.0.wrapping_mul(6_364_136_223_846_793_005))
+            .wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 11) as f64 / 2.0_f64.powi(53)
+    }
+
+    fn draw(&mut self) -> f64 {
+        (0..12).map(|_| self.even()).sum::<f64>() - 6.0
+    }
+}
+
+/// A motor that is turned one way in one recording and the other way in the next: dry friction and what its torque sensor reads at rest
+/// show together only, and a friction with a shape is nearer to either alone. Its recordings are long for how slowly it moves.
+#[test]
+fn a_motor_turned_both_ways_lacks_dry_friction_and_an_offset() {
+    let mut noise = Noise(1);
+    let recording = |way: f64, noise: &mut Noise| -> Vec<[f64; 2]> {
+        let levels: Vec<f64> = (0..8).map(|_| way * (0.8 + 1.2 * noise.even())).collect();
+        let inputs: Vec<f64> = (0..8000).map(|k| levels[k / 1000]).collect();
+        let rate =
+            |[_, v]: [f64; 2], u: f64| [v, (u - 0.1 * v - 0.3 * (v / 0.01).tanh() - 0.08) / 0.05];
+        let speeds = moved(&inputs, 6, rate).map(|[_, v]| v);
+        let measured = inputs.iter().zip(speeds);
+        measured
+            .map(|(&u, v)| [u, v + 0.03 * noise.draw()])
+            .collect()
+    };
+    let ways = [1.0, -1.0, 1.0, -1.0];
+    let rig = Rig {
+        recordings: ways.map(|way| recording(way, &mut noise)).to_vec(),
+        declared: [
+            "signal: Torque, unit: NewtonMetre",
+            "Velocity",
+            "RadianPerSecond",
+        ],
+        fitted: "Velocity",
+    };
+    let diagnosis = rig.told(&Verb::Improve);
+    let mut added: Vec<(&str, f64)> = (diagnosis.added.iter())
+        .map(|one| (one.effect.as_str(), one.parameters[0].value))
+        .collect();
+    added.sort_by(|a, b| a.0.cmp(b.0));
+    let [("coulomb_friction", friction), ("torque_offset", offset)] = added[..] else {
+        panic!("{added:?}: {}", diagnosis.headline)
+    };
+    assert!(
+        (friction - 0.3).abs() < 0.01 && (offset - 0.08).abs() < 0.01,
+        "{added:?}"
+    );
+    assert_eq!(
+        diagnosis.verdict,
+        Verdict::Adequate,
+        "{}",
+        diagnosis.headline
+    );
+}
+
+/// A carriage on a screw, eight short recordings: what takes most of the error in parts that took no part comes first, with its size,
+/// and the model without it is not called adequate.
+#[test]
+fn a_screw_s_ripple_comes_first_of_eight_recordings() {
+    let mut noise = Noise(2);
+    let recording = |noise: &mut Noise| -> Vec<[f64; 2]> {
+        let tones: Vec<[f64; 2]> = (0..12)
+            .map(|tone| {
+                [
+                    0.5 * 16.0_f64.powf(f64::from(tone) / 11.0),
+                    TAU * noise.even(),
+                ]
+            })
+            .collect();
+        let force = |t: f64| -> f64 {
+            let tones = tones.iter().map(|[hz, phase]| (TAU * hz * t + phase).sin());
+            16.0 * tones.sum::<f64>()
+        };
+        let inputs: Vec<f64> = (0..1500).map(|k| force(1e-3 * f64::from(k))).collect();
+        let rate = |[x, v]: [f64; 2], u: f64| {
+            let ripple = 10.0 * (TAU * x / 0.006 + 0.7).sin();
+            [v, (u - 20.0 * v - 400.0 * x - ripple) / 3.0]
+        };
+        let places = moved(&inputs, 10, rate).map(|[x, _]| x);
+        let measured = inputs.iter().zip(places);
+        measured
+            .map(|(&u, x)| [u, x + 1e-4 * noise.draw()])
+            .collect()
+    };
+    let rig = Rig {
+        recordings: (0..8).map(|_| recording(&mut noise)).collect(),
+        declared: ["signal: Force, unit: Newton", "Displacement", "Metre"],
+        fitted: "Displacement",
+    };
+    let diagnosis = rig.told(&Verb::Diagnose);
+    let first = &diagnosis.ranking[0];
+    assert_eq!(first.effect, "torque_ripple", "{}", diagnosis.headline);
+    assert_ne!(
+        diagnosis.verdict,
+        Verdict::Adequate,
+        "{}",
+        diagnosis.headline
+    );
+    let [sine, cosine, wavelength] = [0, 1, 2].map(|index| first.parameters[index].value);
+    assert!((sine.hypot(cosine) - 10.0).abs() < 0.3, "{sine} {cosine}");
+    assert!((wavelength - 0.006).abs() < 3e-5, "{wavelength}");
+}
