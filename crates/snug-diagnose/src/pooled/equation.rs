@@ -84,12 +84,11 @@ pub(crate) fn values_at(pooled: &PooledModel<'_>, place: &Start) -> Vec<Vec<f64>
         .collect()
 }
 
-/// Whether numbers that explain the share `kept` of the measured acceleration fall short of what a regression promises.
-pub(crate) fn falls_short(kept: f64, promised: &EquationFit) -> bool {
+/// Whether numbers that explain the share `kept` of the measured acceleration fall short of what a regression promises, if that is
+/// `least` or more.
+pub(crate) fn falls_short(kept: f64, promised: &EquationFit, least: f64) -> bool {
     let left = 1.0 - promised.explained;
-    promised.is_driven()
-        && promised.explained >= PROMISES
-        && 1.0 - kept > FALLS_SHORT * left.max(0.01)
+    promised.is_driven() && promised.explained >= least && 1.0 - kept > FALLS_SHORT * left.max(0.01)
 }
 
 /// Where the regression puts the numbers of a model whose fit ended at `end` and falls short of it; `None` where it does not.
@@ -105,7 +104,7 @@ pub(crate) fn regression_start(pooled: &PooledModel<'_>, end: &Start) -> Option<
     let found = plain
         .equation
         .fit(&terms.into_iter().flatten().collect::<Vec<_>>())?;
-    if !falls_short(kept, &found) {
+    if !falls_short(kept, &found, PROMISES) {
         return None;
     }
     let mut start = with_base(pooled, end, &found.base);

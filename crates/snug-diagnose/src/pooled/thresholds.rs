@@ -54,12 +54,13 @@ pub(crate) const FEWEST_BETWEEN_RESTARTS: usize = 16;
 pub(crate) const LOST: f64 = 0.01;
 /// Correlation of neighbouring samples below which what is lost is noise \[–\]. Chosen.
 pub(crate) const WHITE: f64 = 0.1;
-/// Share of the measured acceleration's power that a plain regression must explain before a simulated fit is held against it \[–\]:
-/// with less, most of what is averaged is noise. Chosen.
+/// Share of the measured acceleration's power that a regression must explain before a simulated fit that falls short of it is begun
+/// again from its numbers \[–\]: with less, most of what is averaged is noise. Chosen.
 pub(crate) const PROMISES: f64 = 0.8;
 /// Times as much of that power as the regression leaves, taken as no less than a hundredth, from which a simulated fit falls short of
-/// it \[–\].
+/// it \[–\]. Of good fits (motor, drive, pendulum, oscillator, in angle, velocity or acceleration) the worst leaves 1.1 times as much.
 pub(crate) const FALLS_SHORT: f64 = 4.0;
 /// Equation error of one machine with dry friction and an offset, over that of several without, below which they are one \[–\]: as
-/// far below as several must leave of the simulated error to be several.
+/// far below as several must leave of the simulated error to be several. Four tests of a motor that lacks friction leave 0.008, torque
+/// steps of a rig that turns harder one way than the other 0.92.
 pub(crate) const ONE_WITH_FRICTION: f64 = ONE_MACHINE;

@@ -4,6 +4,7 @@
 use crate::data::cases::Cases;
 use crate::pooled::equation::{PlainEquation, falls_short, named, values};
 use crate::pooled::fitted::Fitted;
+use crate::verdict::thresholds::PLAIN_PROMISE;
 use snug_campaign::words::suspicion::FailedFit;
 use snug_identify::EquationFit;
 
@@ -43,7 +44,7 @@ pub(crate) fn shortfall(cases: Cases<'_>, fitted: &Fitted, were_tried: bool) -> 
         kept,
         sizes: named(&found.base),
     };
-    let fails = |found: &EquationFit| falls_short(kept, found);
+    let fails = |found: &EquationFit| falls_short(kept, found, PLAIN_PROMISE);
     let own = own.filter(fails).map(|found| told(found, false));
     own.or_else(|| further.filter(fails).map(|found| told(found, true)))
 }

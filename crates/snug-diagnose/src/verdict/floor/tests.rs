@@ -66,5 +66,6 @@ fn a_fit_with_the_effect_keeps_the_promise() {
     let effects = [*friction.unwrap()];
     let at = [[TRUTH.as_slice(), &[15.0]].concat()];
     let kept = plain.equation.explained_by(&effects, &at).unwrap();
-    assert!(!falls_short(kept, &plain.plainly(&effects, &at).unwrap()));
+    let promised = plain.plainly(&effects, &at).unwrap();
+    assert!(!falls_short(kept, &promised, PLAIN_PROMISE));
 }
