@@ -14,6 +14,7 @@ mod intervals;
 mod layers;
 mod made_up_rigs;
 mod many;
+mod motor;
 mod mystery;
 mod one_pass;
 mod other_rigs;

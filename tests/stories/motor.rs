@@ -1,0 +1,98 @@
+//! Four tests of one motor, voltage in and speed out, as robotics teams make them: two slow ramps and two steps. Each by itself is
+//! explained by a mass and a damper of its own; all four by dry friction, as a plain regression says in milliseconds.
+
+use snug_study::{RunSettings, Study, Verb, diagnose};
+use std::f64::consts::TAU;
+use std::fmt::Write as _;
+use std::path::Path;
+use std::sync::atomic::AtomicBool;
+
+/// V = kS sgn v + kV v + kA dv/dt.
+const FRICTION_V: f64 = 0.23;
+const DAMPING_V_S_PER_RAD: f64 = 1.9;
+const INERTIA_V_S2_PER_RAD: f64 = 0.109;
+const RATE_HZ: f64 = 200.0;
+
+/// A test under `volt`, by small steps of the midpoint rule, the speed with noise of 0.01 rad/s; in other units so many times
+/// as large.
+fn recorded(volt: impl Fn(f64) -> f64, seconds: f64, [volts, speeds]: [f64; 2]) -> String {
+    const STEPS: u32 = 100;
+    let h = 1.0 / RATE_HZ / f64::from(STEPS);
+    let rate = |t: f64, v: f64| {
+        let friction = FRICTION_V * (v / 1e-3).tanh();
+        (volt(t) - DAMPING_V_S_PER_RAD * v - friction) / INERTIA_V_S2_PER_RAD
+    };
+    let (mut v, mut table) = (0.0, "volt,speed\n".to_owned());
+    for row in 0..(seconds * RATE_HZ) as u32 {
+        let start = f64::from(row) / RATE_HZ;
+        // Twelve numbers of no pattern, less their mean: nearly normal.
+        let draw = |k: u32| {
+            let number = (f64::from(12 * row + k) * 12.9898 + seconds).sin() * 43_758.545;
+            number - number.floor() - 0.5
+        };
+        let noise: f64 = (0..12).map(draw).sum();
+        let measured = speeds * (v + 0.01 * noise);
+        writeln!(table, "{:?},{measured:?}", volts * volt(start)).unwrap();
+        for step in 0..STEPS {
+            let t = start + f64::from(step) * h;
+            v += h * rate(t + 0.5 * h, v + 0.5 * h * rate(t, v));
+        }
+    }
+    table
+}
+
+/// What `improve` adds, with sizes.
+fn added(units: [f64; 2], hz: f64) -> Vec<(String, f64)> {
+    let folder = tempfile::tempdir().unwrap();
+    let data = folder.path().join("tests");
+    std::fs::create_dir(&data).unwrap();
+    let step = |volt: f64| move |t: f64| if t > 0.302 { volt } else { 0.0 };
+    for (name, table) in [
+        ("ramp_up", recorded(|t| 0.25 * t, 20.0, units)),
+        ("ramp_down", recorded(|t| -0.25 * t, 20.1, units)),
+        ("step_up", recorded(step(4.0), 4.0, units)),
+        ("step_down", recorded(step(-4.0), 4.1, units)),
+    ] {
+        std::fs::write(data.join(name).with_extension("csv"), table).unwrap();
+    }
+    let text = format!(
+        r#"(
+            source: (path: {data:?}, format: Csv(
+                channels: [
+                    (column: Name("volt"), signal: Torque, unit: Volt),
+                    (column: Name("speed"), signal: Velocity, unit: RadianPerSecond),
+                ],
+                sampling: Rate(hz: {hz:?}),
+            )),
+            preprocess: (window: Whole, rig: (lever_arm_m: 1.0, known_inertia: Fixed(0.0))),
+            identify: (fitted_output: Velocity, constraints: [Positive]),
+        )"#
+    );
+    let study = Study::parse(&text, Path::new("rig.ron")).unwrap();
+    let out = tempfile::tempdir().unwrap();
+    let quiet = |_: snug_study::ProgressEvent<'_>| ();
+    let never = AtomicBool::new(false);
+    let settings = RunSettings::new(out.path());
+    let outcome = diagnose(&study, &Verb::Improve, &settings, &quiet, &never).unwrap();
+    let diagnosis = outcome.result.diagnosis.unwrap();
+    let added = diagnosis.added.into_iter();
+    added
+        .map(|one| (one.effect, one.parameters[0].value))
+        .collect()
+}
+
+/// In volts and rad/s, and in millivolts, sevenths of a turn per minute and seconds that are said to be 200 times as long.
+#[test]
+fn four_tests_of_a_motor_lack_dry_friction_and_nothing_else_in_any_unit() {
+    for (units, hz) in [([1.0, 1.0], RATE_HZ), ([1000.0, 7.0 * 60.0 / TAU], 1.0)] {
+        let added = added(units, hz);
+        let [(effect, friction)] = added.as_slice() else {
+            panic!("{added:?}")
+        };
+        assert_eq!(effect, "coulomb_friction");
+        assert!(
+            (friction / units[0] / FRICTION_V - 1.0).abs() < 0.03,
+            "{added:?}"
+        );
+    }
+}
