@@ -98,6 +98,15 @@ impl Fitted {
         fitted
     }
 
+    /// How many more numbers its effects have where each of a few long recordings has some of its own than where all share one; 0 of
+    /// whole tightenings, each of which shows its own.
+    pub fn more_for_each_recording(&self) -> usize {
+        match self.clusters.are_whole() {
+            true => 0,
+            false => self.own_effect_count * self.own.len().saturating_sub(1),
+        }
+    }
+
     /// Where this fit ended as a start for `pooled`, which may hold other effects; those begin as usual.
     pub fn start(&self, pooled: &PooledModel<'_>) -> Start {
         let all: Vec<usize> = (0..self.own.len()).collect();

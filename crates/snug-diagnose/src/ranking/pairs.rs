@@ -79,7 +79,12 @@ pub(crate) fn promising_pairs(
             p_family: (as_far + 1) as f64 / (largest.len() + 1) as f64,
         }
     };
-    best.into_iter().map(of_pair).collect()
+    let best: Vec<Pair> = best.into_iter().map(of_pair).collect();
+    for Pair { effects, p_family } in &best {
+        let [a, b] = effects.map(|effect| effect.name());
+        tracing::debug!(a, b, p_family, "promise much together");
+    }
+    best
 }
 
 /// Σ u of both.

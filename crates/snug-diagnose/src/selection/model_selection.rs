@@ -20,7 +20,7 @@ use crate::selection::thresholds::{
 use crate::settings::DiagnoseSettings;
 use crate::watch::Watch;
 use snug_least_squares::PooledSettings;
-use snug_model::{Effect, Law};
+use snug_model::Effect;
 
 /// What stays the same while effects are looked for.
 #[derive(Clone, Copy)]
@@ -274,10 +274,9 @@ impl ModelSelection<'_> {
             let is_richer = first.is_richer_than(other);
             is_listed(other) && (as_much || (is_richer && other.does_for(first, current)))
         };
-        let parameters = |&other: &usize| all[other].effect.description().parameters.len();
         (first..all.len())
             .filter(explains_as_much)
-            .min_by_key(parameters)
+            .min_by_key(|&other| all[other].number_count())
     }
 
     /// What to add: one effect, or, where one leaves much, the two that together leave least. Of equals a catalogue
