@@ -220,6 +220,24 @@ fn certainty(page: &mut Page, diagnosis: &Diagnosis) {
     );
 }
 
+/// The law that is in no catalogue, ready for the study, or where its shape can be seen.
+fn paste_the_law(page: &mut Page, diagnosis: &Diagnosis) {
+    match &diagnosis.unlisted {
+        Some(term) => {
+            page.paragraph("  ", &term.statement);
+            page.paragraph(
+                "  ",
+                "To keep it as a law of your own, paste this into the study's model.custom list:",
+            );
+            page.line(&format!("    {}", term.ron));
+        }
+        None => page.paragraph(
+            "  ",
+            "The report draws the missing force over time, displacement and velocity.",
+        ),
+    }
+}
+
 fn next(page: &mut Page, diagnosis: &Diagnosis, following: &Following<'_>) {
     page.heading("What to do next");
     let command = |page: &mut Page, words: &str| {
@@ -255,14 +273,7 @@ fn next(page: &mut Page, diagnosis: &Diagnosis, following: &Following<'_>) {
             command(page, "improve");
         }
         Verdict::UnlistedEffect => {
-            match &diagnosis.unlisted {
-                Some(term) => {
-                    page.paragraph("  ", &term.statement);
-                    page.paragraph("  ", "To keep it as a law of your own, paste this into the study's model.custom list:");
-                    page.line(&format!("    {}", term.ron));
-                }
-                None => page.paragraph("  ", "The report draws the missing force over time, displacement and velocity."),
-            }
+            paste_the_law(page, diagnosis);
             if !climbed {
                 page.paragraph("  ", "Or let Snug add it and see the error before and after:");
                 command(page, "improve");

@@ -78,7 +78,7 @@ pub enum Reason {
         /// The effect.
         effect: Named,
         /// The parameter that differs.
-        parameter: EffectParameter,
+        parameter: Box<EffectParameter>,
     },
     /// What to check where no model fits.
     Check(Suspicion),

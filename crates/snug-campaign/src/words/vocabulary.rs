@@ -154,7 +154,7 @@ impl Vocabulary {
         for reason in &mut told.reasons {
             match reason {
                 Reason::Size(parameters) | Reason::Drifts { parameters, .. } => all(parameters),
-                Reason::Whose { parameter, .. } => *parameter = axis.size(parameter),
+                Reason::Whose { parameter, .. } => **parameter = axis.size(parameter),
                 Reason::TakenOut { corrected, .. } => {
                     let (factor, unit) = axis.about(&corrected.unit);
                     corrected.size *= factor;

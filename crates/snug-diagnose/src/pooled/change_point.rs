@@ -46,8 +46,8 @@ pub(super) fn change_point(
         }
     }
     sum = 0.0;
-    for place in here..costs.len() - 1 {
-        sum += costs[place].1;
+    for (place, (_, cost)) in costs.iter().enumerate().take(costs.len() - 1).skip(here) {
+        sum += cost;
         if sum < most {
             last = place + 1;
         }

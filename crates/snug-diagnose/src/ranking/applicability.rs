@@ -35,12 +35,13 @@ pub(crate) fn candidates(
     // Of a few long records kin of what is there may come in its place, not beside it: dry friction with a shape is one friction.
     let has_kin = |effect: &Effect| current.effects.iter().any(|&one| are_kin(one, *effect));
     all.retain(|effect| !(current.are_stretches() && has_kin(effect)));
-    // What a simulation cannot carry beside the effects that are there is no candidate.
-    all.retain(|&effect| {
-        let with = [current.effects.as_slice(), &[effect]].concat();
-        cases[0].model_with(&with).is_ok()
-    });
+    all.retain(|&effect| can_stand_beside(&current.effects, effect, case));
     Ok(all)
+}
+
+/// Whether a simulation can carry `effect` beside these: it has states and parameters for so many only.
+pub(crate) fn can_stand_beside(others: &[Effect], effect: Effect, case: &FitTask<'_>) -> bool {
+    case.model_with(&[others, &[effect]].concat()).is_ok()
 }
 
 /// Whether `effect` could be what a measurement like `case` shows.

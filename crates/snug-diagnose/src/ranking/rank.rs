@@ -163,18 +163,9 @@ pub(crate) fn rank(
                 cases, current, effect, &columns, promise, clusters, settings,
             );
             watch.pieces(Pieces::Done);
-            let Some(fitted) = possible(fitted)? else {
-                return Ok(None);
-            };
-            let gains = gains(&heldout, &fitted);
-            let own = columns.iter().filter(|column| column.effect == effect);
-            Ok(Some(Candidate {
-                effect,
-                score: own.map(Column::statistic).fold(0.0, f64::max),
-                p_family: family.p(&columns, effect),
-                is_told_from_nothing: is_told_from_nothing(&cases, &fitted, effect),
-                fitted,
-                gains,
+            Ok(possible(fitted)?.map(|fitted| {
+                let p_family = family.p(&columns, effect);
+                judged(cases, effect, fitted, &heldout, &columns, p_family)
             }))
         })
         .collect();
@@ -200,6 +191,26 @@ pub(crate) fn rank(
         columns,
         control,
     })
+}
+
+/// A refitted candidate beside what was left without it.
+fn judged(
+    cases: Cases<'_>,
+    effect: Effect,
+    fitted: Fitted,
+    heldout: &[f64],
+    columns: &[Column],
+    p_family: f64,
+) -> Candidate {
+    let own = columns.iter().filter(|column| column.effect == effect);
+    Candidate {
+        effect,
+        score: own.map(Column::statistic).fold(0.0, f64::max),
+        p_family,
+        is_told_from_nothing: is_told_from_nothing(&cases, &fitted, effect),
+        gains: gains(heldout, &fitted),
+        fitted,
+    }
 }
 
 /// Follows the best to their ends, judges every gain by chance too, and sorts.

@@ -61,7 +61,8 @@ pub(super) fn best_where_it_shows(
         .score(effects)?
         .columns;
     let heldout = of_part.heldout_beyond_torque_noise();
-    let found: Vec<Result<Option<(f64, Effect, Fitted)>, DiagnoseError>> = effects
+    type Gaining = Option<(f64, Effect, Fitted)>;
+    let found: Vec<Result<Gaining, DiagnoseError>> = effects
         .par_iter()
         .map(|&effect| {
             watch.go_on()?;

@@ -8,7 +8,7 @@ use crate::error::DiagnoseError;
 use crate::library::is_unlisted;
 use crate::pooled::fit::fit_effects;
 use crate::pooled::fitted::Fitted;
-use crate::ranking::applicability::can_act;
+use crate::ranking::applicability::{can_act, can_stand_beside};
 use crate::ranking::kin::{are_kin, is_simpler};
 use crate::ranking::rank::{Candidate, rank};
 use crate::selection::model_selection::ModelSelection;
@@ -93,17 +93,18 @@ impl ModelSelection<'_> {
         let (last, first) = (path.last(), &path.rungs[0]);
         let (case, model) = (&self.cases[0], &self.cases[0].model);
         let is_there = |other: Effect| last.effects.iter().any(|one| one.name() == other.name());
-        let kin: Vec<Effect> = (Effect::ALL.iter())
+        let mut others = last.effects.clone();
+        others.retain(|known| *known != effect);
+        let mut kin: Vec<Effect> = (Effect::ALL.iter())
             .filter(|&&other| are_kin(other, effect) && !is_there(other) && can_act(other, case))
             .map(|&other| model.scale().effect(other, model.rig()))
             .collect::<Result<_, _>>()?;
+        kin.retain(|&other| can_stand_beside(&others, other, case));
         if kin.is_empty() {
             return Ok(None);
         }
         self.watch
             .begin(&format!("looking for what does for {}", effect.name()))?;
-        let mut others = last.effects.clone();
-        others.retain(|known| *known != effect);
         let Ok(without) = fit_effects(self.cases, &others, Some(last), self.clusters) else {
             return Ok(None);
         };

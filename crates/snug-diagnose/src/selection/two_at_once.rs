@@ -4,6 +4,7 @@
 use crate::error::DiagnoseError;
 use crate::pooled::fitted::Fitted;
 use crate::pooled::sizes::is_told_from_nothing;
+use crate::ranking::applicability::can_stand_beside;
 use crate::ranking::paired_gain::gains;
 use crate::ranking::pairs::Pair;
 use crate::ranking::rank::{Candidate, Ranking, rank};
@@ -63,6 +64,9 @@ impl ModelSelection<'_> {
                 continue;
             };
             let alone = &ranking.candidates[seed].fitted;
+            if !can_stand_beside(&alone.effects, second, &self.cases[0]) {
+                continue;
+            }
             let (clusters, settings) = (self.clusters, self.settings);
             let next = rank(
                 self.cases,

@@ -225,7 +225,7 @@ fn whose(situation: &Situation<'_>) -> Vec<Reason> {
         let differing = parameters.iter().filter(|one| one.by_group.is_some());
         differing.map(move |parameter| Reason::Whose {
             effect: named(effect),
-            parameter: parameter.clone(),
+            parameter: Box::new(parameter.clone()),
         })
     };
     additions.flat_map(|one| of_one(one.effect)).collect()

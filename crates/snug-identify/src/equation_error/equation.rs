@@ -35,7 +35,7 @@ pub struct MotionEquation<'a> {
 pub struct EquationFit {
     /// m, c, k \[kg, kg/s, N/m\]; those that are fixed as they are.
     pub base: [f64; BASE],
-    /// How many times each term acts.
+    /// How many times each term acts \[–\].
     pub times: Vec<f64>,
     /// Share of the averaged acceleration's power that it explains \[–\].
     pub explained: f64,

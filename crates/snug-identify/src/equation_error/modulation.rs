@@ -6,7 +6,7 @@
 /// φ(u) = (1 − u²)⁴ between −1 and 1 over some samples, of mean 1, and what stands for it under derivatives.
 #[derive(Debug, Clone)]
 pub struct Modulation {
-    /// φ: makes the mean of what it weighs.
+    /// φ \[–\]: makes the mean of what it weighs.
     pub of_value: Vec<f64>,
     /// −φ' \[1/s\]: makes the mean rate of what it weighs.
     pub of_slope: Vec<f64>,

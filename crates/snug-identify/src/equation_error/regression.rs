@@ -18,7 +18,7 @@ use snug_least_squares::{
 /// One unknown of a regression.
 #[derive(Debug, Clone)]
 pub struct Column {
-    /// Its column, record by record.
+    /// Its column, record by record, in a unit of its own.
     pub of_records: Vec<Vec<f64>>,
     /// Whether it is free of noise, and so its own instrument.
     pub is_exact: bool,
@@ -29,7 +29,7 @@ pub struct Column {
 /// What is regressed on what.
 #[derive(Debug, Clone)]
 pub struct Regression<'a> {
-    /// The left-hand side, record by record.
+    /// The left-hand side, record by record, in a unit of its own.
     pub left: &'a [Vec<f64>],
     /// The unknowns.
     pub columns: &'a [Column],
