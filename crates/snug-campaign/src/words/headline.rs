@@ -81,6 +81,8 @@ pub enum Headline {
         added: Vec<Named>,
         /// How the error fell.
         fall: Fall,
+        /// How much of the output is explained, where the noise is not known.
+        explained: Option<Explained>,
     },
     /// Terms that are in no catalogue were added.
     Unlisted {
@@ -140,17 +142,7 @@ impl Display for Headline {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self {
             Self::Stopped { added, fall } => stopped(f, added, *fall),
-            Self::Lacks { effect, fall } => {
-                let what = match effect.is_unlisted() {
-                    true => "A law that is not in the catalogue is missing, best described as",
-                    false => "The model lacks",
-                };
-                write!(
-                    f,
-                    "{what} {}: with it the error falls {fall}.",
-                    effect.with_twins()
-                )
-            }
+            Self::Lacks { effect, fall } => lacks(f, effect, *fall),
             Self::Differs {
                 effect,
                 groups,
@@ -160,7 +152,11 @@ impl Display for Headline {
                 "What the model lacks is that {} is not the same for all {groups}: with a size for each the error falls {fall}.",
                 effect.spoken()
             ),
-            Self::MoreThanNoise { added, fall } => more_than_noise(f, added, *fall),
+            Self::MoreThanNoise {
+                added,
+                fall,
+                explained,
+            } => more_than_noise(f, added, *fall, *explained),
             Self::Unlisted {
                 added,
                 further,
@@ -207,6 +203,18 @@ impl Display for Headline {
     }
 }
 
+fn lacks(f: &mut Formatter<'_>, effect: &Named, fall: Fall) -> fmt::Result {
+    let what = match effect.is_unlisted() {
+        true => "A law that is not in the catalogue is missing, best described as",
+        false => "The model lacks",
+    };
+    write!(
+        f,
+        "{what} {}: with it the error falls {fall}.",
+        effect.with_twins()
+    )
+}
+
 fn stopped(f: &mut Formatter<'_>, added: &[Named], fall: Fall) -> fmt::Result {
     match added {
         [] => write!(
@@ -247,12 +255,20 @@ fn too_little(
     }
 }
 
-fn more_than_noise(f: &mut Formatter<'_>, added: &[Named], fall: Fall) -> fmt::Result {
+fn more_than_noise(
+    f: &mut Formatter<'_>,
+    added: &[Named],
+    fall: Fall,
+    explained: Option<Explained>,
+) -> fmt::Result {
     match added {
         [] => write!(f, "The model leaves {}", fall.after),
         added => write!(f, "With {} the error fell {fall}", named(added)),
     }?;
-    f.write_str(", which is more than noise, and nothing that was tried explains the rest: the verdict is open.")
+    f.write_str(", which is more than noise, and nothing that was tried explains the rest: the verdict is open.")?;
+    explained.map_or(Ok(()), |all| {
+        write!(f, " The model explains {all}. {}", all.left())
+    })
 }
 
 /// What is small beside what the verdict is about.

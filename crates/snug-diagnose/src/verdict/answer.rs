@@ -18,7 +18,7 @@ use crate::verdict::experiment::separating_experiment;
 use crate::verdict::reasons::{
     Held, Situation, explanation, headline, paste, reasons, removal, stopped,
 };
-use crate::verdict::thresholds::{BESIDE_EFFECTS, REPEATS, WHITE};
+use crate::verdict::thresholds::{BESIDE_EFFECTS, MOSTLY_EXPLAINED, REPEATS, WHITE};
 use crate::verdict::tightening_fits::TighteningFits;
 use crate::verdict::trend::trends;
 use crate::verdict::{detectability, floor, in_some_groups, ladder, preparation};
@@ -290,22 +290,24 @@ impl Examination<'_> {
         }
         match self.path.is_promising(self.settings) {
             Some(_) if !is_white => Verdict::Undecided,
-            _ if self.is_more_than_noise() => Verdict::Undecided,
+            _ if self.is_more_than_noise() && !is_white => Verdict::Undecided,
             _ if earned::keeps_the_promise(share, self.question.cases) => Verdict::Adequate,
             _ => Verdict::NotFitted,
         }
     }
 
-    /// Whether more is left than the noise is uncertain by, though no candidate is chosen or promising: that is no adequate model.
-    /// Beside an effect that lets go, the instants at which the grip sets in are never quite right.
+    /// Whether more is left than the noise is uncertain by, or where nobody knows the noise a good part of the output, though no candidate
+    /// is chosen or promising: that is no adequate model. Beside an effect that lets go, the instants at which the grip sets in are never
+    /// quite right.
     fn is_more_than_noise(&self) -> bool {
         let last = self.path.last();
         let lets_go = last.effects.iter().any(|one| one.has_unilateral_contact());
         let floor = if lets_go { BESIDE_EFFECTS } else { AT_FLOOR };
-        last.is_weighted
-            && last.error() > floor
-            && self.path.chosen.is_none()
-            && self.path.is_promising(self.settings).is_none()
+        let leaves_much = match earned::share(self.question.cases, last) {
+            Some(share) => share < MOSTLY_EXPLAINED,
+            None => last.error() > floor,
+        };
+        leaves_much && self.path.chosen.is_none() && self.path.is_promising(self.settings).is_none()
     }
 
     /// The candidates, the chosen one first, and behind them the trends.

@@ -160,6 +160,7 @@ pub(crate) fn headline(situation: &Situation<'_>) -> Headline {
         (Verdict::Undecided, _) if situation.is_more_than_noise => Headline::MoreThanNoise {
             added: [added, further].concat(),
             fall: fell,
+            explained: situation.explained,
         },
         (Verdict::Undecided | Verdict::MissingEffect, _) => Headline::TooLittle {
             tightenings: situation
