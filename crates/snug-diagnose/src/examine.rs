@@ -103,3 +103,44 @@ fn one_machine_or_several<'a>(
         false => cases,
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pooled::together::fit_together;
+    use crate::tests::made_up::{SAMPLES, exact, silent};
+    use snug_identify::{FitTask, IdentifyError};
+
+    #[test]
+    fn a_tightening_that_was_not_measured_is_refused_by_name() {
+        let refused = |case: FitTask<'_>, expected: IdentifyError| {
+            let cases = [exact(0, &[], &[]), case];
+            let question = Question::new(&cases, Goal::Diagnose);
+            let examined = examine(&question, &DiagnoseSettings::default(), &silent());
+            for error in [examined.err(), fit_together(&cases, &[]).err()] {
+                let Some(DiagnoseError::Identify(error)) = error else {
+                    panic!("{error:?}")
+                };
+                assert_eq!(error, expected);
+            }
+        };
+        let (mut unmeasured, mut unscored) = (exact(1, &[], &[]), exact(1, &[], &[]));
+        unmeasured.settings.to_mut().unscored_samples = 5;
+        unmeasured
+            .tightening
+            .to_mut()
+            .motion
+            .acceleration_rad_per_s2 = None;
+        let quantity = unmeasured.quantity();
+        refused(unmeasured, IdentifyError::MissingOutput { quantity });
+        unscored.settings.to_mut().unscored_samples = SAMPLES - 2;
+        let (residuals, parameters) = (2, 3);
+        refused(
+            unscored,
+            IdentifyError::TooShort {
+                residuals,
+                parameters,
+            },
+        );
+    }
+}

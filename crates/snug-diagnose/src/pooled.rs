@@ -11,6 +11,7 @@ pub(crate) mod hold_out;
 pub(crate) mod long_record;
 pub(crate) mod model;
 pub(crate) mod parameter_place;
+mod part;
 mod residual;
 pub(crate) mod sharing;
 pub(crate) mod sizes;

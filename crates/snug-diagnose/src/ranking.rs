@@ -12,6 +12,7 @@ pub(crate) mod pairs;
 pub(crate) mod rank;
 pub(crate) mod refit;
 pub(crate) mod resonances;
+mod score_of_groups;
 pub(crate) mod score_test;
 pub(crate) mod sensitivity;
 pub(crate) mod thresholds;

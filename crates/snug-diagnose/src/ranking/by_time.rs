@@ -1,12 +1,12 @@
 //! Whether the size of an effect changes at some number or place of the campaign, or grows evenly with the number.
 //!
-//! Every place between two tightenings is looked at (the score test of `by_group` with two groups, a sum over those before and one over
+//! Every place between two tightenings is looked at (the score test of two groups, a sum over those before and one over
 //! those after); the best of them counts as the best of so many.
 
 use crate::data::cases::Cases;
 use crate::pooled::fitted::Fitted;
 use crate::pooled::sharing::Groups;
-use crate::ranking::by_group::{Promise, promise};
+use crate::ranking::score_of_groups::{Promise, promise};
 use crate::ranking::thresholds::FEWEST_BESIDE_A_CHANGE;
 use snug_campaign::{Factor, TighteningId};
 use snug_identify::FitTask;

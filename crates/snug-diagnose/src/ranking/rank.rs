@@ -15,7 +15,7 @@ use crate::ranking::first_ranking::first_ranking;
 use crate::ranking::max_t::Family;
 use crate::ranking::paired_gain::{chance, clearness, gains, spread_of_sum};
 use crate::ranking::pairs::{Pair, promising_pairs};
-use crate::ranking::refit::{followed, refit};
+use crate::ranking::refit::{followed, possible, refit};
 use crate::ranking::score_test::{Control, Scored, Scorer};
 use crate::ranking::sensitivity::Column;
 use crate::ranking::thresholds::{
@@ -351,18 +351,5 @@ fn sort(candidates: &mut [Candidate]) {
     candidates.sort_by(|a, b| b.gain().total_cmp(&a.gain()));
 }
 
-/// A refit, or nothing where this rig cannot be simulated with the effect's starts: they are meant for a hand on a tool.
-pub(super) fn possible(
-    refitted: Result<Fitted, DiagnoseError>,
-) -> Result<Option<Fitted>, DiagnoseError> {
-    match refitted {
-        Ok(fitted) if fitted.squares().is_finite() => Ok(Some(fitted)),
-        Ok(_) | Err(DiagnoseError::Identify(_) | DiagnoseError::Solve(_)) => Ok(None),
-        Err(other) => Err(other),
-    }
-}
-
-#[cfg(test)]
-mod nested;
 #[cfg(test)]
 mod tests;

@@ -98,6 +98,17 @@ fn led_by(
     }
 }
 
+/// A refit, or nothing where this rig cannot be simulated with the effect's starts: they are meant for a hand on a tool.
+pub(super) fn possible(
+    refitted: Result<Fitted, DiagnoseError>,
+) -> Result<Option<Fitted>, DiagnoseError> {
+    match refitted {
+        Ok(fitted) if fitted.squares().is_finite() => Ok(Some(fitted)),
+        Ok(_) | Err(DiagnoseError::Identify(_) | DiagnoseError::Solve(_)) => Ok(None),
+        Err(other) => Err(other),
+    }
+}
+
 /// A candidate of records that take long, from where a few steps led.
 pub(crate) fn followed(
     cases: Cases<'_>,

@@ -14,8 +14,7 @@ use crate::pooled::parameter_place::effect_of;
 use crate::pooled::sharing::Groups;
 use crate::pooled::thresholds::AT_FLOOR;
 use crate::ranking::paired_gain::gains;
-use crate::ranking::rank::possible;
-use crate::ranking::refit::refit;
+use crate::ranking::refit::{possible, refit};
 use crate::ranking::score_test::{Control, Scorer};
 use crate::ranking::thresholds::{
     BEST, BEYOND_THE_QUIET, CANDIDATE, FEWEST_WHERE_IT_SHOWS, HOLDS_THE_MISFIT,

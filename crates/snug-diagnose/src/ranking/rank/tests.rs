@@ -1,5 +1,7 @@
 //! Candidates compared by hand, and small campaigns with a known effect, or none, ranked.
 
+mod nested;
+
 use super::*;
 use crate::data::cases::Tally;
 use crate::pooled::fit::fit_effects;

@@ -1,6 +1,6 @@
 //! A larger model never fits worse: every effect that may act on a rig, and every term, leaves no more than the model without it.
 
-use super::*;
+use super::super::*;
 use crate::data::cases::Tally;
 use crate::ranking::applicability;
 use crate::tests::made_up::{exact, noisy, quick, silent};
