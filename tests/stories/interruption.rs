@@ -57,12 +57,12 @@ fn a_climb_stopped_on_its_way_tells_the_rungs_it_reached() {
         (
             "ranking what is missing beside the base model",
             [].as_slice(),
-            "Stopped by you before an effect was added",
+            "Stopped before an effect was added",
         ),
         (
             "ranking what is missing beside stretch_reflex",
             ["stretch_reflex".to_owned()].as_slice(),
-            "Stopped by you after 1 effect: with stretch reflex the error fell from",
+            "Stopped after 1 effect: with stretch reflex the error fell from",
         ),
     ] {
         let out = tempfile::tempdir().unwrap();
@@ -73,7 +73,7 @@ fn a_climb_stopped_on_its_way_tells_the_rungs_it_reached() {
         let headline = diagnosis.headline.to_string();
         let stopped = diagnosis.stopped.as_ref().unwrap().to_string();
         assert!(headline.starts_with(told), "{headline}");
-        assert!(stopped.starts_with("You ended it"), "{stopped}");
+        assert!(stopped.starts_with("It was ended"), "{stopped}");
         let rungs = &diagnosis.ladder;
         assert_eq!(rungs.len(), 1 + effects.len());
         let evaluated = |rung: &Rung| rung.rms_displacement_rad.is_some();
@@ -84,7 +84,7 @@ fn a_climb_stopped_on_its_way_tells_the_rungs_it_reached() {
         let verdict = std::fs::read_to_string(out.path().join("verdict.json")).unwrap();
         assert!(verdict.contains("\"interrupted\": true"));
         let report = std::fs::read_to_string(out.path().join("report.html")).unwrap();
-        assert!(report.contains("stopped by you before there was a verdict"));
+        assert!(report.contains("stopped before there was a verdict"));
         let further = Study::read(&out.path().join("study.ron")).unwrap();
         assert_eq!(further.model.effects, effects);
     }

@@ -1,6 +1,8 @@
 //! Four tests of one motor, voltage in and speed out, as robotics teams make them: two slow ramps and two steps. Each by itself is
 //! explained by a mass and a damper of its own; all four by dry friction, as a plain regression says in milliseconds.
 
+use snug_campaign::words::headline::Headline;
+use snug_campaign::{Diagnosis, Verdict};
 use snug_study::{RunSettings, Study, Verb, diagnose};
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
@@ -41,17 +43,17 @@ fn recorded(volt: impl Fn(f64) -> f64, seconds: f64, [volts, speeds]: [f64; 2]) 
     table
 }
 
-/// What `improve` adds, with sizes.
-fn added(units: [f64; 2], hz: f64) -> Vec<(String, f64)> {
+/// What `verb` says of two ramps and two steps, each in units of its own.
+fn told(verb: &Verb, units: [[f64; 2]; 4], hz: f64) -> Diagnosis {
     let folder = tempfile::tempdir().unwrap();
     let data = folder.path().join("tests");
     std::fs::create_dir(&data).unwrap();
     let step = |volt: f64| move |t: f64| if t > 0.302 { volt } else { 0.0 };
     for (name, table) in [
-        ("ramp_up", recorded(|t| 0.25 * t, 20.0, units)),
-        ("ramp_down", recorded(|t| -0.25 * t, 20.1, units)),
-        ("step_up", recorded(step(4.0), 4.0, units)),
-        ("step_down", recorded(step(-4.0), 4.1, units)),
+        ("ramp_up", recorded(|t| 0.25 * t, 20.0, units[0])),
+        ("ramp_down", recorded(|t| -0.25 * t, 20.1, units[1])),
+        ("step_up", recorded(step(4.0), 4.0, units[2])),
+        ("step_down", recorded(step(-4.0), 4.1, units[3])),
     ] {
         std::fs::write(data.join(name).with_extension("csv"), table).unwrap();
     }
@@ -73,26 +75,36 @@ fn added(units: [f64; 2], hz: f64) -> Vec<(String, f64)> {
     let quiet = |_: snug_study::ProgressEvent<'_>| ();
     let never = AtomicBool::new(false);
     let settings = RunSettings::new(out.path());
-    let outcome = diagnose(&study, &Verb::Improve, &settings, &quiet, &never).unwrap();
-    let diagnosis = outcome.result.diagnosis.unwrap();
-    let added = diagnosis.added.into_iter();
-    added
-        .map(|one| (one.effect, one.parameters[0].value))
-        .collect()
+    let outcome = diagnose(&study, verb, &settings, &quiet, &never).unwrap();
+    outcome.result.diagnosis.unwrap()
 }
 
 /// In volts and rad/s, and in millivolts, sevenths of a turn per minute and seconds that are said to be 200 times as long.
 #[test]
 fn four_tests_of_a_motor_lack_dry_friction_and_nothing_else_in_any_unit() {
     for (units, hz) in [([1.0, 1.0], RATE_HZ), ([1000.0, 7.0 * 60.0 / TAU], 1.0)] {
-        let added = added(units, hz);
-        let [(effect, friction)] = added.as_slice() else {
+        let added = told(&Verb::Improve, [units; 4], hz).added;
+        let [friction] = added.as_slice() else {
             panic!("{added:?}")
         };
-        assert_eq!(effect, "coulomb_friction");
-        assert!(
-            (friction / units[0] / FRICTION_V - 1.0).abs() < 0.03,
-            "{added:?}"
-        );
+        assert_eq!(friction.effect, "coulomb_friction");
+        let volts = friction.parameters[0].value / units[0];
+        assert!((volts / FRICTION_V - 1.0).abs() < 0.03, "{added:?}");
+    }
+}
+
+/// Half of them were logged in millivolts, or in a speed a thousand times as large: each by itself is fitted as well as ever, and the
+/// motor seems a thousand times as heavy.
+#[test]
+fn recordings_in_other_units_than_the_others_are_no_physics() {
+    for other in [[1000.0, 1.0], [1.0, 1e-3]] {
+        let usual = [1.0, 1.0];
+        let told = told(&Verb::Compare, [usual, other, usual, other], RATE_HZ);
+        assert_eq!(told.verdict, Verdict::NotFitted);
+        let Headline::OtherUnits(units) = &told.headline else {
+            panic!("{}", told.headline)
+        };
+        assert!(units.larger.contains("down") && units.smaller.contains("up"));
+        assert!((units.factor / 1000.0).ln().abs() < 0.7, "{units}");
     }
 }

@@ -6,12 +6,14 @@ use crate::error::DiagnoseError;
 use crate::pooled::decimated::decimated;
 use crate::pooled::equation::is_one_with_friction;
 use crate::pooled::fit::fit_effects;
+use crate::pooled::fitted::Fitted;
 use crate::pooled::thresholds::ONE_MACHINE;
 use crate::question::{Goal, Question};
 use crate::selection::model_selection::ModelSelection;
 use crate::selection::path::SelectionPath;
 use crate::settings::DiagnoseSettings;
 use crate::verdict::answer::{Answer, Examination};
+use crate::verdict::units::in_other_units;
 use crate::watch::Watch;
 use snug_model::Effect;
 
@@ -33,7 +35,7 @@ pub fn examine(
     let clusters = Clusters::of(cases);
     let counted = Cases::checked(cases, &tally, left_out)?;
     let sharing = question.sharing()?;
-    let counted = one_machine_or_several(counted, &question.effects, clusters)?;
+    let (counted, apart) = one_machine_or_several(counted, &question.effects, clusters)?;
     let selection = ModelSelection {
         cases: counted,
         own: &question.effects,
@@ -44,18 +46,24 @@ pub fn examine(
         watch,
     };
     let compared = selection.compare()?;
-    let slow = match question.goal {
+    let units = in_other_units(cases, apart.as_ref().unwrap_or(compared.last()));
+    // What is missing is no question where recordings stand in units of their own.
+    let goal = match units {
+        Some(_) => &Goal::Compare,
+        None => &question.goal,
+    };
+    let slow = match goal {
         Goal::Compare => None,
         _ => decimated(&counted, compared.last()),
     };
     let path = match &slow {
-        None => selected(&selection, &question.goal, compared)?,
+        None => selected(&selection, goal, compared)?,
         Some(slow) => {
             let search = ModelSelection {
                 cases: counted.others(slow),
                 ..selection
             };
-            let path = selected(&search, &question.goal, search.compare()?)?;
+            let path = selected(&search, goal, search.compare()?)?;
             selection.at_full_rate(path, compared)?
         }
     };
@@ -64,6 +72,7 @@ pub fn examine(
         cases: counted,
         settings,
         path,
+        units,
         // What was found is told, however it ended.
         watch: watch.to_the_end(),
     }
@@ -86,22 +95,24 @@ fn selected(
 
 /// Recordings of one machine share mass, damping and stiffness, unless each with its own leaves far less: then something differs
 /// between them, as how warm a bearing is or which way it turns. Dry friction and an offset make such differences, too; where they
-/// explain far more, the machine is one.
+/// explain far more, the machine is one. Beside it the fit of each by itself.
 fn one_machine_or_several<'a>(
     cases: Cases<'a>,
     effects: &[Effect],
     clusters: Clusters,
-) -> Result<Cases<'a>, DiagnoseError> {
+) -> Result<(Cases<'a>, Option<Fitted>), DiagnoseError> {
     if !cases.are_of_one_machine() {
-        return Ok(cases);
+        return Ok((cases, None));
     }
     let several = cases.each_its_own();
-    let left = |cases| fit_effects(cases, effects, None, clusters).map(|fitted| fitted.squares());
-    let leaves_far_less = left(several)? < ONE_MACHINE * left(cases)?;
-    Ok(match leaves_far_less && !is_one_with_friction(&cases) {
+    let [apart, together] = [several, cases].map(|all| fit_effects(all, effects, None, clusters));
+    let (apart, together) = (apart?, together?);
+    let leaves_far_less = apart.squares() < ONE_MACHINE * together.squares();
+    let cases = match leaves_far_less && !is_one_with_friction(&cases) {
         true => several,
         false => cases,
-    })
+    };
+    Ok((cases, Some(apart)))
 }
 
 #[cfg(test)]

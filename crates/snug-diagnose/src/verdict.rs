@@ -13,3 +13,4 @@ pub(crate) mod reasons;
 pub(crate) mod thresholds;
 pub(crate) mod tightening_fits;
 pub(crate) mod trend;
+pub(crate) mod units;

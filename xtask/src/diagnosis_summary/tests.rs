@@ -328,7 +328,7 @@ fn a_climb_that_was_stopped_says_so_and_how_to_go_on() {
     diagnosis.interrupted = true;
     let text = text(&diagnosis, &FOLLOWING, Vocabulary::Hand, false);
     assert!(
-        text.contains("Verdict: stopped by you before there was a verdict"),
+        text.contains("Verdict: stopped before there was a verdict"),
         "{text}"
     );
     assert!(

@@ -2,6 +2,9 @@
 
 use crate::Diagnosis;
 
+/// Effects that a sentence names, of those that data cannot tell from one another; the ranking names all. Chosen.
+const MOST_NAMED: usize = 3;
+
 /// `cubic_stiffness` as `cubic stiffness`; an expression stays as it is.
 pub fn effect_name(name: &str) -> String {
     if name.contains(['*', '^', '(', '+', '/']) {
@@ -84,7 +87,11 @@ impl Named {
             ([], Some(words)) => format!("{} ({words})", self.spoken()),
             (twins, _) => {
                 let names = std::iter::once(self).chain(twins).map(Self::spoken);
-                let names: Vec<String> = names.collect();
+                let mut names: Vec<String> = names.collect();
+                if names.len() > MOST_NAMED {
+                    let others = names.split_off(MOST_NAMED - 1).len();
+                    names.push(format!("one of {others} others"));
+                }
                 format!("{} (these data cannot tell which)", names.join(" or "))
             }
         }
@@ -110,6 +117,28 @@ pub fn raised(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn of_many_that_cannot_be_told_apart_a_sentence_names_two() {
+        let alone = |name: &str| Named::alone(name.to_owned(), None);
+        let with = |twins: &[&str]| {
+            let twins = twins.iter().map(|name| alone(name)).collect();
+            let one = Named {
+                twins,
+                ..alone("grip_slip")
+            };
+            one.with_twins()
+        };
+        let cannot_tell = "(these data cannot tell which)";
+        assert_eq!(
+            with(&["bouc_wen", "backlash"]),
+            format!("grip slip or bouc wen or backlash {cannot_tell}")
+        );
+        assert_eq!(
+            with(&["bouc_wen", "backlash", "second_mass"]),
+            format!("grip slip or bouc wen or one of 2 others {cannot_tell}")
+        );
+    }
 
     #[test]
     fn units_are_raised_and_pure_numbers_have_none() {

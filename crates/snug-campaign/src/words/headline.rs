@@ -4,6 +4,7 @@ use super::effect_name::Named;
 use super::explained::Explained;
 use super::number::significant;
 use super::said::written_as_said;
+use super::suspicion::OtherUnits;
 use super::{counted, joined};
 use crate::{Diagnosis, Verdict};
 use std::fmt::{self, Display, Formatter};
@@ -108,6 +109,8 @@ pub enum Headline {
         /// How much is explained, where no noise says what is enough.
         explained: Option<Explained>,
     },
+    /// Some recordings are in other units than others.
+    OtherUnits(OtherUnits),
     /// No model was found that deserves the question.
     NotFitted(Explained),
     /// Compared only; nothing was looked for.
@@ -175,6 +178,10 @@ impl Display for Headline {
                 f,
                 "Misfit that repeats from tightening to tightening remains ({left}), and no effect of the catalogue explains it."
             ),
+            Self::OtherUnits(units) => write!(
+                f,
+                "Recordings are in different units: {units}. What is missing cannot be asked before that is mended."
+            ),
             Self::NotFitted(explained) => write!(
                 f,
                 "No model was found that deserves the question what is missing: the best explains {explained}."
@@ -219,12 +226,12 @@ fn stopped(f: &mut Formatter<'_>, added: &[Named], fall: Fall) -> fmt::Result {
     match added {
         [] => write!(
             f,
-            "Stopped by you before an effect was added: the model leaves {}, and what it lacks is not decided.",
+            "Stopped before an effect was added: the model leaves {}, and what it lacks is not decided.",
             fall.after
         ),
         added => write!(
             f,
-            "Stopped by you after {}: with {} the error fell {fall}; nothing more was tried.",
+            "Stopped after {}: with {} the error fell {fall}; nothing more was tried.",
             counted(added.len(), "effect"),
             named(added)
         ),
@@ -312,7 +319,7 @@ impl Diagnosis {
         // A comparison asks how much is missing, not what.
         let is_comparison = self.verb == "compare";
         match self.verdict {
-            _ if self.interrupted => "stopped by you before there was a verdict",
+            _ if self.interrupted => "stopped before there was a verdict",
             Verdict::Adequate => "the model is adequate",
             Verdict::MissingEffect => "an effect is missing",
             Verdict::UnlistedEffect => "something is missing that is in no catalogue",

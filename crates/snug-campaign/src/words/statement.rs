@@ -1,7 +1,7 @@
 //! What a table of a diagnosis says of one of its rows, in a sentence.
 
 use super::effect_name::effect_name;
-use super::number::whole_percent;
+use super::number::{percent, significant, whole_percent};
 use super::reason::Cluster;
 use super::size::{amount, sizes};
 use crate::{EffectParameter, InSomeGroups};
@@ -47,9 +47,17 @@ pub fn removal(name: &str, is_removed: bool, growth: f64) -> String {
     match is_removed {
         true => format!("Without {name} the model predicts as well: it was taken out again."),
         false => format!(
-            "Without {name} the squared error grows by {:.1}\u{a0}%: it stays.",
-            growth * 100.0
+            "Without {name} the squared error would {}: it stays.",
+            grow(growth)
         ),
+    }
+}
+
+/// What an error would do that grows by `share` of itself: `grow by 3.1 %`, `be 12 times as large`.
+pub fn grow(share: f64) -> String {
+    match share < 1.0 {
+        true => format!("grow by {}", percent(share)),
+        false => format!("be {} times as large", significant(1.0 + share, 2)),
     }
 }
 
@@ -128,4 +136,15 @@ fn symbols(expression: &str) -> String {
     used.map(|(_, meaning)| *meaning)
         .collect::<Vec<_>>()
         .join(", ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn more_than_twice_is_told_as_a_factor() {
+        assert_eq!(grow(0.0312), "grow by 3.1 %");
+        assert_eq!(grow(961.58), "be 963 times as large");
+    }
 }

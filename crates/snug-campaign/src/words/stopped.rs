@@ -79,10 +79,10 @@ impl Display for Stopped {
             Self::Full => f.write_str(
                 "The model carries as many effects as can be told apart; look at the data before adding more.",
             ),
-            Self::Interrupted(0) => f.write_str("You ended it before an effect was added."),
+            Self::Interrupted(0) => f.write_str("It was ended before an effect was added."),
             Self::Interrupted(added) => write!(
                 f,
-                "You ended it after {}; nothing more was tried, nor whether each of them is needed beside the others.",
+                "It was ended after {}; nothing more was tried, nor whether each of them is needed beside the others.",
                 counted(*added, "effect")
             ),
         }

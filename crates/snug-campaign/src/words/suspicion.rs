@@ -10,6 +10,8 @@ use std::fmt::{self, Display, Formatter};
 /// explain then \[–\].
 #[derive(Debug, Clone, PartialEq)]
 pub enum Suspicion {
+    /// Some recordings are in other units than others.
+    Units(OtherUnits),
     /// The simulated fit falls short of a plain regression.
     FailedFit(FailedFit),
     /// The fit ended in a poor minimum: where the spectra put m, c, k, they do better.
@@ -29,6 +31,29 @@ pub enum Suspicion {
     },
     /// None of these helps.
     NoOscillator,
+}
+
+/// Two files whose masses, dampings and stiffnesses stand apart by one factor.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OtherUnits {
+    /// The file whose are larger.
+    pub larger: String,
+    /// The file whose are smaller.
+    pub smaller: String,
+    /// How many times \[–\].
+    pub factor: f64,
+}
+
+impl Display for OtherUnits {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "what moves in {} is {} times as heavy, as damped or as stiff as in {}",
+            self.larger,
+            significant(self.factor, 2),
+            self.smaller
+        )
+    }
 }
 
 /// A simulated fit beside a plain regression of the equation of motion; shares are those of the measured acceleration's power, averaged
@@ -74,6 +99,10 @@ impl Display for FailedFit {
 impl Display for Suspicion {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self {
+            Self::Units(units) => write!(
+                f,
+                "Check the units: {units}. No rig differs so much from one recording to the next; torque, motion or time of one of them is in another unit than the study says (`unit` of its channel), or was logged in one."
+            ),
             Self::FailedFit(failed) => failed.fmt(f),
             Self::PoorMinimum(share) => write!(
                 f,

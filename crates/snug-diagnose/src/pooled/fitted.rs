@@ -318,6 +318,11 @@ impl Fitted {
         self.own_names.len() - self.own_effect_count
     }
 
+    /// What one tightening has of its own of mass, damping and stiffness, as far as they are free; nothing where all share them.
+    pub fn own_base(&self, member: usize) -> &[f64] {
+        &self.own[member][..self.free_base_count()]
+    }
+
     /// Free parameters of the base model, the mean over records; none where there are many tightenings.
     pub fn base(&self) -> Vec<(String, f64)> {
         if self.clusters.are_whole() {

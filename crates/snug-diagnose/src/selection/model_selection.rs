@@ -447,8 +447,8 @@ impl ModelSelection<'_> {
         let addition = Addition {
             effect: candidate.effect,
             p_family: candidate.p_family,
-            heldout_gain: candidate.gain() / misfit(current),
-            share_of_first: candidate.gain() / misfit(current),
+            heldout_gain: candidate.gain_beside(current) / misfit(current),
+            share_of_first: candidate.gain_beside(current) / misfit(current),
             twins: twins(ranking, index, &self.clusters),
         };
         (addition, candidate.fitted.clone())

@@ -4,10 +4,11 @@ use crate::data::clusters::Clusters;
 use crate::error::DiagnoseError;
 use crate::library::is_unlisted;
 use crate::pooled::fitted::Fitted;
+use crate::ranking::kin::is_simpler;
 use crate::ranking::paired_gain::agreement;
 use crate::ranking::rank::{Candidate, Ranking};
 use crate::selection::thresholds::{
-    AS_MUCH, EQUAL, GOOD_PART, MATTERS, MOST, PLAINLY_MORE, PROMISING_P, SMALL, TRIFLE,
+    AS_MUCH, EQUAL, GOOD_PART, MATTERS, MOST, NO_OTHER, PLAINLY_MORE, PROMISING_P, SMALL, TRIFLE,
 };
 use crate::settings::DiagnoseSettings;
 use snug_model::Effect;
@@ -164,6 +165,12 @@ impl Candidate {
             && !self.falls_short_of(best, clusters)
     }
 
+    /// Whether it holds `simple` as a special case and takes hardly more or less of any cluster: it has been fitted to be that.
+    fn does_nothing_but(&self, simple: &Self) -> bool {
+        let apart: f64 = self.beyond(simple).iter().map(|gain| gain.abs()).sum();
+        is_simpler(simple.effect, self.effect) && apart < NO_OTHER * simple.gain()
+    }
+
     /// What held-out clusters gain beside `current`. Where leaving out a stretch leaves the others hardly a size, the gain in it has no
     /// bounds; a fall of the error has.
     pub fn gain_beside(&self, current: &Fitted) -> f64 {
@@ -271,6 +278,7 @@ pub(crate) fn twins(ranking: &Ranking, index: usize, clusters: &Clusters) -> Vec
                 && other.gains_clearly()
                 && chosen.ahead_of(other) > -EQUAL
                 && other.keeps_up_with(chosen, clusters)
+                && !other.does_nothing_but(chosen)
         })
         .map(|other| other.effect)
         .collect()

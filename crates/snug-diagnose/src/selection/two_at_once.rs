@@ -42,7 +42,7 @@ impl ModelSelection<'_> {
             // What either does by itself says little.
             for addition in [&mut first, &mut second] {
                 addition.p_family = pair.both.p_family;
-                addition.heldout_gain = pair.both.gain() / misfit(current);
+                addition.heldout_gain = pair.both.gain_beside(current) / misfit(current);
             }
             vec![(first, alone), (second, both)]
         }))

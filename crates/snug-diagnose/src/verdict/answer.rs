@@ -25,7 +25,7 @@ use crate::verdict::{detectability, floor, in_some_groups, ladder, preparation};
 use crate::watch::Watch;
 use snug_campaign::words::explained::Explained;
 use snug_campaign::words::statement;
-use snug_campaign::words::suspicion::{FailedFit, Suspicion};
+use snug_campaign::words::suspicion::{FailedFit, OtherUnits, Suspicion};
 use snug_campaign::{
     AddedEffect, Comparison, CorrectedEffect, Diagnosis, Drift, EffectParameter, Experiment,
     Location, NegativeControl, RankedEffect, UnlistedTerm, Verdict, sharing,
@@ -61,6 +61,8 @@ pub(crate) struct Examination<'a> {
     pub cases: Cases<'a>,
     pub settings: &'a DiagnoseSettings,
     pub path: SelectionPath,
+    /// Recordings that stand in units of their own; nothing was looked for then.
+    pub units: Option<OtherUnits>,
     pub watch: Watch<'a>,
 }
 
@@ -219,18 +221,22 @@ impl Examination<'_> {
     /// an effect that does most of the work is for `diagnose` to find.
     fn verdict_and_suspicions(&self, places: &Places) -> (Verdict, Vec<Suspicion>) {
         let is_white = (places.explained.as_ref()).is_some_and(|all| all.neighbours.abs() < WHITE);
-        let failed = self.failed_fit();
-        let verdict = match (&failed, self.path.is_interrupted()) {
-            (Some(_), false) => Verdict::NotFitted,
-            _ => self.verdict(places.last().repeatable_share, is_white),
+        let wrong = [
+            self.units.clone().map(Suspicion::Units),
+            self.failed_fit().map(Suspicion::FailedFit),
+        ];
+        let wrong: Vec<Suspicion> = wrong.into_iter().flatten().collect();
+        let verdict = match wrong.is_empty() || self.path.is_interrupted() {
+            true => self.verdict(places.last().repeatable_share, is_white),
+            false => Verdict::NotFitted,
         };
         let (Verdict::NotFitted, Some(explained)) = (verdict, places.explained) else {
-            return (verdict, Vec::new());
+            return (verdict, wrong);
         };
         let mut suspicions = earned::suspicions(self.question.cases, explained);
-        if let Some(failed) = failed {
+        if !wrong.is_empty() {
             suspicions.retain(|one| *one != Suspicion::NoOscillator);
-            suspicions.insert(0, Suspicion::FailedFit(failed));
+            suspicions.splice(0..0, wrong);
         }
         match (&self.question.goal, suspicions.as_slice()) {
             (Goal::Compare, [Suspicion::NoOscillator]) => (Verdict::Undecided, Vec::new()),
@@ -352,7 +358,7 @@ impl Examination<'_> {
             expression: declaration(candidate.effect).map(|term| term.expression),
             score: candidate.score,
             p_family: candidate.p_family,
-            heldout_gain: candidate.gain() / misfit,
+            heldout_gain: candidate.gain_beside(self.path.last()) / misfit,
             heldout_gain_error: candidate.share_error(&misfits(self.path.last())),
             error_over_noise: candidate
                 .fitted
@@ -444,7 +450,7 @@ impl Examination<'_> {
             (Some(one), _) => (one.effect, one.heldout_gain, self.path.last()),
             (None, Some(one)) if is_unlisted(one.effect) => (
                 one.effect,
-                one.gain() / misfit(self.path.last()),
+                one.gain_beside(self.path.last()) / misfit(self.path.last()),
                 &one.fitted,
             ),
             _ => return None,

@@ -153,9 +153,11 @@ pub(crate) fn headline(situation: &Situation<'_>) -> Headline {
             fall: fell,
             explained: situation.explained,
         },
-        (Verdict::NotFitted, _) => {
-            (situation.explained).map_or(Headline::Compared(fell.after), Headline::NotFitted)
-        }
+        (Verdict::NotFitted, _) => match (situation.suspicions.first(), situation.explained) {
+            (Some(Suspicion::Units(units)), _) => Headline::OtherUnits(units.clone()),
+            (_, Some(explained)) => Headline::NotFitted(explained),
+            (_, None) => Headline::Compared(fell.after),
+        },
         (Verdict::Undecided, _) if situation.verb == "compare" => Headline::Compared(fell.after),
         (Verdict::Undecided, _) if situation.is_more_than_noise => Headline::MoreThanNoise {
             added: [added, further].concat(),

@@ -7,6 +7,7 @@ use crate::number::{fixed, percent, significant};
 use maud::{Markup, html};
 use snug_campaign::words::chance::{by_chance, share_with_error};
 use snug_campaign::words::effect_name::{called, effect_name, names_in, unit_text};
+use snug_campaign::words::statement::grow;
 use snug_campaign::words::{counted, joined};
 use snug_campaign::{
     AddedEffect, CampaignResult, CorrectedEffect, Diagnosis, EffectParameter, RankedEffect,
@@ -56,7 +57,7 @@ fn added(effect: &AddedEffect, diagnosis: &Diagnosis, result: &CampaignResult) -
                 None => p { "The study's model already had it, so it was not put to the test here." },
             }
             @if let Some(needed) = effect.needed {
-                p { "Without it, the squared error would " (growth(needed)) "." }
+                p { "Without it, the squared error would " (grow(needed)) "." }
             }
             @if !effect.twins.is_empty() {
                 p.attention { "These data cannot tell it from " strong { (names_in(diagnosis, &effect.twins)) } "." }
@@ -101,15 +102,6 @@ fn implausible(parameters: &[EffectParameter]) -> Markup {
         @for beyond in parameters.iter().filter_map(|one| one.size().beyond) {
             p.attention { "The size is " (beyond) ": something else that acts alike may hide behind it." }
         }
-    }
-}
-
-/// By how much something grows, given as a share of itself.
-fn growth(share: f64) -> String {
-    if share >= 1.0 {
-        format!("be {} times as large", significant(1.0 + share, 2))
-    } else {
-        format!("grow by {}", percent(share))
     }
 }
 

@@ -3,7 +3,8 @@
 use super::*;
 use crate::tests::made_up::{WHOLE, candidate, close, ranking, term};
 use snug_model::Effect::{
-    Backlash, CubicStiffness, QuadraticDamping, QuadraticStiffness, TorqueDelay,
+    Backlash, CoulombFriction, CubicStiffness, QuadraticDamping, QuadraticStiffness,
+    StribeckFriction, TorqueDelay,
 };
 
 const STRETCHES: Clusters = Clusters { per_case: 6 };
@@ -154,6 +155,26 @@ fn twins_are_those_that_these_data_cannot_tell_from_the_chosen_one() {
         twins(&ranking, 3, &WHOLE),
         [CubicStiffness, QuadraticStiffness]
     );
+}
+
+/// Of dry friction with a shape nothing but dry friction is left; in the second it has a shape.
+#[test]
+fn a_richer_law_that_was_fitted_to_be_the_simpler_one_is_no_twin_of_it() {
+    let friction = [10.0, 12.0, 9.0, 13.0];
+    for (shaped, is_twin) in [
+        ([10.1, 12.0, 9.1, 13.0], false),
+        ([11.0, 11.0, 10.0, 11.0], true),
+    ] {
+        let ranking = ranking(vec![
+            candidate(CoulombFriction, 0.01, &friction),
+            candidate(StribeckFriction, 0.01, &shaped),
+        ]);
+        assert_eq!(
+            twins(&ranking, 0, &WHOLE).contains(&StribeckFriction),
+            is_twin
+        );
+        assert_eq!(twins(&ranking, 1, &WHOLE), [CoulombFriction]);
+    }
 }
 
 #[test]

@@ -10,11 +10,21 @@ use snug_model::Effect;
 const TRUTH: [f64; 3] = [0.4, 1.9, 30.0];
 const SAMPLES: usize = 3000;
 
-/// What is said of a fit of the base model that ended at these numbers.
+/// What is said of a fit of the base model that ended at these numbers and explains nothing of the output.
 fn said(friction_nm: f64, values: [f64; 3], were_tried: bool) -> Option<FailedFit> {
+    said_leaving(1e12, friction_nm, values, were_tried)
+}
+
+/// The same of one that leaves so much of the output.
+fn said_leaving(
+    squares: f64,
+    friction_nm: f64,
+    values: [f64; 3],
+    were_tried: bool,
+) -> Option<FailedFit> {
     let cases = [machine(friction_nm)];
     let names = ["mass_kg", "damping_kg_per_s", "stiffness_n_per_m"];
-    let fitted = Fitted::made_up(&[], &[1.0], SAMPLES).unweighted();
+    let fitted = Fitted::made_up(&[], &[squares], SAMPLES).unweighted();
     let fitted = fitted.with_own(&names, vec![values.to_vec()], 0);
     let tally = Tally::default();
     shortfall(Cases::new(&cases, &tally), &fitted, were_tried)
@@ -39,6 +49,12 @@ fn a_lost_fit_is_told_with_both_shares_and_where_to_begin() {
         words.contains("explains more than 99.99\u{a0}%") && words.contains("the fit failed"),
         "{words}"
     );
+}
+
+/// Whatever the accelerations say, it follows the motion from the first sample to the last.
+#[test]
+fn a_fit_that_explains_all_of_the_output_is_no_failed_one() {
+    assert_eq!(said_leaving(1e-9, 0.0, [4.0, 30.0, 900.0], true), None);
 }
 
 /// Without friction the regression does no better than a fit of the base model; with it both lack something, and only a search that
