@@ -4,6 +4,7 @@ pub(crate) mod applicability;
 pub(crate) mod by_group;
 mod by_time;
 pub(crate) mod first_ranking;
+pub(crate) mod free_run;
 pub(crate) mod kin;
 pub(crate) mod max_t;
 pub(crate) mod nuisance;

@@ -6,6 +6,7 @@ use crate::cases::with_settled;
 use crate::validation::every_s_of;
 use snug_campaign::Quantity;
 use snug_campaign::words::reason::Reason;
+use snug_diagnose::left_with_an_effect;
 use snug_identify::{
     FitTask, IdentifySettings, Simulation, SpectralStart, identify, motions, spectral_start,
     widest_half_width,
@@ -56,9 +57,11 @@ pub(crate) fn settle(study: &Study, cases: &[FitTask<'_>]) -> Option<Settled> {
         let missed = missed(cases);
         let every_s = every_s_of(sizes.period_s(), &cases[0].tightening);
         settled.study.identify.simulation = match (missed, every_s) {
-            (Some(share), Some(every_s)) if share > POOR => {
+            (Some(missed), Some(every_s))
+                if missed.is_poor() && !is_followed_with_an_effect(cases, &missed) =>
+            {
                 settled.reasons.push(Reason::Restarted {
-                    missed: share,
+                    missed: missed.share(),
                     every_s,
                 });
                 let search = &mut settled.study.diagnosis.search;
@@ -84,7 +87,8 @@ fn states_a_start(study: &Study) -> bool {
     free.peek().is_none() || free.any(|name| told(name).is_some_and(|one| one.value.is_some()))
 }
 
-/// Root mean square of a free run's error over that of the measured motion beyond which it is restarted.
+/// Root mean square of a free run's error over that of the measured motion beyond which it is restarted, unless an effect of the catalogue
+/// brings it below.
 const POOR: f64 = 0.25;
 /// Smallest gain that matters where a model is restarted: less is within reach of errors of the motion taken up.
 const RESTARTED_GAIN: f64 = 0.05;
@@ -197,11 +201,34 @@ fn mean_square(values: &[f64]) -> f64 {
     values.iter().map(|value| value * value).sum::<f64>() / values.len().max(1) as f64
 }
 
-/// Root mean square of what a free run of the study's own model leaves, as a share of the measured motion about its
-/// mean; `None` where restarts make no sense: an acceleration does not drift, and what is integrated from one has no
-/// measured motion to start from.
-fn missed(cases: &[FitTask<'_>]) -> Option<f64> {
-    let (mut left, mut whole) = (0.0, 0.0);
+/// What a free run leaves of the measured motion, both Σ over all that is scored.
+struct Missed {
+    left: f64,
+    about_mean: f64,
+}
+
+impl Missed {
+    /// Root mean square of what is left over that of the motion about its mean.
+    fn share(&self) -> f64 {
+        (self.left / self.about_mean).sqrt()
+    }
+
+    fn is_poor(&self) -> bool {
+        self.share() > POOR
+    }
+}
+
+/// Whether a free run follows the motion once one effect is added: then it is asked what is missing freely, which tells effects apart
+/// that a restarted run hardly does.
+fn is_followed_with_an_effect(cases: &[FitTask<'_>], missed: &Missed) -> bool {
+    let with_effect = left_with_an_effect(cases).ok().flatten();
+    with_effect.is_some_and(|left| !Missed { left, ..*missed }.is_poor())
+}
+
+/// What a free run of the study's own model leaves; `None` where restarts make no sense: an acceleration does not drift, and what is
+/// integrated from one has no measured motion to start from.
+fn missed(cases: &[FitTask<'_>]) -> Option<Missed> {
+    let (mut left, mut about_mean) = (0.0, 0.0);
     for case in cases {
         let motion = &case.tightening.motion;
         if case.quantity() == Quantity::Acceleration || motion.acceleration_rad_per_s2.is_some() {
@@ -237,7 +264,7 @@ fn missed(cases: &[FitTask<'_>]) -> Option<f64> {
         left += error.map_or(about, |error| {
             scored as f64 * mean_square(&error[case.unscored()..])
         });
-        whole += about;
+        about_mean += about;
     }
-    (whole > 0.0).then(|| (left / whole).sqrt())
+    (about_mean > 0.0).then_some(Missed { left, about_mean })
 }

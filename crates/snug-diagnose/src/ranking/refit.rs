@@ -383,7 +383,7 @@ fn times(own: &mut [f64], factors: &[f64]) {
 }
 
 /// The current fit with one effect's parameters at `values`.
-fn with_effect(
+pub(crate) fn with_effect(
     pooled: &PooledModel<'_>,
     current: &Fitted,
     effect: Effect,

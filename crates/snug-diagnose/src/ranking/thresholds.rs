@@ -116,3 +116,5 @@ pub(crate) const MOST_OF_FIRST_RANKING: usize = 60_000;
 pub(crate) const MOST_SHAPES: usize = 12;
 /// Share of the equation error from which the sizes that take it are one more start of a refit \[–\]. Chosen.
 pub(crate) const WORTH_A_START: f64 = 0.05;
+/// Effects, of those that promise most, with which a model is run freely before it is restarted. Chosen.
+pub(crate) const RUN_FREELY: usize = 3;
