@@ -6,6 +6,7 @@ pub(crate) mod decimated;
 pub(crate) mod equation;
 pub(crate) mod fit;
 pub(crate) mod fitted;
+mod group_evidence;
 pub(crate) mod group_sizes;
 pub(crate) mod hold_out;
 pub(crate) mod long_record;

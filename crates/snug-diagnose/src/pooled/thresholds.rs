@@ -64,3 +64,5 @@ pub(crate) const FALLS_SHORT: f64 = 4.0;
 /// far below as several must leave of the simulated error to be several. Four tests of a motor that lacks friction leave 0.008, torque
 /// steps of a rig that turns harder one way than the other 0.92.
 pub(crate) const ONE_WITH_FRICTION: f64 = ONE_MACHINE;
+/// Tightenings of a group from which they are asked whether they agree on a size. Chosen: of three an accident may be alike.
+pub(crate) const FEWEST_OF_GROUP: usize = 4;

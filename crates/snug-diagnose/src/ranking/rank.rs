@@ -69,7 +69,9 @@ impl Candidate {
         self.gains = gains(heldout, &fitted);
         self.is_told_from_nothing = is_told_from_nothing(cases, &fitted, self.effect);
         self.fitted = fitted;
-        self.p_family = self.p_family.min(self.p_of_gain(forms));
+        let of_groups = self.fitted.chance_of_groups(self.effect).unwrap_or(1.0);
+        let chances = [self.p_of_gain(forms), of_groups * forms as f64];
+        self.p_family = chances.into_iter().fold(self.p_family, f64::min);
     }
 
     /// What it would explain if groups of tightenings had sizes of their own.
