@@ -16,13 +16,12 @@ use crate::pooled::thresholds::AT_FLOOR;
 use crate::ranking::paired_gain::gains;
 use crate::ranking::refit::{possible, refit};
 use crate::ranking::score_test::{Control, Scorer};
-use crate::ranking::thresholds::{
-    BEST, BEYOND_THE_QUIET, CANDIDATE, FEWEST_WHERE_IT_SHOWS, HOLDS_THE_MISFIT,
-};
+use crate::ranking::thresholds::{BEST, BEYOND_THE_QUIET, CANDIDATE, FEWEST_WHERE_IT_SHOWS};
 use crate::settings::DiagnoseSettings;
 use crate::watch::Watch;
 use rayon::prelude::*;
 use snug_model::{Effect, Law};
+use snug_statistics::descriptive::{mean, median};
 
 /// Groups of which some are fitted badly.
 #[derive(Debug, PartialEq)]
@@ -87,8 +86,8 @@ pub(super) fn best_where_it_shows(
     Ok(of_all.into_iter().flatten().collect())
 }
 
-/// The groups of the factor that best parts what `current` fits badly from what it fits to the noise: those hold nearly all of the
-/// misfit, in the fewest tightenings.
+/// The groups of the factor that best parts what `current` fits badly from what it fits to the noise: those in which more is left than
+/// chance puts between groups, the others together being left at the noise; in the fewest tightenings.
 fn where_it_shows(current: &Fitted, groupings: &[Groups]) -> Option<Shows> {
     if !current.is_weighted {
         return None;
@@ -106,22 +105,23 @@ fn where_it_shows(current: &Fitted, groupings: &[Groups]) -> Option<Shows> {
             .iter()
             .map(|(scale, _)| *scale)
             .fold(f64::INFINITY, f64::min);
-        let in_group: Vec<bool> = left
-            .iter()
-            .map(|(scale, _)| *scale > quiet + BEYOND_THE_QUIET)
+        let spread = usual_spread(current, &members);
+        let by_chance = |count: usize| BEYOND_THE_QUIET * spread / (count as f64).sqrt();
+        let in_group: Vec<bool> = (left.iter().zip(&members))
+            .map(|((scale, _), members)| *scale > quiet + by_chance(members.len()))
             .collect();
-        let beyond = |those: &dyn Fn(usize) -> bool| -> f64 {
-            let all = left.iter().enumerate().filter(|(group, _)| those(*group));
-            all.map(|(_, (scale, count))| (scale - quiet) * count).sum()
-        };
-        let holds = beyond(&|group| in_group[group]) > HOLDS_THE_MISFIT * beyond(&|_| true);
+        let rest = left.iter().zip(&in_group).filter(|(_, shows)| !**shows);
+        let (squares, count) = rest.fold((0.0, 0.0), |(squares, all), ((scale, count), _)| {
+            (squares + scale * count, all + count)
+        });
+        let is_rest_quiet = squares < AT_FLOOR * AT_FLOOR * count;
         let members: Vec<usize> = (0..groups.of.len())
             .filter(|&member| in_group[groups.of[member]])
             .collect();
         let parts = members.len() >= FEWEST_WHERE_IT_SHOWS
             && members.len() < groups.of.len()
-            && quiet < AT_FLOOR * AT_FLOOR;
-        (holds && parts).then(|| Shows {
+            && is_rest_quiet;
+        parts.then(|| Shows {
             groups: groups.clone(),
             in_group,
             members,
@@ -129,6 +129,23 @@ fn where_it_shows(current: &Fitted, groupings: &[Groups]) -> Option<Shows> {
     };
     let all = groupings.iter().filter_map(of_factor);
     all.min_by_key(|shows| (shows.members.len(), shows.groups.levels.len()))
+}
+
+/// Standard deviation of the tightenings' mean squares within a group, the median over groups: of the noise each knows a little more
+/// or less than it has.
+fn usual_spread(current: &Fitted, groups: &[Vec<usize>]) -> f64 {
+    let scale = |&member: &usize| {
+        let block = &current.blocks[member];
+        block.squares / block.count.max(1) as f64
+    };
+    let of_group = |members: &Vec<usize>| {
+        let scales: Vec<f64> = members.iter().map(scale).collect();
+        let middle = mean(&scales).ok()?;
+        let squares: f64 = scales.iter().map(|one| (one - middle).powi(2)).sum();
+        (scales.len() > 1).then(|| (squares / (scales.len() - 1) as f64).sqrt())
+    };
+    let spreads: Vec<f64> = groups.iter().filter_map(of_group).collect();
+    median(&spreads).unwrap_or(0.0)
 }
 
 /// The fit of `effect` to all tightenings, a size for each group: from what was found where it shows, and nothing of it elsewhere.
