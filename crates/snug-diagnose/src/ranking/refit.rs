@@ -89,9 +89,14 @@ fn led_by(
             let end = from_afar(pooled, only, &CANDIDATE)?;
             catch_up(pooled, current, end)
         }
+        [only] if current.is_at_floor() => pooled.fit(only, &A_FEW_STEPS),
         [only] => pooled.fit(only, &CANDIDATE),
         several => {
             let start = rough(pooled, current, several)?;
+            // Beside a model that leaves but noise nothing is led astray.
+            if current.is_at_floor() {
+                return pooled.fit(&start, &A_FEW_STEPS);
+            }
             let end = from_afar(pooled, &start, &CANDIDATE)?;
             catch_up(pooled, current, end)
         }
@@ -133,6 +138,7 @@ fn no_worse(
         return end;
     }
     let nested = match nothing {
+        [only] if current.is_at_floor() => pooled.fit(only, &A_FEW_STEPS),
         [only] => pooled.fit(only, &CANDIDATE),
         several => {
             let tried = several
