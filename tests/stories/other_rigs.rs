@@ -88,6 +88,24 @@ fn a_pendulum_runs_and_is_told_apart_from_a_spring() {
     }
 }
 
+/// Where no one effect makes a free run follow, the run restarts the model and tells how much the free one misses.
+#[test]
+fn a_pendulum_that_nothing_follows_freely_is_restarted_and_told() {
+    let Some(data) = snug_tests::data("pendulum") else {
+        return;
+    };
+    let mut study = Study::read(&study_file("pendulum.ron")).unwrap();
+    study.set_data(&data.join("pendulum-torque/ilqr_measured.csv"));
+    let (outcome, _out) = run_study(&study).unwrap();
+    assert!(outcome.result.tightenings[0].estimate.is_some());
+    let notes = outcome.result.findings.iter();
+    let settled: Vec<_> = notes.filter(|note| note.code == "settled").collect();
+    let [note] = settled.as_slice() else {
+        panic!("{settled:?}")
+    };
+    assert!(note.message.starts_with("Run freely"), "{}", note.message);
+}
+
 /// Three recordings of the published set, driven by three different controllers: each says that gravity is missing, a
 /// force that goes with the sine of the angle, and no spring of any other shape.
 #[test]

@@ -60,14 +60,18 @@ fn every_verb_writes_what_it_has_and_marks_it() {
             };
             let (code, said, results) = signalled(verb, stage, signal);
             assert_eq!(code, 130, "{verb:?} {signal}: {said}");
-            assert!(said.contains("Stopped "), "{verb:?} {signal}: {said}");
+            let stopped = "Stopped before an effect was added";
+            assert!(said.contains(stopped), "{verb:?} {signal}: {said}");
             let verdict = String::from_utf8_lossy(&results["verdict.json"]);
             assert!(
                 verdict.contains("\"interrupted\": true"),
                 "{verb:?} {signal}"
             );
             let report = String::from_utf8_lossy(&results["report.html"]);
-            assert!(report.contains("stopped before"), "{verb:?} {signal}");
+            assert!(
+                report.contains("stopped before there was a verdict"),
+                "{verb:?} {signal}"
+            );
         }
     }
 }
@@ -85,7 +89,10 @@ fn a_time_limit_ends_with_what_was_found_and_marks_it() {
     let output = limited("0.6s");
     let heard = said(&output);
     assert_eq!(output.status.code(), Some(0), "{heard}");
-    assert!(heard.contains("Stopped "), "{heard}");
+    assert!(
+        heard.contains("Stopped before an effect was added"),
+        "{heard}"
+    );
     let verdict = &results(out.path())["verdict.json"];
     assert!(String::from_utf8_lossy(verdict).contains("\"interrupted\": true"));
 
