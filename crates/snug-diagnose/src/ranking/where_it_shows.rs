@@ -21,7 +21,7 @@ use crate::settings::DiagnoseSettings;
 use crate::watch::Watch;
 use rayon::prelude::*;
 use snug_model::{Effect, Law};
-use snug_statistics::descriptive::{mean, median};
+use snug_statistics::descriptive::{median, standard_deviation};
 
 /// Groups of which some are fitted badly.
 #[derive(Debug, PartialEq)]
@@ -105,7 +105,7 @@ fn where_it_shows(current: &Fitted, groupings: &[Groups]) -> Option<Shows> {
             .iter()
             .map(|(scale, _)| *scale)
             .fold(f64::INFINITY, f64::min);
-        let spread = usual_spread(current, &members);
+        let spread = usual_spread(current, &members)?;
         let by_chance = |count: usize| BEYOND_THE_QUIET * spread / (count as f64).sqrt();
         let in_group: Vec<bool> = (left.iter().zip(&members))
             .map(|((scale, _), members)| *scale > quiet + by_chance(members.len()))
@@ -132,20 +132,18 @@ fn where_it_shows(current: &Fitted, groupings: &[Groups]) -> Option<Shows> {
 }
 
 /// Standard deviation of the tightenings' mean squares within a group, the median over groups: of the noise each knows a little more
-/// or less than it has.
-fn usual_spread(current: &Fitted, groups: &[Vec<usize>]) -> f64 {
+/// or less than it has. `None` where no group has two.
+fn usual_spread(current: &Fitted, groups: &[Vec<usize>]) -> Option<f64> {
     let scale = |&member: &usize| {
         let block = &current.blocks[member];
         block.squares / block.count.max(1) as f64
     };
     let of_group = |members: &Vec<usize>| {
         let scales: Vec<f64> = members.iter().map(scale).collect();
-        let middle = mean(&scales).ok()?;
-        let squares: f64 = scales.iter().map(|one| (one - middle).powi(2)).sum();
-        (scales.len() > 1).then(|| (squares / (scales.len() - 1) as f64).sqrt())
+        standard_deviation(&scales).ok()
     };
     let spreads: Vec<f64> = groups.iter().filter_map(of_group).collect();
-    median(&spreads).unwrap_or(0.0)
+    median(&spreads).ok()
 }
 
 /// The fit of `effect` to all tightenings, a size for each group: from what was found where it shows, and nothing of it elsewhere.
