@@ -20,7 +20,7 @@ pub use examine::examine;
 pub use locate::{Seen, compare, drifts, locate};
 pub use pooled::together::{Together, fit_together};
 pub use question::{Goal, Question};
-pub use ranking::free_run::left_with_an_effect;
+pub use ranking::free_run::is_followed_with_an_effect;
 pub use settings::DiagnoseSettings;
 pub use verdict::answer::{Answer, RungModel};
 pub use watch::{Pieces, Watch};

@@ -6,7 +6,7 @@ use crate::cases::with_settled;
 use crate::validation::every_s_of;
 use snug_campaign::Quantity;
 use snug_campaign::words::reason::Reason;
-use snug_diagnose::left_with_an_effect;
+use snug_diagnose::is_followed_with_an_effect;
 use snug_identify::{
     FitTask, IdentifySettings, Simulation, SpectralStart, identify, motions, spectral_start,
     widest_half_width,
@@ -58,7 +58,7 @@ pub(crate) fn settle(study: &Study, cases: &[FitTask<'_>]) -> Option<Settled> {
         let every_s = every_s_of(sizes.period_s(), &cases[0].tightening);
         settled.study.identify.simulation = match (missed, every_s) {
             (Some(missed), Some(every_s))
-                if missed.is_poor() && !is_followed_with_an_effect(cases, &missed) =>
+                if missed.share() > POOR && !missed.would_be_less_with_an_effect(cases) =>
             {
                 settled.reasons.push(Reason::Restarted {
                     missed: missed.share(),
@@ -213,16 +213,11 @@ impl Missed {
         (self.left / self.about_mean).sqrt()
     }
 
-    fn is_poor(&self) -> bool {
-        self.share() > POOR
+    /// Whether a free run follows the motion once one effect is added: then it is asked what is missing freely, which tells effects apart
+    /// that a restarted run hardly does.
+    fn would_be_less_with_an_effect(&self, cases: &[FitTask<'_>]) -> bool {
+        is_followed_with_an_effect(cases, POOR * POOR * self.about_mean).unwrap_or(false)
     }
-}
-
-/// Whether a free run follows the motion once one effect is added: then it is asked what is missing freely, which tells effects apart
-/// that a restarted run hardly does.
-fn is_followed_with_an_effect(cases: &[FitTask<'_>], missed: &Missed) -> bool {
-    let with_effect = left_with_an_effect(cases).ok().flatten();
-    with_effect.is_some_and(|left| !Missed { left, ..*missed }.is_poor())
 }
 
 /// What a free run of the study's own model leaves; `None` where restarts make no sense: an acceleration does not drift, and what is

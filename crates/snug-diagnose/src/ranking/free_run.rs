@@ -18,48 +18,48 @@ use crate::ranking::thresholds::{RUN_FREELY, WORTH_A_START};
 use snug_identify::FitTask;
 use snug_model::Effect;
 
-/// The least that a free run leaves of the fitted output with one of the effects of the catalogue beside those of the model, Σ r² over
-/// all recordings, in squares of its unit; of those that promise most of the equation of motion, from where a regression of it puts all
-/// numbers and a few steps on. `None` where none promises anything.
+/// Whether a free run leaves less than `most` of the fitted output, Σ r² over all recordings in squares of its unit, with one of the
+/// effects of the catalogue beside those of the model; of those that promise most of the equation of motion, from where a regression
+/// of it puts all numbers and a few steps on.
 ///
 /// # Errors
 /// What the model or the fit refuses.
-pub fn left_with_an_effect(cases: &[FitTask<'_>]) -> Result<Option<f64>, DiagnoseError> {
+pub fn is_followed_with_an_effect(cases: &[FitTask<'_>], most: f64) -> Result<bool, DiagnoseError> {
     let Some(first) = cases.first() else {
-        return Ok(None);
+        return Ok(false);
     };
     let (tally, clusters) = (Tally::default(), Clusters::of(cases));
     let own: Vec<Effect> = first.model.effects().collect();
     let cases = Cases::new(cases, &tally);
     let current = fit_effects(cases, &own, None, clusters)?;
-    let all = candidates(&cases, &current, &[])?;
-    let promises = first_ranking(cases, &current, &all);
-    let promising = promises
-        .iter()
-        .filter(|one| !is_unlisted(one.effect))
-        .take_while(|one| one.share >= WORTH_A_START);
-    let mut least: Option<f64> = None;
+    let mut listed = candidates(&cases, &current, &[])?;
+    listed.retain(|effect| !is_unlisted(*effect));
+    let promises = first_ranking(cases, &current, &listed);
+    let promising = promises.iter().take_while(|one| one.share >= WORTH_A_START);
     for promise in promising.take(RUN_FREELY) {
         let effects = [own.as_slice(), &[promise.effect]].concat();
         let mut pooled = PooledModel::new(cases, &effects)?;
         let start = with_effect(&pooled, &current, promise.effect, &promise.own);
         let start = with_base(&pooled, &start, &promise.base);
-        if let Ok(end) = pooled.fit(&start, &A_FEW_STEPS) {
-            let left = 2.0 * end.cost();
-            tracing::debug!(effect = promise.effect.name(), left, "run freely");
-            least = Some(least.map_or(left, |known| known.min(left)));
+        let Ok(end) = pooled.fit(&start, &A_FEW_STEPS) else {
+            continue;
+        };
+        let left = 2.0 * end.cost();
+        tracing::debug!(effect = promise.effect.name(), left, most, "run freely");
+        if left < most {
+            return Ok(true);
         }
     }
-    Ok(least.filter(|left| left.is_finite()))
+    Ok(false)
 }
 
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
-    use snug_campaign::{Quantity, Rig};
-    use snug_model::{Model, Scale};
-    use std::borrow::Cow;
+    use crate::tests::made_up::on_machine;
+    use snug_campaign::Quantity;
+    use snug_model::Scale;
 
     const INTERVAL_S: f64 = 1e-3;
     const STEPS: u32 = 20;
@@ -85,21 +85,12 @@ mod tests {
                 v += h * acceleration(t + 0.5 * h, middle.0, middle.1);
             }
         }
-        let rig = Rig {
-            lever_arm_m: 1.0,
-            known_inertia_kg_m2: 0.0,
-        };
         let scale = Scale::Rig {
             torque_nm: 25.0,
             angle_rad: 0.007,
             time_s: 0.01,
         };
-        let quantity = Quantity::Displacement;
-        let task = FitTask::from_arrays(rig, INTERVAL_S, forces, quantity, measured).unwrap();
-        FitTask {
-            model: Cow::Owned(Model::scaled(rig, &[], scale).unwrap()),
-            ..task
-        }
+        on_machine(scale, INTERVAL_S, forces, Quantity::Displacement, measured)
     }
 
     fn power(task: &FitTask<'_>) -> f64 {
@@ -109,12 +100,13 @@ mod tests {
     #[test]
     fn a_spring_that_stiffens_is_followed_freely_once_it_may() {
         let cases = [on_a_spring(6e6, 3000)];
-        let left = left_with_an_effect(&cases).unwrap().unwrap();
-        assert!(left < 0.01 * power(&cases[0]), "{left}");
+        let one_percent = 0.01 * power(&cases[0]);
+        assert!(is_followed_with_an_effect(&cases, one_percent).unwrap());
+        assert!(!is_followed_with_an_effect(&cases, 0.0).unwrap());
     }
 
     #[test]
     fn without_recordings_nothing_is_run() {
-        assert!(left_with_an_effect(&[]).unwrap().is_none());
+        assert!(!is_followed_with_an_effect(&[], f64::INFINITY).unwrap());
     }
 }

@@ -89,10 +89,6 @@ pub(crate) fn noisy(number: usize, effects: &[Effect], sizes: &[f64]) -> FitTask
 /// A machine of 0.4 kg m², 1.9 Nm s/rad and 30 Nm/rad whose velocity is written down, a sum of two sines, with the torque that this
 /// takes beside dry friction of `friction_nm`: 15 s at 200 Hz.
 pub(crate) fn machine_with_friction(friction_nm: f64) -> FitTask<'static> {
-    const RIG: Rig = Rig {
-        lever_arm_m: 1.0,
-        known_inertia_kg_m2: 0.0,
-    };
     const INTERVAL_S: f64 = 5e-3;
     let scale = Scale::Rig {
         torque_nm: 15.0,
@@ -110,16 +106,25 @@ pub(crate) fn machine_with_friction(friction_nm: f64) -> FitTask<'static> {
         torque_nm.push(0.4 * acceleration + 1.9 * velocity + 30.0 * angle + friction);
         measured.push(velocity);
     }
-    let input = Input::new(&torque_nm, INTERVAL_S, Intersample::Linear);
-    let tightening = Tightening::from_torque(RIG, INTERVAL_S, torque_nm);
+    on_machine(scale, INTERVAL_S, torque_nm, Quantity::Velocity, measured)
+}
+
+/// A recording of a machine of this scale, on an arm of 1 m.
+pub(crate) fn on_machine(
+    scale: Scale,
+    interval_s: f64,
+    torque_nm: Vec<f64>,
+    quantity: Quantity,
+    measured: Vec<f64>,
+) -> FitTask<'static> {
+    let rig = Rig {
+        lever_arm_m: 1.0,
+        known_inertia_kg_m2: 0.0,
+    };
+    let task = FitTask::from_arrays(rig, interval_s, torque_nm, quantity, measured);
     FitTask {
-        tightening: Cow::Owned(tightening.with(Quantity::Velocity, measured)),
-        input: Cow::Owned(input),
-        model: Cow::Owned(Model::scaled(RIG, &[], scale).expect("the rig is one")),
-        settings: Cow::Owned(IdentifySettings {
-            fitted_output: Quantity::Velocity,
-            ..IdentifySettings::default()
-        }),
+        model: Cow::Owned(Model::scaled(rig, &[], scale).expect("the rig is one")),
+        ..task.expect("its parts do not contradict each other")
     }
 }
 
