@@ -74,14 +74,12 @@ mod tests {
     fn asked_for(sizes: &[f64]) -> Fitted {
         let mean = sizes.iter().sum::<f64>() / sizes.len() as f64;
         let evidence: Vec<(f64, f64)> = sizes.iter().map(|one| (1.0, mean - one)).collect();
-        let fitted = Fitted::made_up(&[CubicStiffness], &vec![1.0; sizes.len()], 100)
+        let mut fitted = Fitted::made_up(&[CubicStiffness], &vec![1.0; sizes.len()], 100)
             .with_own(&["m", "c", "k"], vec![vec![1.0; 3]; sizes.len()], 0)
             .with_shared(("k3", BASE_PARAMETERS.len(), mean), &evidence);
         let mut case = exact(0, &[], &[]);
         case.tightening.to_mut().conditions.participant = Some("TP4".to_owned());
-        let level = Factor::Participant.level(&case.tightening);
-        let mut fitted = fitted;
-        fitted.shared_sizes[0].level = level;
+        fitted.shared_sizes[0].level = Factor::Participant.level(&case.tightening);
         fitted
     }
 

@@ -89,17 +89,24 @@ fn led_by(
             let end = from_afar(pooled, only, &CANDIDATE)?;
             catch_up(pooled, current, end)
         }
-        [only] if current.is_at_floor() => pooled.fit(only, &A_FEW_STEPS),
-        [only] => pooled.fit(only, &CANDIDATE),
+        [only] => pooled.fit(only, steps(current)),
         several => {
             let start = rough(pooled, current, several)?;
-            // Beside a model that leaves but noise nothing is led astray.
             if current.is_at_floor() {
-                return pooled.fit(&start, &A_FEW_STEPS);
+                return pooled.fit(&start, steps(current));
             }
             let end = from_afar(pooled, &start, &CANDIDATE)?;
             catch_up(pooled, current, end)
         }
+    }
+}
+
+/// How far a candidate is followed from one start: beside a model that leaves but noise nothing is led astray, and a few steps tell all
+/// that could be gained.
+fn steps(current: &Fitted) -> &'static PooledSettings {
+    match current.is_at_floor() {
+        true => &A_FEW_STEPS,
+        false => &CANDIDATE,
     }
 }
 
@@ -138,8 +145,7 @@ fn no_worse(
         return end;
     }
     let nested = match nothing {
-        [only] if current.is_at_floor() => pooled.fit(only, &A_FEW_STEPS),
-        [only] => pooled.fit(only, &CANDIDATE),
+        [only] => pooled.fit(only, steps(current)),
         several => {
             let tried = several
                 .iter()

@@ -444,11 +444,12 @@ impl ModelSelection<'_> {
 
     pub fn step(&self, ranking: &Ranking, index: usize, current: &Fitted) -> Step {
         let candidate = &ranking.candidates[index];
+        let share = candidate.share_beside(current);
         let addition = Addition {
             effect: candidate.effect,
             p_family: candidate.p_family,
-            heldout_gain: candidate.gain_beside(current) / misfit(current),
-            share_of_first: candidate.gain_beside(current) / misfit(current),
+            heldout_gain: share,
+            share_of_first: share,
             twins: twins(ranking, index, &self.clusters),
         };
         (addition, candidate.fitted.clone())

@@ -180,6 +180,11 @@ impl Candidate {
         }
     }
 
+    /// The same as a share of what `current` misses.
+    pub fn share_beside(&self, current: &Fitted) -> f64 {
+        self.gain_beside(current) / misfit(current)
+    }
+
     /// Whether held-out tightenings gain, and by more than one would expect of their scatter.
     fn gains_clearly(&self) -> bool {
         self.gain() > 0.0 && self.clearness() > 1.0

@@ -9,7 +9,7 @@ use crate::ranking::paired_gain::gains;
 use crate::ranking::pairs::Pair;
 use crate::ranking::rank::{Candidate, Ranking, rank};
 use crate::selection::model_selection::{ModelSelection, Step};
-use crate::selection::path::{SelectionPath, least_share, misfit};
+use crate::selection::path::{SelectionPath, least_share};
 use snug_model::Effect;
 
 /// A pair, fitted: both, and the second as a step from the first, which stands at `seed` in the ranking.
@@ -42,7 +42,7 @@ impl ModelSelection<'_> {
             // What either does by itself says little.
             for addition in [&mut first, &mut second] {
                 addition.p_family = pair.both.p_family;
-                addition.heldout_gain = pair.both.gain_beside(current) / misfit(current);
+                addition.heldout_gain = pair.both.share_beside(current);
             }
             vec![(first, alone), (second, both)]
         }))

@@ -10,7 +10,7 @@ use crate::pooled::sizes::parameters;
 use crate::pooled::thresholds::AT_FLOOR;
 use crate::question::{Goal, Question};
 use crate::ranking::rank::{Candidate, Ranking};
-use crate::selection::path::{Addition, SelectionPath, misfit, misfits, twins};
+use crate::selection::path::{Addition, SelectionPath, misfits, twins};
 use crate::settings::DiagnoseSettings;
 use crate::verdict::comparisons::compare_sizes;
 use crate::verdict::earned;
@@ -324,26 +324,19 @@ impl Examination<'_> {
             order.retain(|&index| index != chosen);
             order.insert(0, chosen);
         }
-        let whole = misfit(self.path.last());
         let Some(&first) = order.first() else {
             return Vec::new();
         };
         let first = &ranking.candidates[first];
         let ranked = order
             .iter()
-            .map(|&index| self.ranked(ranking, index, whole, first));
+            .map(|&index| self.ranked(ranking, index, first));
         ranked
             .chain(trends(drift, self.question.cases, self.settings.level))
             .collect()
     }
 
-    fn ranked(
-        &self,
-        ranking: &Ranking,
-        index: usize,
-        misfit: f64,
-        first: &Candidate,
-    ) -> RankedEffect {
+    fn ranked(&self, ranking: &Ranking, index: usize, first: &Candidate) -> RankedEffect {
         let candidate = &ranking.candidates[index];
         let sizes = parameters(self.question.cases, &candidate.fitted, candidate.effect);
         let supported = candidate.is_supported(self.settings);
@@ -358,7 +351,7 @@ impl Examination<'_> {
             expression: declaration(candidate.effect).map(|term| term.expression),
             score: candidate.score,
             p_family: candidate.p_family,
-            heldout_gain: candidate.gain_beside(self.path.last()) / misfit,
+            heldout_gain: candidate.share_beside(self.path.last()),
             heldout_gain_error: candidate.share_error(&misfits(self.path.last())),
             error_over_noise: candidate
                 .fitted
@@ -448,11 +441,9 @@ impl Examination<'_> {
             .map(|index| &self.path.ranking.candidates[index]);
         let (effect, gain, fitted) = match (added, chosen) {
             (Some(one), _) => (one.effect, one.heldout_gain, self.path.last()),
-            (None, Some(one)) if is_unlisted(one.effect) => (
-                one.effect,
-                one.gain_beside(self.path.last()) / misfit(self.path.last()),
-                &one.fitted,
-            ),
+            (None, Some(one)) if is_unlisted(one.effect) => {
+                (one.effect, one.share_beside(self.path.last()), &one.fitted)
+            }
             _ => return None,
         };
         let declared = declaration(effect)?;

@@ -4,24 +4,22 @@
 //! every recording by itself is fitted as well as ever, so that no error tells of it.
 
 use crate::pooled::fitted::Fitted;
+use crate::pooled::sharing::Groups;
 use crate::verdict::thresholds::{FEWEST_OF_FILE, NO_RIG_DIFFERS, SAME_FACTOR};
+use snug_campaign::Factor;
 use snug_campaign::words::suspicion::OtherUnits;
 use snug_identify::FitTask;
 use snug_statistics::descriptive::median;
-use std::collections::BTreeMap;
 
 /// Two files whose masses, dampings and stiffnesses stand apart by a factor that no rig explains, those that share it most nearly.
 pub(crate) fn in_other_units(cases: &[FitTask<'_>], fitted: &Fitted) -> Option<OtherUnits> {
-    let mut files: BTreeMap<&str, Vec<&[f64]>> = BTreeMap::new();
-    for (member, case) in cases.iter().enumerate() {
-        let own = fitted.own_base(member);
-        files.entry(&case.tightening.id.file).or_default().push(own);
-    }
+    let files = Groups::of(cases, &Factor::File)?;
+    let members = files.members();
     let is_judged =
-        |members: &Vec<&[f64]>| fitted.are_stretches() || members.len() >= FEWEST_OF_FILE;
-    let sizes: Vec<(&str, Vec<f64>)> = (files.into_iter())
+        |members: &Vec<usize>| fitted.are_stretches() || members.len() >= FEWEST_OF_FILE;
+    let sizes: Vec<(&str, Vec<f64>)> = (files.levels.iter().zip(&members))
         .filter(|(_, members)| is_judged(members))
-        .map(|(file, members)| (file, typical(&members)))
+        .map(|(file, members)| (file.name.as_str(), typical(fitted, members)))
         .collect();
     let pairs = sizes.iter().flat_map(|one| {
         let others = sizes.iter();
@@ -43,11 +41,12 @@ struct CommonFactor {
     agree_within: f64,
 }
 
-/// The median of every size.
-fn typical(members: &[&[f64]]) -> Vec<f64> {
-    let columns = members.first().map_or(0, |own| own.len());
+/// The median of each of mass, damping and stiffness that these tightenings have of their own.
+fn typical(fitted: &Fitted, members: &[usize]) -> Vec<f64> {
+    let columns = (members.first()).map_or(0, |&first| fitted.own_base(first).len());
     let of = |column: usize| {
-        let sizes: Vec<f64> = members.iter().map(|own| own[column]).collect();
+        let own = |&member: &usize| fitted.own_base(member)[column];
+        let sizes: Vec<f64> = members.iter().map(own).collect();
         median(&sizes).unwrap_or(0.0)
     };
     (0..columns).map(of).collect()
