@@ -437,27 +437,6 @@ impl Fitted {
         all
     }
 
-    /// Curvature and the gradient of each cluster, whose last entries belong to the shared parameters. Stretches of one
-    /// tightening speak of its own parameters, too.
-    pub fn shared_evidence(&self) -> (SymmetricMatrix, Vec<Vec<f64>>) {
-        let of_blocks = || {
-            self.blocks
-                .iter()
-                .map(|block| block.gradient.clone())
-                .collect()
-        };
-        let of_profiles = || {
-            let all = self.profiles.iter().enumerate();
-            all.map(|(member, (_, gradient))| self.of_all_shared(member, gradient))
-                .collect()
-        };
-        match self.member_curvature.first() {
-            Some(whole) if self.own.len() == 1 => (whole.clone(), of_blocks()),
-            Some(_) if self.shares_all() => (self.shared_curvature(), of_blocks()),
-            _ => (self.shared_curvature(), of_profiles()),
-        }
-    }
-
     /// Whether clusters are stretches of a few long records.
     pub fn are_stretches(&self) -> bool {
         !self.clusters.are_whole()
@@ -478,6 +457,7 @@ pub(super) fn add_in(sum: &mut SymmetricMatrix, part: &SymmetricMatrix, places: 
     }
 }
 
+mod evidence;
 #[cfg(test)]
 mod made_up;
 #[cfg(test)]

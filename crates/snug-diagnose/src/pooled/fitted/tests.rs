@@ -89,12 +89,37 @@ fn a_stretch_is_held_out_of_its_own_record_and_of_what_all_share() {
     close(heldout[1], 1.5 * 1.5, 1e-12);
 }
 
+/// What the stretches of both pull at α, whose β are in their middle: −t r.
+#[test]
+fn stretches_of_several_records_speak_of_what_they_share() {
+    let (curvature, gradients) = two_lines().shared_evidence();
+    assert_eq!((curvature.size(), curvature.at(0, 0)), (1, 10.0));
+    let expected = [-0.3, 0.0, -1.3, 0.8, 0.0, 0.8];
+    for (found, expected) in gradients.iter().zip(expected) {
+        close(found[0], expected, 1e-12);
+    }
+}
+
+/// Moved by 3 in t, a record says the same of its slope: what is asked of the middle is not asked of the slope.
+#[test]
+fn what_a_stretch_asks_of_its_own_record_is_no_pull_at_what_all_share() {
+    let mut moved = two_lines();
+    for block in &mut moved.blocks[..3] {
+        let (g, t) = (block.gradient[0], block.curvature.at(0, 1) + 3.0);
+        block.gradient[1] += 3.0 * g;
+        block.curvature = SymmetricMatrix::new(2, vec![1.0, t, t, t * t]);
+    }
+    moved.member_curvature[0] = SymmetricMatrix::new(2, vec![3.0, 9.0, 9.0, 2.0 + 27.0]);
+    let (curvature, gradients) = moved.shared_evidence();
+    close(curvature.at(0, 0), 10.0, 1e-12);
+    for (found, expected) in gradients.iter().zip([-0.3, 0.0, -1.3, 0.8, 0.0, 0.8]) {
+        close(found[0] + 1.0, expected + 1.0, 1e-12);
+    }
+}
+
 #[test]
 fn a_single_record_s_stretches_speak_of_its_own_parameters_too() {
     let two = two_lines();
-    let (curvature, gradients) = two.shared_evidence();
-    assert_eq!((curvature.size(), curvature.at(0, 0)), (1, 10.0));
-    assert_eq!(gradients, [[-1.6], [1.6]]);
     let mut one = two.clone();
     one.own.truncate(1);
     one.blocks.truncate(3);
