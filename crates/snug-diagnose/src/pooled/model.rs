@@ -191,12 +191,13 @@ impl<'a> PooledModel<'a> {
         values.collect()
     }
 
-    /// Where the parameters begin by themselves, one start for each record where all share mass, damping and stiffness: what one
-    /// of them asks for may be far from what the others do.
+    /// Where the parameters begin by themselves, one start for each record where all share mass, damping and stiffness, else another
+    /// from where each ends by itself: what one of them asks for may be far from what the others do.
     pub fn usual_starts(&self) -> Vec<Start> {
         let usual = self.usual_start();
         if !self.cases.are_of_one_machine() {
-            return vec![usual];
+            let alone = self.each_alone(&usual);
+            return vec![usual, alone];
         }
         (self.models.iter())
             .map(|model| Start {
@@ -204,6 +205,18 @@ impl<'a> PooledModel<'a> {
                 shared: self.shared_values(model),
             })
             .collect()
+    }
+
+    /// From `start`, each member's own parameters where its fit by itself ends.
+    fn each_alone(&self, start: &Start) -> Start {
+        let members: Vec<usize> = (0..self.models.len()).collect();
+        let ends = self.fit_alone(&members, &start.own, &start.shared);
+        let own = (ends.into_iter().zip(&start.own))
+            .map(|(end, start)| end.map_or_else(|| start.clone(), |(own, _)| own));
+        Start {
+            own: own.collect(),
+            shared: start.shared.clone(),
+        }
     }
 
     /// The sizes of `start` with the study's own mass, damping and stiffness as they usually begin.
