@@ -2,6 +2,8 @@
 //! explained by a mass and a damper of its own; all four by dry friction, as a plain regression says in milliseconds.
 
 use snug_campaign::words::headline::Headline;
+use snug_campaign::words::reason::Reason;
+use snug_campaign::words::suspicion::Suspicion;
 use snug_campaign::{Diagnosis, Verdict};
 use snug_study::{RunSettings, Study, Verb, diagnose};
 use std::f64::consts::TAU;
@@ -15,14 +17,29 @@ const DAMPING_V_S_PER_RAD: f64 = 1.9;
 const INERTIA_V_S2_PER_RAD: f64 = 0.109;
 const RATE_HZ: f64 = 200.0;
 
-/// A test under `volt`, by small steps of the midpoint rule, the speed with noise of 0.01 rad/s; in other units so many times
-/// as large.
-fn recorded(volt: impl Fn(f64) -> f64, seconds: f64, [volts, speeds]: [f64; 2]) -> String {
+/// What differs from one test to another.
+#[derive(Clone, Copy)]
+struct Bench {
+    /// Volts and speeds are written in units that make them so many times as large.
+    units: [f64; 2],
+    /// So many times as heavy and as damped, and driven by as many times the voltage.
+    load: f64,
+}
+
+const USUAL: Bench = Bench {
+    units: [1.0, 1.0],
+    load: 1.0,
+};
+
+/// A test under `volt`, by small steps of the midpoint rule, the speed with noise of 0.01 rad/s.
+fn recorded(volt: impl Fn(f64) -> f64, seconds: f64, bench: Bench) -> String {
+    let (load, [volts, speeds]) = (bench.load, bench.units);
+    let volt = |t: f64| load * volt(t);
     const STEPS: u32 = 100;
     let h = 1.0 / RATE_HZ / f64::from(STEPS);
     let rate = |t: f64, v: f64| {
         let friction = FRICTION_V * (v / 1e-3).tanh();
-        (volt(t) - DAMPING_V_S_PER_RAD * v - friction) / INERTIA_V_S2_PER_RAD
+        (volt(t) - load * DAMPING_V_S_PER_RAD * v - friction) / (load * INERTIA_V_S2_PER_RAD)
     };
     let (mut v, mut table) = (0.0, "volt,speed\n".to_owned());
     for row in 0..(seconds * RATE_HZ) as u32 {
@@ -43,18 +60,36 @@ fn recorded(volt: impl Fn(f64) -> f64, seconds: f64, [volts, speeds]: [f64; 2]) 
     table
 }
 
-/// What `verb` says of two ramps and two steps, each in units of its own.
-fn told(verb: &Verb, units: [[f64; 2]; 4], hz: f64) -> Diagnosis {
+/// One test: its name, its voltage, how long it took \[s\], and the bench.
+type Test = (&'static str, fn(f64) -> f64, f64, Bench);
+
+/// Two ramps and two steps, each on a bench of its own.
+fn ramps_and_steps(benches: [Bench; 4]) -> [Test; 4] {
+    [
+        ("ramp_up", |t| 0.25 * t, 20.0, benches[0]),
+        ("ramp_down", |t| -0.25 * t, 20.1, benches[1]),
+        (
+            "step_up",
+            |t| if t > 0.302 { 4.0 } else { 0.0 },
+            4.0,
+            benches[2],
+        ),
+        (
+            "step_down",
+            |t| if t > 0.302 { -4.0 } else { 0.0 },
+            4.1,
+            benches[3],
+        ),
+    ]
+}
+
+/// What `verb` says of them.
+fn told(verb: &Verb, tests: &[Test], hz: f64) -> Diagnosis {
     let folder = tempfile::tempdir().unwrap();
     let data = folder.path().join("tests");
     std::fs::create_dir(&data).unwrap();
-    let step = |volt: f64| move |t: f64| if t > 0.302 { volt } else { 0.0 };
-    for (name, table) in [
-        ("ramp_up", recorded(|t| 0.25 * t, 20.0, units[0])),
-        ("ramp_down", recorded(|t| -0.25 * t, 20.1, units[1])),
-        ("step_up", recorded(step(4.0), 4.0, units[2])),
-        ("step_down", recorded(step(-4.0), 4.1, units[3])),
-    ] {
+    for (name, volt, seconds, bench) in tests {
+        let table = recorded(volt, *seconds, *bench);
         std::fs::write(data.join(name).with_extension("csv"), table).unwrap();
     }
     let text = format!(
@@ -83,7 +118,12 @@ fn told(verb: &Verb, units: [[f64; 2]; 4], hz: f64) -> Diagnosis {
 #[test]
 fn four_tests_of_a_motor_lack_dry_friction_and_nothing_else_in_any_unit() {
     for (units, hz) in [([1.0, 1.0], RATE_HZ), ([1000.0, 7.0 * 60.0 / TAU], 1.0)] {
-        let added = told(&Verb::Improve, [units; 4], hz).added;
+        let added = told(
+            &Verb::Improve,
+            &ramps_and_steps([Bench { units, ..USUAL }; 4]),
+            hz,
+        )
+        .added;
         let [friction] = added.as_slice() else {
             panic!("{added:?}")
         };
@@ -97,9 +137,13 @@ fn four_tests_of_a_motor_lack_dry_friction_and_nothing_else_in_any_unit() {
 /// motor seems a thousand times as heavy.
 #[test]
 fn recordings_in_other_units_than_the_others_are_no_physics() {
-    for other in [[1000.0, 1.0], [1.0, 1e-3]] {
-        let usual = [1.0, 1.0];
-        let told = told(&Verb::Compare, [usual, other, usual, other], RATE_HZ);
+    for units in [[1000.0, 1.0], [1.0, 1e-3]] {
+        let other = Bench { units, ..USUAL };
+        let told = told(
+            &Verb::Compare,
+            &ramps_and_steps([USUAL, other, USUAL, other]),
+            RATE_HZ,
+        );
         assert_eq!(told.verdict, Verdict::NotFitted);
         let Headline::OtherUnits(units) = &told.headline else {
             panic!("{}", told.headline)
@@ -107,4 +151,35 @@ fn recordings_in_other_units_than_the_others_are_no_physics() {
         assert!(units.larger.contains("down") && units.smaller.contains("up"));
         assert!((units.factor / 1000.0).ln().abs() < 0.7, "{units}");
     }
+}
+
+/// With a flywheel and a brake 146 times as heavy and as damped: no unit is wrong, and the friction is the motor's.
+#[test]
+fn another_load_is_told_and_what_is_missing_is_found_all_the_same() {
+    let flywheel = Bench {
+        load: 146.0,
+        ..USUAL
+    };
+    let to_and_fro: fn(f64) -> f64 = |t| 5.0 * (0.6 * t).sin() + 3.0 * (1.7 * t).sin();
+    let tests: [Test; 2] = [
+        ("light", to_and_fro, 40.0, USUAL),
+        ("flywheel", to_and_fro, 40.1, flywheel),
+    ];
+    let told = told(&Verb::Improve, &tests, RATE_HZ);
+    let [friction] = told.added.as_slice() else {
+        panic!("{}", told.headline)
+    };
+    assert_eq!(friction.effect, "coulomb_friction");
+    let volts = friction.parameters[0].value;
+    assert!((volts / FRICTION_V - 1.0).abs() < 0.03, "{volts}");
+    assert_ne!(told.verdict, Verdict::NotFitted);
+    let load = told.reasons.iter().find_map(|reason| match reason {
+        Reason::Check(Suspicion::Units(load)) => Some(load),
+        _ => None,
+    });
+    let load = load.expect("another load is told");
+    assert!(
+        !load.is_prefix && (load.factor / 146.0 - 1.0).abs() < 0.1,
+        "{load}"
+    );
 }

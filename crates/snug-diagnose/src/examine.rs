@@ -46,11 +46,13 @@ pub fn examine(
         watch,
     };
     let compared = selection.compare()?;
-    let units = in_other_units(cases, apart.as_ref().unwrap_or(compared.last()));
+    let units = (!settings.loads_differ)
+        .then(|| in_other_units(cases, apart.as_ref().unwrap_or(compared.last())))
+        .flatten();
     // What is missing is no question where recordings stand in units of their own.
-    let goal = match units {
-        Some(_) => &Goal::Compare,
-        None => &question.goal,
+    let goal = match &units {
+        Some(units) if units.is_prefix => &Goal::Compare,
+        _ => &question.goal,
     };
     let slow = match goal {
         Goal::Compare => None,

@@ -22,6 +22,8 @@ pub struct DiagnoseSettings {
     pub control_campaigns: usize,
     /// Seed of everything random; default 0.
     pub seed: u64,
+    /// Whether recordings move loads that differ a hundredfold, which otherwise looks like a unit that is wrong; default false.
+    pub loads_differ: bool,
 }
 
 impl Default for DiagnoseSettings {
@@ -34,6 +36,7 @@ impl Default for DiagnoseSettings {
             starts: 8,
             control_campaigns: 200,
             seed: 0,
+            loads_differ: false,
         }
     }
 }

@@ -180,7 +180,7 @@ impl Display for Headline {
             ),
             Self::OtherUnits(units) => write!(
                 f,
-                "Recordings are in different units: {units}. What is missing cannot be asked before that is mended."
+                "Recordings seem to be in different units: {units}. What is missing cannot be asked before that is mended."
             ),
             Self::NotFitted(explained) => write!(
                 f,

@@ -33,15 +33,17 @@ pub enum Suspicion {
     NoOscillator,
 }
 
-/// Two files whose masses, dampings and stiffnesses stand apart by one factor.
+/// Two files, or people, whose masses, dampings and stiffnesses stand apart by one factor.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OtherUnits {
-    /// The file whose are larger.
+    /// Whose are larger.
     pub larger: String,
-    /// The file whose are smaller.
+    /// Whose are smaller.
     pub smaller: String,
     /// How many times \[–\].
     pub factor: f64,
+    /// Whether a prefix of a unit (milli, micro) would explain it; otherwise another load is the likelier.
+    pub is_prefix: bool,
 }
 
 impl Display for OtherUnits {
@@ -99,9 +101,13 @@ impl Display for FailedFit {
 impl Display for Suspicion {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self {
+            Self::Units(units) if units.is_prefix => write!(
+                f,
+                "Check the units: {units}. Torque, motion or time of one of them is in another unit than the study says (`unit` of its channel), or was logged in one. If it is another load, say so in the study: `diagnosis: (search: (loads_differ: true))`."
+            ),
             Self::Units(units) => write!(
                 f,
-                "Check the units: {units}. No rig differs so much from one recording to the next; torque, motion or time of one of them is in another unit than the study says (`unit` of its channel), or was logged in one."
+                "Check the load: {units}. If that is no other load, torque, motion or time of one of them is in another unit than the study says (`unit` of its channel); if it is, `diagnosis: (search: (loads_differ: true))` in the study says so."
             ),
             Self::FailedFit(failed) => failed.fmt(f),
             Self::PoorMinimum(share) => write!(

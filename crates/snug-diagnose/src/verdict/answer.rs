@@ -61,7 +61,7 @@ pub(crate) struct Examination<'a> {
     pub cases: Cases<'a>,
     pub settings: &'a DiagnoseSettings,
     pub path: SelectionPath,
-    /// Recordings that stand in units of their own; nothing was looked for then.
+    /// Recordings that stand in units of their own, so that nothing was looked for, or that move another load.
     pub units: Option<OtherUnits>,
     pub watch: Watch<'a>,
 }
@@ -90,7 +90,8 @@ impl Examination<'_> {
         let cases = self.question.cases;
         let last = self.path.last();
         let places = self.places()?;
-        let (verdict, suspicions) = self.verdict_and_suspicions(&places);
+        let (verdict, mut suspicions) = self.verdict_and_suspicions(&places);
+        suspicions.extend(self.units_that_differ(false).map(Suspicion::Units));
         let ranking = self.ranking(&places.drift);
         let corrected = preparation::corrected(cases);
         let mut added = self.added();
@@ -222,7 +223,7 @@ impl Examination<'_> {
     fn verdict_and_suspicions(&self, places: &Places) -> (Verdict, Vec<Suspicion>) {
         let is_white = (places.explained.as_ref()).is_some_and(|all| all.neighbours.abs() < WHITE);
         let wrong = [
-            self.units.clone().map(Suspicion::Units),
+            self.units_that_differ(true).map(Suspicion::Units),
             self.failed_fit().map(Suspicion::FailedFit),
         ];
         let wrong: Vec<Suspicion> = wrong.into_iter().flatten().collect();
@@ -242,6 +243,12 @@ impl Examination<'_> {
             (Goal::Compare, [Suspicion::NoOscillator]) => (Verdict::Undecided, Vec::new()),
             _ => (verdict, suspicions),
         }
+    }
+
+    /// Recordings that stand apart by a prefix of a unit, or else by another load.
+    fn units_that_differ(&self, is_prefix: bool) -> Option<OtherUnits> {
+        let units = self.units.clone();
+        units.filter(|units| units.is_prefix == is_prefix)
     }
 
     /// How the best model falls short of a plain regression, if it does.

@@ -35,9 +35,15 @@ pub(crate) const FAR_BETTER: f64 = 0.2;
 /// failed \[–\]: where an effect is missing from both, they may well part (the base model of a motor with friction: 0.26 promised, less
 /// than nothing kept). Chosen.
 pub(crate) const PLAIN_PROMISE: f64 = 0.95;
-/// Factor between two files' masses, dampings and stiffnesses that is one of units \[–\]: people and loads differ tenfold. Chosen.
+/// Factor between two files' masses, dampings and stiffnesses that is one of units, or of another load \[–\]: people differ tenfold.
+/// Chosen.
 pub(crate) const NO_RIG_DIFFERS: f64 = 100.0;
 /// Factor within which those of two sizes are the same \[–\]: a bearing that is warm damps half as much. Chosen.
 pub(crate) const SAME_FACTOR: f64 = 3.0;
-/// Whole tightenings of a file from which their median is the file's. Chosen.
-pub(crate) const FEWEST_OF_FILE: usize = 3;
+/// What a unit's prefix changes numbers by \[–\]: milli and micro, of torque, motion or time.
+pub(crate) const UNIT_PREFIXES: [f64; 2] = [1e3, 1e6];
+/// Share of a group's tightenings that must stand that far apart from as many of another's \[–\]: one that is fitted badly is no unit.
+/// Chosen.
+pub(crate) const THREE_QUARTERS: f64 = 0.75;
+/// Whole tightenings from which a file or a person is judged by them: one is fitted badly at times. Chosen.
+pub(crate) const FEWEST_OF_GROUP: usize = 2;

@@ -1,37 +1,78 @@
-//! Whether some recordings stand in units of their own.
+//! Whether some recordings stand in units of their own, or move another load.
 //!
 //! An input or an output that is a thousand times too large makes mass, damping and stiffness all a thousand times as large, or small:
 //! every recording by itself is fitted as well as ever, so that no error tells of it.
 
 use crate::pooled::fitted::Fitted;
 use crate::pooled::sharing::Groups;
-use crate::verdict::thresholds::{FEWEST_OF_FILE, NO_RIG_DIFFERS, SAME_FACTOR};
+use crate::verdict::thresholds::{
+    FEWEST_OF_GROUP, NO_RIG_DIFFERS, SAME_FACTOR, THREE_QUARTERS, UNIT_PREFIXES,
+};
 use snug_campaign::Factor;
 use snug_campaign::words::suspicion::OtherUnits;
 use snug_identify::FitTask;
-use snug_statistics::descriptive::median;
+use snug_statistics::descriptive::quantile;
 
-/// Two files whose masses, dampings and stiffnesses stand apart by a factor that no rig explains, those that share it most nearly.
+/// Two files, else two people, whose masses, dampings and stiffnesses stand apart by a factor that hardly any rig explains: those that
+/// share it most nearly.
 pub(crate) fn in_other_units(cases: &[FitTask<'_>], fitted: &Fitted) -> Option<OtherUnits> {
-    let files = Groups::of(cases, &Factor::File)?;
-    let members = files.members();
+    let factors = [Factor::File, Factor::Participant];
+    let groups = factors.iter().filter_map(|one| Groups::of(cases, one));
+    let mut apart = groups.filter_map(|groups| furthest_apart(&groups, fitted));
+    apart.next()
+}
+
+fn furthest_apart(groups: &Groups, fitted: &Fitted) -> Option<OtherUnits> {
+    let members = groups.members();
     let is_judged =
-        |members: &Vec<usize>| fitted.are_stretches() || members.len() >= FEWEST_OF_FILE;
-    let sizes: Vec<(&str, Vec<f64>)> = (files.levels.iter().zip(&members))
+        |members: &Vec<usize>| fitted.are_stretches() || members.len() >= FEWEST_OF_GROUP;
+    let sizes: Vec<(&str, OwnSizes)> = (groups.levels.iter().zip(&members))
         .filter(|(_, members)| is_judged(members))
-        .map(|(file, members)| (file.name.as_str(), typical(fitted, members)))
+        .map(|(group, members)| (group.name.as_str(), OwnSizes::of(fitted, members)))
         .collect();
+    apart(&sizes)
+}
+
+fn apart(sizes: &[(&str, OwnSizes)]) -> Option<OtherUnits> {
     let pairs = sizes.iter().flat_map(|one| {
         let others = sizes.iter();
-        others.filter_map(move |other| Some((other.0, one.0, common_factor(&other.1, &one.1)?)))
+        others.filter_map(move |other| {
+            let common =
+                common_factor(&other.1.at(1.0 - THREE_QUARTERS), &one.1.at(THREE_QUARTERS))?;
+            (common.factor >= NO_RIG_DIFFERS).then_some((other, one, common))
+        })
     });
-    let apart = pairs.filter(|(_, _, common)| common.factor >= NO_RIG_DIFFERS);
-    let plainest = apart.min_by(|a, b| a.2.agree_within.total_cmp(&b.2.agree_within));
-    plainest.map(|(larger, smaller, common)| OtherUnits {
-        larger: larger.to_owned(),
-        smaller: smaller.to_owned(),
-        factor: common.factor,
+    let (larger, smaller, _) =
+        pairs.min_by(|a, b| a.2.agree_within.total_cmp(&b.2.agree_within))?;
+    let factor = common_factor(&larger.1.at(0.5), &smaller.1.at(0.5))?.factor;
+    let is_prefix = |prefix: &f64| (factor / prefix).ln().abs() <= SAME_FACTOR.ln();
+    Some(OtherUnits {
+        larger: larger.0.to_owned(),
+        smaller: smaller.0.to_owned(),
+        factor,
+        is_prefix: UNIT_PREFIXES.iter().any(is_prefix),
     })
+}
+
+/// Logarithms of mass, damping and stiffness that tightenings have of their own, a list for each of the three.
+struct OwnSizes(Vec<Vec<f64>>);
+
+impl OwnSizes {
+    fn of(fitted: &Fitted, members: &[usize]) -> Self {
+        let columns = (members.first()).map_or(0, |&first| fitted.own_base(first).len());
+        let own = |column: usize| {
+            members
+                .iter()
+                .map(move |&member| fitted.own_base(member)[column].ln())
+        };
+        Self((0..columns).map(|column| own(column).collect()).collect())
+    }
+
+    /// A quantile of each; 0 where one of them is.
+    fn at(&self, share: f64) -> Vec<f64> {
+        let of = |logarithms: &Vec<f64>| quantile(logarithms, share).map_or(0.0, f64::exp);
+        self.0.iter().map(of).collect()
+    }
 }
 
 /// A factor that two sizes share.
@@ -39,17 +80,6 @@ struct CommonFactor {
     factor: f64,
     /// By what factor theirs differ.
     agree_within: f64,
-}
-
-/// The median of each of mass, damping and stiffness that these tightenings have of their own.
-fn typical(fitted: &Fitted, members: &[usize]) -> Vec<f64> {
-    let columns = (members.first()).map_or(0, |&first| fitted.own_base(first).len());
-    let of = |column: usize| {
-        let own = |&member: &usize| fitted.own_base(member)[column];
-        let sizes: Vec<f64> = members.iter().map(own).collect();
-        median(&sizes).unwrap_or(0.0)
-    };
-    (0..columns).map(of).collect()
 }
 
 /// The factor that two of the sizes share most nearly: one that a record hardly shows is anything, and so is its factor.
@@ -71,6 +101,34 @@ fn common_factor(of: &[f64], over: &[f64]) -> Option<CommonFactor> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// m, c, k of each tightening.
+    fn sizes(of: &[[f64; 3]]) -> OwnSizes {
+        let column = |column: usize| of.iter().map(|sizes| sizes[column].ln()).collect();
+        OwnSizes((0..3).map(column).collect())
+    }
+
+    fn hand(times: f64) -> [f64; 3] {
+        [2.0, 90.0, 2200.0].map(|size| size * times)
+    }
+
+    #[test]
+    fn two_tightenings_in_millinewtonmetres_are_a_prefix_and_a_flywheel_is_none() {
+        let usual = || sizes(&[hand(1.0), hand(1.5), hand(0.8)]);
+        let found = apart(&[("a", usual()), ("b", sizes(&[hand(900.0), hand(1500.0)]))]);
+        let found = found.expect("a thousandfold");
+        assert_eq!((found.larger.as_str(), found.is_prefix), ("b", true));
+        assert!((found.factor / 1162.0 - 1.0).abs() < 0.01, "{found}");
+        let flywheel = apart(&[("a", usual()), ("b", sizes(&[hand(146.0); 2]))]);
+        assert!(!flywheel.expect("another load").is_prefix);
+    }
+
+    #[test]
+    fn a_fit_that_went_astray_is_no_unit() {
+        let usual = sizes(&[hand(1.0), hand(1.5)]);
+        let one_astray = sizes(&[hand(1e4), hand(1.0)]);
+        assert_eq!(apart(&[("a", usual), ("b", one_astray)]), None);
+    }
 
     #[test]
     fn a_factor_is_that_of_two_sizes_that_agree() {
