@@ -66,7 +66,8 @@ impl Law for GravityTorque {
     #[inline(always)]
     fn torque<N: Number>(&self, p: &[N], at: &Instant<N>) -> Option<N> {
         let theta = at.x_m.times(at.lever_arm_m.constant(1.0) / at.lever_arm_m);
-        Some(p[0] * theta.sin() + p[1] * theta.cos())
+        let (sine, cosine) = theta.sin_cos();
+        Some(p[0] * sine + p[1] * cosine)
     }
 }
 

@@ -88,8 +88,8 @@ impl Law for TorqueRipple {
 
     #[inline(always)]
     fn force<N: Number>(&self, p: &[N], at: &Instant<N>, _own: &[N]) -> Option<N> {
-        let phase = at.x_m * TAU / p[2];
-        Some(p[0] * phase.sin() + p[1] * (phase.cos() - 1.0))
+        let (sine, cosine) = (at.x_m * TAU / p[2]).sin_cos();
+        Some(p[0] * sine + p[1] * (cosine - 1.0))
     }
 
     fn wavelength(&self) -> Option<usize> {

@@ -1,7 +1,10 @@
-//! e^x and tanh x with the same operations for one number and for many side by side.
+//! e^x, tanh x, sin x and cos x with the same operations for one number and for many side by side.
 //!
 //! x = k ln 2 + r with a whole k and |r| ≤ ½ ln 2; then e^r = (R + r)/(R − r), where R = r (e^r + 1)/(e^r − 1) is 2 and a
 //! short polynomial in r². Source: FreeBSD's e_exp.c (Sun Microsystems 1993), whose coefficients these are.
+//!
+//! x = q π/2 + r with a whole q and |r| ≤ π/4; sin r and cos r are their Taylor series, and q mod 4 says which is which. Source of the
+//! three parts of π/2: Cody and Waite, Software Manual for the Elementary Functions (1980).
 
 use crate::numeric::real::{Real, Task};
 
@@ -15,6 +18,72 @@ const EVEN_PART: [f64; 5] = [
     -1.653_390_220_546_525_2e-6,
     4.138_136_797_057_238_5e-8,
 ];
+
+/// π/2 in three parts of 33, 33 and 53 binary digits; q times the first two is exact up to q = 2²⁰, beyond which x itself is known no
+/// better.
+const HALF_PI: [f64; 3] = [
+    1.570_796_326_734_125_6,
+    6.077_100_506_303_966e-11,
+    2.022_226_624_879_595e-21,
+];
+/// (−1)ⁿ/(2n + 1)! from n = 1 on: sin r = r + r³ (…), to 2⁻⁶⁰ over |r| ≤ π/4.
+const SINE: [f64; 8] = alternating_reciprocals(1.0);
+/// (−1)ⁿ/(2n)! from n = 1 on: cos r = 1 + r² (…).
+const COSINE: [f64; 8] = alternating_reciprocals(0.0);
+
+/// −1/((1 + s)(2 + s)), and so on: every term is the one before over −(2n − 1 + s)(2n + s).
+const fn alternating_reciprocals(s: f64) -> [f64; 8] {
+    let mut series = [0.0; 8];
+    let (mut term, mut n) = (1.0, 0);
+    while n < 8 {
+        let twice = 2.0 * (n as f64 + 1.0);
+        term /= -(twice - 1.0 + s) * (twice + s);
+        series[n] = term;
+        n += 1;
+    }
+    series
+}
+
+/// The value of a polynomial whose coefficients begin with the constant.
+#[inline(always)]
+fn polynomial<R: Real>(coefficients: &[f64; 8], x: R) -> R {
+    let mut value = x.constant(coefficients[7]);
+    for &coefficient in coefficients[..7].iter().rev() {
+        value = value * x + coefficient;
+    }
+    value
+}
+
+/// sin x and cos x to 2⁻⁵² and what x itself is uncertain by.
+pub fn sine_and_cosine<R: Real>(x: R) -> (R, R) {
+    out_of_line(
+        x,
+        #[inline(always)]
+        |x| {
+            let q = (x * std::f64::consts::FRAC_2_PI).nearest();
+            let r = x - q * HALF_PI[0] - q * HALF_PI[1] - q * HALF_PI[2];
+            // A whole number of that size has no fraction left to tell.
+            let r = r.within(-1.0, 1.0);
+            let square = r * r;
+            let sine = r + r * square * polynomial(&SINE, square);
+            let cosine = square * polynomial(&COSINE, square) + 1.0;
+            // q mod 4, from −2 to 2.
+            let quarter = q - (q * 0.25).nearest() * 4.0;
+            let one = x.constant(1.0);
+            let is_odd = (-((quarter.magnitude() - 1.0).magnitude()) + 0.5).is_positive();
+            let sine_is_kept = one.is_above((quarter - 0.5).magnitude());
+            let cosine_is_kept = one.is_above((quarter + 0.5).magnitude());
+            let (of_sine, of_cosine) = (
+                R::choose(is_odd, cosine, sine),
+                R::choose(is_odd, sine, cosine),
+            );
+            (
+                R::choose(sine_is_kept, of_sine, -of_sine),
+                R::choose(cosine_is_kept, of_cosine, -of_cosine),
+            )
+        },
+    )
+}
 
 /// k, r and R.
 #[inline(always)]
@@ -61,17 +130,17 @@ pub fn hyperbolic_tangent<R: Real>(x: R) -> R {
 
 struct Function<R, F>(R, F);
 
-impl<R: Real, F: Fn(R) -> R> Task for Function<R, F> {
-    type Output = R;
+impl<R: Real, T, F: Fn(R) -> T> Task for Function<R, F> {
+    type Output = T;
     #[inline(always)]
-    fn run(self) -> R {
+    fn run(self) -> T {
         self.1(self.0)
     }
 }
 
 /// Within the equations of motion these functions would cost every effect registers, used or not.
 #[inline(never)]
-fn out_of_line<R: Real>(x: R, function: impl Fn(R) -> R) -> R {
+fn out_of_line<R: Real, T>(x: R, function: impl Fn(R) -> T) -> T {
     x.vectorize(Function(x, function))
 }
 
@@ -89,6 +158,24 @@ mod tests {
         assert_eq!(hyperbolic_tangent(0.0), 0.0);
         assert_eq!(hyperbolic_tangent(f64::NEG_INFINITY), -1.0);
         assert!(hyperbolic_tangent(f64::NAN).is_nan());
+    }
+
+    #[test]
+    fn sine_and_cosine_agree_with_the_standard_library() {
+        let steps = (-200_000..=200_000).map(|step| f64::from(step) * 1e-3 + 1e-7);
+        let quarters = (-40..=40).map(|quarter| f64::from(quarter) * std::f64::consts::FRAC_PI_4);
+        let far = (1..2000).map(|step| f64::from(step) * 12_345.678_9);
+        for x in steps.chain(quarters).chain(far) {
+            let (sine, cosine) = sine_and_cosine(x);
+            let of_itself = if x.abs() > 1.6e6 { x.abs() } else { 0.0 };
+            let within = 3e-16 + f64::EPSILON * of_itself;
+            assert!((sine - x.sin()).abs() <= within, "{x}: {sine} {}", x.sin());
+            assert!((cosine - x.cos()).abs() <= within, "{x}: {cosine}");
+        }
+        assert_eq!(sine_and_cosine(0.0), (0.0, 1.0));
+        assert_eq!(sine_and_cosine(1e-9).0, 1e-9);
+        assert!(sine_and_cosine(f64::NAN).0.is_nan() && sine_and_cosine(f64::NAN).1.is_nan());
+        assert!(sine_and_cosine(1e300).0.abs() <= 1.0);
     }
 
     #[test]

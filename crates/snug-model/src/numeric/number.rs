@@ -1,6 +1,6 @@
 //! The arithmetic that laws are written in, over plain numbers and over those that carry derivatives.
 
-use crate::numeric::elementary::{exponential_function, hyperbolic_tangent};
+use crate::numeric::elementary::{exponential_function, hyperbolic_tangent, sine_and_cosine};
 use crate::numeric::real::Real;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
@@ -76,15 +76,21 @@ pub trait Number:
         let power = exponential_function(self.value());
         self.chain(power, power)
     }
+    /// Sine and cosine of an angle \[rad\].
+    #[inline(always)]
+    fn sin_cos(self) -> (Self, Self) {
+        let (sine, cosine) = sine_and_cosine(self.value());
+        (self.chain(sine, cosine), self.chain(cosine, -sine))
+    }
     /// Sine of an angle \[rad\].
+    #[inline(always)]
     fn sin(self) -> Self {
-        let value = self.value();
-        self.chain(value.each(f64::sin), value.each(f64::cos))
+        self.sin_cos().0
     }
     /// Cosine of an angle \[rad\].
+    #[inline(always)]
     fn cos(self) -> Self {
-        let value = self.value();
-        self.chain(value.each(f64::cos), -value.each(f64::sin))
+        self.sin_cos().1
     }
     /// Tangent of an angle \[rad\].
     fn tan(self) -> Self {

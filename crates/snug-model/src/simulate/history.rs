@@ -14,11 +14,11 @@ pub struct History<N: Number> {
 }
 
 impl<N: Number> History<N> {
-    /// Nothing noted yet; notes will be `interval_s` apart.
-    pub fn new(interval_s: N::Real) -> Self {
+    /// Nothing noted yet; `notes` will be, `interval_s` apart.
+    pub fn new(interval_s: N::Real, notes: usize) -> Self {
         Self {
             interval_s,
-            noted: Vec::new(),
+            noted: Vec::with_capacity(notes),
         }
     }
 
@@ -92,7 +92,7 @@ mod tests {
     fn a_cubic_is_looked_up_exactly_with_its_slope() {
         let x = |t: f64| 1.0 + 2.0 * t - 3.0 * t * t + 0.5 * t * t * t;
         let v = |t: f64| 2.0 - 6.0 * t + 1.5 * t * t;
-        let mut history = History::<Dual<1>>::new(0.25);
+        let mut history = History::<Dual<1>>::new(0.25, 9);
         for note in 0..9 {
             let t = f64::from(note) * 0.25;
             history.note(x(t).into(), v(t).into());

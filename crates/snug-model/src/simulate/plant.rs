@@ -49,6 +49,10 @@ impl<'a, N: Number> Plant<'a, N> {
         for part in parts {
             delayed.extend(part.effect.delayed(&p[part.parameters.clone()]));
         }
+        let notes = match delayed.is_empty() {
+            true => 0,
+            false => inputs.torque_nm().len(),
+        };
         Self {
             inputs,
             damping_kg_per_s: p[1].of_one::<DAMPING>(),
@@ -58,7 +62,7 @@ impl<'a, N: Number> Plant<'a, N> {
             is_torque_known: is_torque_known && hook_set.torque.is_empty(),
             hook_set,
             delayed,
-            history: History::new(inputs.interval_s),
+            history: History::new(inputs.interval_s, notes),
         }
     }
 
