@@ -131,12 +131,29 @@ impl Wave {
         sizes.map(alone).collect()
     }
 
-    /// The force after so many waves \[N\].
-    fn at(&self, waves: f64) -> f64 {
+    /// The force at a place of the wave \[N\].
+    fn at(&self, place: &InWave) -> f64 {
+        let (before, after) = (self.force_n[place.part], self.force_n[place.part + 1]);
+        before + (after - before) * place.beyond
+    }
+}
+
+/// A place within a wave.
+struct InWave {
+    /// Which of its parts.
+    part: usize,
+    /// How far into it \[–\].
+    beyond: f64,
+}
+
+impl InWave {
+    fn after(waves: f64) -> Self {
         let along = (waves - waves.floor()) * PARTS_OF_A_WAVE as f64;
         let part = (along as usize).min(PARTS_OF_A_WAVE - 1);
-        let (before, after) = (self.force_n[part], self.force_n[part + 1]);
-        before + (after - before) * (along - part as f64)
+        Self {
+            part,
+            beyond: along - part as f64,
+        }
     }
 }
 
@@ -147,8 +164,10 @@ fn explain(balances: &[Balance], waves: &[Wave], place: usize, wave_number: f64)
     let mut squares = vec![vec![0.0; waves.len()]; waves.len()];
     let (mut scores, mut whole) = (vec![0.0; waves.len()], 0.0);
     for balance in balances {
+        let places = balance.x_m.iter().map(|x_m| x_m * wave_number);
+        let places: Vec<InWave> = places.map(InWave::after).collect();
         let columns: Vec<Vec<f64>> = (waves.iter())
-            .map(|wave| balance.of_force(|x_m| wave.at(x_m * wave_number)))
+            .map(|wave| balance.of_force(places.iter().map(|place| wave.at(place))))
             .collect();
         for (i, column) in columns.iter().enumerate() {
             scores[i] += dot(column, &balance.left_nm);
@@ -276,8 +295,8 @@ impl Balance {
     }
 
     /// The torque \[Nm\] of a force, averaged, without what every model may explain.
-    fn of_force(&self, force_n: impl Fn(f64) -> f64) -> Vec<f64> {
-        let force: Vec<f64> = self.x_m.iter().map(|&x_m| force_n(x_m)).collect();
+    fn of_force(&self, force_n: impl Iterator<Item = f64>) -> Vec<f64> {
+        let force: Vec<f64> = force_n.collect();
         let weight = &self.weights.of_value;
         let mean =
             |&place: &usize| self.lever_arm_m * dot(&force[place..place + weight.len()], weight);

@@ -1,6 +1,6 @@
 //! The filter that makes a measured noise white, so that equal residuals are equally unlikely.
 
-use crate::residual::thresholds::BLOCK;
+use crate::residual::thresholds::SIDE_BY_SIDE;
 use snug_campaign::{NoiseFloor, Quantity, Tightening};
 use snug_model::with_processor_instructions;
 
@@ -66,19 +66,28 @@ impl Whitening {
         let past = self.order() * substeps;
         let scale = 1.0 / self.innovation_sd;
         let count = white.len().min(signal.len().saturating_sub(past));
-        // Lag by lag over a block that stays in the cache: neighbouring samples then share vector registers, while a sum
-        // over the lags of one sample would wait for each of its additions.
-        for (block, white) in white[..count].chunks_mut(BLOCK).enumerate() {
-            let signal = &signal[block * BLOCK..];
-            white.fill(0.0);
+        // A few registers of neighbouring samples take up lag after lag: the sum over the lags of one sample alone would wait for
+        // each of its additions.
+        let whole = count - count % SIDE_BY_SIDE;
+        let (blocks, rest) = white[..count].split_at_mut(whole);
+        for (block, white) in blocks.chunks_exact_mut(SIDE_BY_SIDE).enumerate() {
+            let signal = &signal[block * SIDE_BY_SIDE..];
+            let mut sums = [0.0; SIDE_BY_SIDE];
             for (lag, a) in self.autoregression.iter().enumerate().rev() {
-                for (sum, earlier) in white.iter_mut().zip(&signal[past - (lag + 1) * substeps..]) {
+                let earlier = &signal[past - (lag + 1) * substeps..][..SIDE_BY_SIDE];
+                for (sum, earlier) in sums.iter_mut().zip(earlier) {
                     *sum += a * earlier;
                 }
             }
-            for (out, now) in white.iter_mut().zip(&signal[past..]) {
-                *out = (now + *out) * scale;
+            for ((out, now), sum) in white.iter_mut().zip(&signal[past..]).zip(sums) {
+                *out = (now + sum) * scale;
             }
+        }
+        for (place, out) in (whole..count).zip(rest) {
+            let earlier = |lag: usize| signal[place + past - (lag + 1) * substeps];
+            let lags = self.autoregression.iter().enumerate().rev();
+            let sum: f64 = lags.map(|(lag, a)| a * earlier(lag)).sum();
+            *out = (signal[place + past] + sum) * scale;
         }
     }
 
