@@ -85,11 +85,18 @@ fn ramps_and_steps(benches: [Bench; 4]) -> [Test; 4] {
 
 /// What `verb` says of them.
 fn told(verb: &Verb, tests: &[Test], hz: f64) -> Diagnosis {
+    let tables = tests
+        .iter()
+        .map(|(name, volt, seconds, bench)| (*name, recorded(volt, *seconds, *bench)));
+    told_of(verb, &tables.collect::<Vec<_>>(), hz)
+}
+
+/// What `verb` says of these tables of volts and speeds.
+fn told_of(verb: &Verb, tables: &[(&str, String)], hz: f64) -> Diagnosis {
     let folder = tempfile::tempdir().unwrap();
     let data = folder.path().join("tests");
     std::fs::create_dir(&data).unwrap();
-    for (name, volt, seconds, bench) in tests {
-        let table = recorded(volt, *seconds, *bench);
+    for (name, table) in tables {
         std::fs::write(data.join(name).with_extension("csv"), table).unwrap();
     }
     let text = format!(
@@ -182,4 +189,40 @@ fn another_load_is_told_and_what_is_missing_is_found_all_the_same() {
         !load.is_prefix && (load.factor / 146.0 - 1.0).abs() < 0.1,
         "{load}"
     );
+}
+
+/// A tachometer that lets the speed through 20 ms late, its own equation beside the motor's: no delay, and no mode.
+#[test]
+fn a_filtered_speed_is_a_lag_of_the_motion() {
+    const LAG_S: f64 = 0.02;
+    let hz = 500.0;
+    // A drive's command, 4 V either way, changed after uneven times.
+    let command = |row: u32| {
+        let at = f64::from(row / 70);
+        if (at * 12.9898).sin() * 43_758.545 % 1.0 > 0.0 {
+            4.0
+        } else {
+            -4.0
+        }
+    };
+    let (mut v, mut seen, mut table) = (0.0, 0.0, "volt,speed\n".to_owned());
+    for row in 0..6000 {
+        let noise = (f64::from(row) * 78.233).sin() * 43_758.545 % 1.0 * 0.01;
+        writeln!(table, "{:?},{:?}", command(row), seen + noise).unwrap();
+        const STEPS: u32 = 50;
+        let h = 1.0 / hz / f64::from(STEPS);
+        for _ in 0..STEPS {
+            let middle = v + 0.5 * h * (command(row) - 0.5 * v) / 0.1;
+            seen += h * (middle - seen) / LAG_S;
+            v += h * (command(row) - 0.5 * middle) / 0.1;
+        }
+    }
+    let told = told_of(&Verb::Improve, &[("prbs", table)], hz);
+    let [lag] = told.added.as_slice() else {
+        panic!("{}", told.headline)
+    };
+    assert_eq!(lag.effect, "acceleration_lag");
+    // The acceleration is taken as straight between samples, and jumps: half a sample of 2 ms.
+    let lag_s = lag.parameters[0].value;
+    assert!((lag_s - LAG_S).abs() < 0.0015, "{lag_s}");
 }

@@ -12,7 +12,12 @@ use snug_model::{Input, Scale};
 use std::borrow::Cow;
 
 /// Effects that stand in for half a sampling interval.
-const STAND_INS: [&str; 3] = ["torque_delay", "torque_lag", "second_mode"];
+const STAND_INS: [&str; 4] = [
+    "torque_delay",
+    "torque_lag",
+    "acceleration_lag",
+    "second_mode",
+];
 /// Samples of all recordings up to which everything is searched twice. Chosen: some seconds more.
 const MOST_SAMPLES: usize = 30_000;
 /// Root mean square of the error, over that with a straight input, up to which a model of fewer effects leaves as little \[–\].

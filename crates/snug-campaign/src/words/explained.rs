@@ -3,6 +3,10 @@
 use super::number::{fixed, whole_percent};
 use std::fmt::{self, Display, Formatter};
 
+/// Correlation of neighbouring samples from which what is left is a motion \[–\]: then more of it can be told from the sample before
+/// than cannot, 0.71² = ½.
+const A_MOTION: f64 = 0.71;
+
 /// What a model explains of the fitted output.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Explained {
@@ -28,10 +32,16 @@ impl Display for Explained {
 impl Explained {
     /// How far what is left is from noise, as a sentence.
     pub fn left(&self) -> String {
-        format!(
-            "Neighbouring samples of what is left correlate by {} (0 is white noise, 1 a smooth motion).",
+        let correlation = format!(
+            "correlate by {} (0 is white noise, 1 a smooth motion).",
             fixed(self.neighbours, 2)
-        )
+        );
+        match self.neighbours < A_MOTION {
+            true => format!("Neighbouring samples of what is left {correlation}"),
+            false => format!(
+                "What is left is still a motion rather than noise: its neighbouring samples {correlation}"
+            ),
+        }
     }
 }
 
@@ -48,6 +58,20 @@ pub(super) fn at_most_all(share: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_is_left_of_a_motion_is_called_one() {
+        let left = |neighbours: f64| {
+            let one = Explained {
+                output: "velocity",
+                share: 0.999,
+                neighbours,
+            };
+            one.left()
+        };
+        assert!(left(0.97).starts_with("What is left is still a motion"));
+        assert!(left(0.2).starts_with("Neighbouring samples of what is left correlate by 0.20"));
+    }
 
     #[test]
     fn a_good_model_is_not_said_to_be_perfect_nor_a_bad_one_less_than_nothing() {

@@ -39,6 +39,7 @@ const OF_A_MACHINE: &[(&str, &str)] = &[
     ("of tool and hand–arm together", "of all that moves"),
     ("between tool and hand", "of spring and damper"),
     ("tool inertia", "known inertia"),
+    ("acceleration lag", "lag of the motion"),
     ("tightening by tightening", "recording by recording"),
     (
         "tightening strategies Quick Step and Turbo Tight",

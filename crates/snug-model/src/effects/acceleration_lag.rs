@@ -1,19 +1,20 @@
 //! The measured acceleration a is the true α through a first-order lag: τ a' = α − a.
 //!
-//! The measured velocity and displacement are integrated from a, from rest: ω − τ a, and from it θ − τ (ω − τ a).
-//! Excited by fast torque changes. In the residual it follows dα/dt.
+//! The measured velocity and displacement are integrated from a, from rest: ω − τ a, and from it θ − τ (ω − τ a); a velocity or an
+//! angle that a filter of its own lets through late is the same. So is, as far as the rig is linear, a drive whose torque follows
+//! its command late. Excited by fast torque changes. In the residual it follows dα/dt.
 //!
-//! Valid for: filters of first order, τ ≥ 0, velocity and displacement integrated from this very acceleration. Any amplitude.
+//! Valid for: filters of first order, τ ≥ 0, all channels behind the same filter, at rest before the first sample. Any amplitude.
 //!
-//! Source: low-pass filter of the accelerometer.
+//! Source: low-pass filter of the sensor; current loop of a drive.
 
-use crate::description::{ActsOn, Description, Kind, ParameterSpec, Scope, state};
+use crate::description::{ActsOn, Description, Kind, OnMachine, ParameterSpec, Scope, state};
 use crate::law::Law;
 use crate::numeric::number::Number;
 
 state! {
-    summary: "The acceleration channel is filtered more than the torque channel.",
-    equation: "a + tau da/dt = alpha",
+    summary: "The motion channel is filtered more than the torque channel.",
+    equation: "y + tau dy/dt is the true motion, y is measured",
 }
 
 pub(super) struct AccelerationLag;
@@ -41,10 +42,16 @@ impl Law for AccelerationLag {
             twins: &["torque_delay", "torque_lag"],
             excited_by: "fast torque changes: shut-off, hard joints",
             shows_as: "misfit that follows the acceleration's slope",
-            check: "Look up the low-pass filter of the acceleration channel, and compare its step response with the torque channel's.",
-            on_machine: None,
-            valid_for: "filters of first order, velocity and displacement integrated from this very acceleration; any amplitude",
-            source: "low-pass filter of the accelerometer",
+            check: "Look up the low-pass filter of the motion channel, and compare its step response with the torque channel's.",
+            on_machine: Some(OnMachine {
+                summary: Some(
+                    "The measured motion is filtered, or the torque follows its command late.",
+                ),
+                shows_as: None,
+                check: "Look up the filter of the speed or angle signal and the time constant of the drive's current loop.",
+            }),
+            valid_for: "filters of first order, one for all channels of the motion, rest before the first sample; any amplitude",
+            source: "low-pass filter of the sensor, current loop of a drive",
         }
     }
 
