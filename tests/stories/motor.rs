@@ -226,3 +226,34 @@ fn a_filtered_speed_is_a_lag_of_the_motion() {
     let lag_s = lag.parameters[0].value;
     assert!((lag_s - LAG_S).abs() < 0.0015, "{lag_s}");
 }
+
+/// A drive that gives no more than 5 V, whatever is asked: no effect of the catalogue, and no longer record would make it one.
+#[test]
+fn what_nothing_explains_is_not_put_down_to_too_little_data() {
+    let hz = 500.0;
+    let (mut v, mut table) = (0.0, "volt,speed\n".to_owned());
+    for row in 0..12_000 {
+        let t = f64::from(row) / hz;
+        let side = (f64::from(row / 80) * 12.9898).sin() * 43_758.545 % 1.0;
+        let asked = 5.0 * side.signum() + 4.0 * (2.5 * t).sin() + 3.0 * (6.9 * t + 1.0).sin();
+        let noise = (f64::from(row) * 78.233).sin() * 43_758.545 % 1.0 * 0.02;
+        writeln!(table, "{asked:?},{:?}", v + noise).unwrap();
+        const STEPS: u32 = 20;
+        let h = 1.0 / hz / f64::from(STEPS);
+        for _ in 0..STEPS {
+            v += h * (asked.clamp(-5.0, 5.0) - 0.4 * v) / 0.05;
+        }
+    }
+    let told = told_of(&Verb::Improve, &[("saturating", table)], hz);
+    assert_eq!(told.verdict, Verdict::Undecided);
+    let Headline::MoreThanNoise { explained, .. } = &told.headline else {
+        panic!("{}", told.headline)
+    };
+    assert!(
+        explained.is_some_and(|all| all.leaves_a_motion()),
+        "{}",
+        told.headline
+    );
+    let asks_for_more = |reason: &Reason| matches!(reason, Reason::WouldDecide { .. });
+    assert!(!told.reasons.iter().any(asks_for_more), "{}", told.headline);
+}

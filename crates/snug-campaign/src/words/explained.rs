@@ -30,15 +30,20 @@ impl Display for Explained {
 }
 
 impl Explained {
+    /// Whether what is left is a motion rather than noise.
+    pub fn leaves_a_motion(&self) -> bool {
+        self.neighbours >= A_MOTION
+    }
+
     /// How far what is left is from noise, as a sentence.
     pub fn left(&self) -> String {
         let correlation = format!(
             "correlate by {} (0 is white noise, 1 a smooth motion).",
             fixed(self.neighbours, 2)
         );
-        match self.neighbours < A_MOTION {
-            true => format!("Neighbouring samples of what is left {correlation}"),
-            false => format!(
+        match self.leaves_a_motion() {
+            false => format!("Neighbouring samples of what is left {correlation}"),
+            true => format!(
                 "What is left is still a motion rather than noise: its neighbouring samples {correlation}"
             ),
         }

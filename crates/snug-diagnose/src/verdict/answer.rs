@@ -11,6 +11,7 @@ use crate::pooled::thresholds::AT_FLOOR;
 use crate::question::{Goal, Question};
 use crate::ranking::rank::{Candidate, Ranking};
 use crate::selection::path::{Addition, SelectionPath, misfits, twins};
+use crate::selection::thresholds::MOST;
 use crate::settings::DiagnoseSettings;
 use crate::verdict::comparisons::compare_sizes;
 use crate::verdict::earned;
@@ -99,6 +100,8 @@ impl Examination<'_> {
         let situation = Situation {
             in_model: &added,
             explained: places.explained,
+            is_more_than_noise: verdict == Verdict::Undecided
+                && (self.is_more_than_noise() || self.is_open(places.explained.as_ref())),
             suspicions: &suspicions,
             ..self.situation(verdict, &ranking, &corrected)
         };
@@ -200,7 +203,8 @@ impl Examination<'_> {
             settings: self.settings,
             explained: None,
             suspicions: &[],
-            is_more_than_noise: verdict == Verdict::Undecided && self.is_more_than_noise(),
+            is_more_than_noise: false,
+            promising: path.is_promising(self.settings).map(|one| one.effect),
         }
     }
 
@@ -321,6 +325,16 @@ impl Examination<'_> {
             None => last.error() > floor,
         };
         leaves_much && self.path.chosen.is_none() && self.path.is_promising(self.settings).is_none()
+    }
+
+    /// Whether what is left is a motion of which no promising candidate explains much, where nobody knows the noise.
+    fn is_open(&self, explained: Option<&Explained>) -> bool {
+        let explains_much = |one: &Candidate| {
+            let last = self.path.last();
+            one.gain_beside(last) > MOST * last.squares()
+        };
+        let promising = self.path.is_promising(self.settings);
+        explained.is_some_and(Explained::leaves_a_motion) && !promising.is_some_and(explains_much)
     }
 
     /// The candidates, the chosen one first, and behind them the trends.

@@ -51,6 +51,8 @@ pub(crate) struct Situation<'a> {
     pub suspicions: &'a [Suspicion],
     /// Whether the verdict is open because more is left than noise, though it hardly repeats and nothing explains it.
     pub is_more_than_noise: bool,
+    /// A candidate that is not supported and might be with more data.
+    pub promising: Option<Effect>,
 }
 
 impl Situation<'_> {
@@ -275,7 +277,11 @@ fn what_would_decide(situation: &Situation<'_>) -> Option<Reason> {
     if !is_open || situation.verb == "compare" {
         return None;
     }
-    let first = situation.ranking.first()?;
+    let is_promising = |one: &&RankedEffect| {
+        (situation.promising).is_some_and(|effect| effect.name() == one.effect)
+    };
+    let promising = situation.ranking.iter().find(is_promising);
+    let first = promising.or(situation.ranking.first())?;
     let times = (4.0 / first.score.max(0.5)).powi(2);
     let needed = (times * situation.tightenings as f64 / 4.0).ceil() * 4.0;
     Some(Reason::WouldDecide {
