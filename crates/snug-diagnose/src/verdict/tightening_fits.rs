@@ -20,7 +20,16 @@ impl<'a> TighteningFits<'a> {
     /// Identifies every tightening with the shared parameters held where all tightenings together put them.
     pub fn of(cases: &'a [FitTask<'a>], fitted: &Fitted) -> Result<Self, DiagnoseError> {
         let errors = fitted.shared_errors();
-        let fits = in_batches(cases, |some| fits(some, fitted, errors.as_deref()))?;
+        let models: Vec<Cow<'_, Model>> = (cases.iter().enumerate())
+            .map(|(member, case)| {
+                let held = held(case, fitted, member, errors.as_deref());
+                held.map_or(Cow::Borrowed(&*case.model), Cow::Owned)
+            })
+            .collect();
+        let tasks: Vec<FitTask<'_>> = (cases.iter().zip(&models))
+            .map(|(case, model)| case.with_model(model))
+            .collect();
+        let fits = in_batches(&tasks, fits)?;
         let (estimates, simulated) = fits.into_iter().unzip();
         Ok(Self {
             cases,
@@ -45,22 +54,9 @@ impl<'a> TighteningFits<'a> {
     }
 }
 
-/// Estimates and motions, the shared parameters held where all tightenings together put them.
-fn fits(
-    cases: &[FitTask<'_>],
-    fitted: &Fitted,
-    errors: Option<&[f64]>,
-) -> Result<Vec<(Estimate, Motion)>, DiagnoseError> {
-    let models: Vec<Cow<'_, Model>> = (cases.iter().enumerate())
-        .map(|(member, case)| {
-            let held = held(case, fitted, member, errors);
-            held.map_or(Cow::Borrowed(&*case.model), Cow::Owned)
-        })
-        .collect();
-    let tasks: Vec<FitTask<'_>> = (cases.iter().zip(&models))
-        .map(|(case, model)| case.with_model(model))
-        .collect();
-    (identify_all(&tasks).into_iter().zip(&tasks))
+/// Estimates and motions.
+fn fits(tasks: &[FitTask<'_>]) -> Result<Vec<(Estimate, Motion)>, DiagnoseError> {
+    (identify_all(tasks).into_iter().zip(tasks))
         .map(|(estimate, task)| {
             let estimate = estimate?;
             let values: Vec<f64> = estimate.parameters.iter().map(|p| p.value).collect();
@@ -68,4 +64,45 @@ fn fits(
             Ok((estimate, motion))
         })
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::data::cases::{Cases, Tally};
+    use crate::pooled::fit::fit_sharing;
+    use crate::pooled::sharing::Sharing;
+    use crate::tests::made_up::{WHOLE, exact};
+    use snug_campaign::{Factor, Quantity};
+    use snug_model::Effect::CoulombFriction;
+
+    /// Twenty tightenings, more than are identified together, of two people of whom the second alone has friction.
+    #[test]
+    fn each_has_the_size_of_its_own_group() {
+        let cases: Vec<FitTask<'_>> = (0..20)
+            .map(|number| {
+                let (who, friction_n) = if number < 10 {
+                    ("TP1", 0.0)
+                } else {
+                    ("TP2", 5.0)
+                };
+                let mut case = exact(number % 6, &[CoulombFriction], &[friction_n]);
+                case.tightening.to_mut().conditions.participant = Some(who.to_owned());
+                case
+            })
+            .collect();
+        let tally = Tally::default();
+        let sharing = Sharing::default().with(CoulombFriction, Some(Factor::Participant));
+        let cases_in = Cases::new(&cases, &tally);
+        let fitted = fit_sharing(cases_in, &[CoulombFriction], &sharing, None, WHOLE)
+            .expect("it can be fitted");
+        let fits = TighteningFits::of(&cases, &fitted).expect("each can be fitted");
+        for seen in fits.seen() {
+            let of = |motion: &Motion| motion.get(Quantity::Acceleration).map(<[f64]>::to_vec);
+            let (measured, simulated) = (of(&seen.tightening.motion), of(seen.simulated));
+            let pairs = measured.iter().flatten().zip(simulated.iter().flatten());
+            let largest = pairs.map(|(y, s)| (y - s).abs()).fold(0.0, f64::max);
+            assert!(largest < 1e-3, "{largest}");
+        }
+    }
 }
