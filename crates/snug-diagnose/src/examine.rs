@@ -98,7 +98,7 @@ fn selected(
 /// Recordings of one machine share mass, damping and stiffness, unless each with its own leaves far less: then something differs
 /// between them, as how warm a bearing is or which way it turns. Dry friction and an offset make such differences, too; where they
 /// explain far more, the machine is one. Beside it the fit of each by itself.
-fn one_machine_or_several<'a>(
+pub(crate) fn one_machine_or_several<'a>(
     cases: Cases<'a>,
     effects: &[Effect],
     clusters: Clusters,

@@ -10,8 +10,10 @@ mod uncertainty;
 
 pub use conic::constraints::{Affine, Constraints};
 pub use error::{EvaluationError, SolveError};
-pub use pooled_fit::problem::{PooledFit, PooledResidual, PooledSettings, Profile, Trial};
-pub use pooled_fit::solve::solve_pooled;
+pub use pooled_fit::problem::{
+    PooledFit, PooledResidual, PooledSettings, PooledStep, Profile, Trial,
+};
+pub use pooled_fit::solve::{solve_pooled, solve_pooled_followed};
 pub use problem::difference_residual::DifferenceResidual;
 pub use problem::least_squares::LeastSquares;
 pub use problem::linearization::Linearization;

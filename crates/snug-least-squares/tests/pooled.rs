@@ -3,8 +3,9 @@
 
 use snug_least_squares::{
     Constraints, DenseResidual, EvaluationError, PooledResidual, PooledSettings, Residual,
-    Settings, Trial, solve, solve_pooled,
+    Settings, Trial, solve, solve_pooled, solve_pooled_followed,
 };
+use std::ops::ControlFlow;
 
 const MEMBERS: usize = 5;
 const SAMPLES: usize = 40;
@@ -306,4 +307,43 @@ fn shared_parameters_know_that_own_ones_stand_at_a_wall() {
         assert!((fit.shared[0] - expected).abs() < 1e-6, "{:?}", fit.shared);
         assert_eq!(fit.own, vec![vec![1.0]; 3]);
     }
+}
+
+#[test]
+fn whoever_follows_hears_of_every_step_and_may_end_the_fit() {
+    let starts = vec![vec![0.8, 0.1]; MEMBERS];
+    let own_sets = vec![Constraints::new(2); MEMBERS];
+    let solved = |most: usize| {
+        let mut steps = Vec::new();
+        let fit = solve_pooled_followed(
+            &mut Decays::new(),
+            &starts,
+            &own_sets,
+            &[0.5, 0.0],
+            &Constraints::new(2),
+            &PooledSettings::default(),
+            &mut |step| {
+                steps.push(step);
+                match steps.len() < most {
+                    true => ControlFlow::Continue(()),
+                    false => ControlFlow::Break(()),
+                }
+            },
+        )
+        .unwrap();
+        (fit, steps)
+    };
+    let (whole, steps) = solved(usize::MAX);
+    assert!(whole.converged && steps.len() == whole.work.iterations + 1);
+    assert!(steps[0].iterations == 0 && steps[0].moved);
+    assert!(
+        steps
+            .windows(2)
+            .all(|two| two[1].moved == (two[1].cost != two[0].cost))
+    );
+    assert!(steps.windows(2).all(|two| two[1].cost <= two[0].cost));
+    assert!((steps[steps.len() - 1].cost / whole.cost() - 1.0).abs() < 1e-12);
+    let (cut, heard) = solved(2);
+    assert!(!cut.converged && heard[..] == steps[..2]);
+    assert!((cut.cost() / steps[1].cost - 1.0).abs() < 1e-12);
 }

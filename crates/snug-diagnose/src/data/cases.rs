@@ -1,6 +1,7 @@
 //! The tightenings of a question together with the count of what is done with them.
 
 use crate::data::clusters::Clusters;
+use crate::data::follower::Follower;
 use crate::data::machine::is_machine;
 use crate::error::DiagnoseError;
 use snug_campaign::{Estimate, WorkDone};
@@ -15,6 +16,7 @@ pub(crate) struct Cases<'a> {
     all: &'a [FitTask<'a>],
     tally: &'a Tally,
     is_one_machine: bool,
+    follower: Option<&'a Follower<'a>>,
 }
 
 impl<'a> Cases<'a> {
@@ -25,7 +27,21 @@ impl<'a> Cases<'a> {
             all,
             tally,
             is_one_machine,
+            follower: None,
         }
+    }
+
+    /// The same, whose fits are followed.
+    pub fn followed_by(self, follower: &'a Follower<'a>) -> Self {
+        Self {
+            follower: Some(follower),
+            ..self
+        }
+    }
+
+    /// Who follows their fits.
+    pub fn follower(self) -> Option<&'a Follower<'a>> {
+        self.follower
     }
 
     /// The same, of which each has its own mass, damping and stiffness.
@@ -80,12 +96,14 @@ impl<'a> Cases<'a> {
         let Self {
             tally,
             is_one_machine,
+            follower,
             ..
         } = self;
         Cases {
             all,
             tally,
             is_one_machine,
+            follower,
         }
     }
 

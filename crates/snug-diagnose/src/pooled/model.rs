@@ -2,14 +2,18 @@
 //! of one machine m, c, k are shared, too.
 
 use crate::data::cases::Cases;
+use crate::data::follower::Follower;
 use crate::data::simulation::{Asked, Simulated, simulate};
 use crate::error::DiagnoseError;
 use crate::pooled::between::{mix, once, places_in};
 use crate::pooled::parameter_place::first_parameter;
 use crate::pooled::sharing::{SharedSize, SharedSizes, Sharing, shared_sizes};
 use snug_identify::{FitTask, Whitening, convex_set, identify_all};
-use snug_least_squares::{Constraints, PooledFit, PooledSettings, solve_pooled};
+use snug_least_squares::{
+    Constraints, PooledFit, PooledSettings, PooledStep, solve_pooled_followed,
+};
 use snug_model::{BASE_PARAMETERS, Effect, Law, Model, Scope};
+use std::ops::ControlFlow;
 
 /// A set of effects, ready to be fitted to all tightenings together.
 pub(crate) struct PooledModel<'a> {
@@ -271,23 +275,42 @@ impl<'a> PooledModel<'a> {
         [self.own.as_slice(), &self.common].concat()
     }
 
-    /// Fits from one start.
+    /// Fits from one start; [`DiagnoseError::Interrupted`] where whoever follows ended it.
     pub fn fit(
         &mut self,
         start: &Start,
         settings: &PooledSettings,
     ) -> Result<PooledFit, DiagnoseError> {
         let (own_sets, shared_set) = (self.own_sets.clone(), self.shared_set.clone());
-        let fit = solve_pooled(
+        let (follower, tightenings) = (self.cases.follower(), self.cases.len());
+        let (residuals, is_whole) = (self.residuals_to_spare(), self.reach == 0);
+        let mut follow = |step: PooledStep| match follower {
+            None => ControlFlow::Continue(()),
+            Some(follower) => {
+                let error = (2.0 * step.cost / residuals as f64).sqrt();
+                follower.hear(step, tightenings, is_whole.then_some(error))
+            }
+        };
+        let fit = solve_pooled_followed(
             self,
             &start.own,
             &own_sets,
             &start.shared,
             &shared_set,
             settings,
+            &mut follow,
         )?;
         self.cases.tally().pooled_fit(&fit.work);
+        follower.map_or(Ok(()), Follower::go_on)?;
         Ok(fit)
+    }
+
+    /// Residuals beyond the parameters that are fitted to them, one at least.
+    fn residuals_to_spare(&self) -> usize {
+        let counts = (0..self.cases.len()).map(|member| self.residual_count(member));
+        let count: usize = counts.sum();
+        let lost = self.cases.len() * self.own.len() + self.shared.len();
+        count - lost.min(count.saturating_sub(1))
     }
 
     /// Fits what is left of the residual once it is averaged over `reach` samples to either side, see [`smooth`].

@@ -58,6 +58,17 @@ impl Default for PooledSettings {
     }
 }
 
+/// Where a pooled fit stands after a step that it tried.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PooledStep {
+    /// Steps tried so far; 0 at the start.
+    pub iterations: usize,
+    /// Σ_i ½‖r_i‖² where it stands.
+    pub cost: f64,
+    /// Whether that is somewhere else than before: the start, or a step that was accepted.
+    pub moved: bool,
+}
+
 /// What one member says about the shared parameters once its own are free to follow.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Profile {

@@ -1,7 +1,7 @@
 //! The pooled fit: every step eliminates the members' own parameters, steps the shared ones, and substitutes back.
 
 use super::member::{Member, reduce};
-use super::problem::{PooledFit, PooledResidual, PooledSettings, Trial};
+use super::problem::{PooledFit, PooledResidual, PooledSettings, PooledStep, Trial};
 use crate::conic::constraints::Constraints;
 use crate::error::SolveError;
 use crate::pooled_fit::thresholds::{
@@ -12,6 +12,7 @@ use crate::solver::damping::Damping;
 use crate::solver::fit::Work;
 use crate::solver::step::{Stepper, project};
 use crate::solver::thresholds::{RESOLUTION, SUFFICIENT};
+use std::ops::ControlFlow;
 
 /// Fits all members together from one start.
 ///
@@ -27,7 +28,36 @@ pub fn solve_pooled(
     shared_set: &Constraints,
     settings: &PooledSettings,
 ) -> Result<PooledFit, SolveError> {
+    let on = &mut |_| ControlFlow::Continue(());
+    solve_pooled_followed(
+        residual,
+        own_starts,
+        own_sets,
+        shared_start,
+        shared_set,
+        settings,
+        on,
+    )
+}
+
+/// The same, followed step by step: `follow` hears of the start and of every step that was tried, and may end the fit, which is
+/// then not converged and stands where it stood.
+///
+/// # Errors
+/// As [`solve_pooled`].
+pub fn solve_pooled_followed(
+    residual: &mut dyn PooledResidual,
+    own_starts: &[Vec<f64>],
+    own_sets: &[Constraints],
+    shared_start: &[f64],
+    shared_set: &Constraints,
+    settings: &PooledSettings,
+    follow: &mut dyn FnMut(PooledStep) -> ControlFlow<()>,
+) -> Result<PooledFit, SolveError> {
     let mut fit = PooledSolver::start(residual, own_starts, own_sets, shared_start, shared_set)?;
+    if follow(fit.step(true)).is_break() {
+        return Ok(fit.finish(false));
+    }
     let mut converged = false;
     let mut idle_steps = 0;
     while fit.work.iterations < settings.max_iterations && !converged {
@@ -38,13 +68,17 @@ pub fn solve_pooled(
         if (-RESOLUTION * cost..=little).contains(&predicted) && fit.damping.value < 1.0 {
             converged = true;
         }
-        if predicted > 0.0 && fit.try_step(predicted) {
+        let moved = predicted > 0.0 && fit.try_step(predicted);
+        if moved {
             fit.accept();
             let is_idle = cost - fit.cost <= settings.cost_tolerance * cost;
             idle_steps = if is_idle { idle_steps + 1 } else { 0 };
             converged |= idle_steps >= MOST_IDLE_STEPS;
         } else if !converged && !fit.damp_more() {
             break;
+        }
+        if follow(fit.step(moved)).is_break() {
+            return Ok(fit.finish(false));
         }
     }
     Ok(fit.finish(converged))
@@ -114,6 +148,15 @@ impl<'a> PooledSolver<'a> {
         solver.cost = solver.members.iter().map(|member| member.here.cost).sum();
         solver.work.linearizations += solver.members.len();
         Ok(solver)
+    }
+
+    /// Where it stands.
+    fn step(&self, moved: bool) -> PooledStep {
+        PooledStep {
+            iterations: self.work.iterations,
+            cost: self.cost,
+            moved,
+        }
     }
 
     /// Computes the damped step of α and of every β_i; returns the decrease it predicts.

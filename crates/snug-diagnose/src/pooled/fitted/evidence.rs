@@ -69,10 +69,10 @@ fn slopes_of_own(whole: &SymmetricMatrix, own: usize) -> Option<Vec<Vec<f64>>> {
 fn projected(whole: &SymmetricMatrix, slopes: &[Vec<f64>]) -> SymmetricMatrix {
     let (count, own) = (slopes.len(), whole.size() - slopes.len());
     let mut left = SymmetricMatrix::zero(count);
-    for i in 0..count {
+    for (i, slope) in slopes.iter().enumerate() {
         for j in 0..count {
             let beside: Vec<f64> = (0..own).map(|k| whole.at(k, own + j)).collect();
-            let value = whole.at(own + i, own + j) - dot(&slopes[i], &beside);
+            let value = whole.at(own + i, own + j) - dot(slope, &beside);
             left.set(i, j, value);
         }
     }

@@ -1,0 +1,9 @@
+//! Models tried by hand: one set of effects after the other, each fitted from where the one before ended, and told step by step.
+
+pub(crate) mod cases;
+pub(crate) mod fit;
+pub(crate) mod promise;
+pub(crate) mod tightening;
+
+#[cfg(test)]
+mod tests;

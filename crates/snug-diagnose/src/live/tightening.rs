@@ -1,0 +1,55 @@
+//! One tightening under a fit: its own numbers, and what the model makes of it.
+
+use super::cases::LiveCases;
+use super::fit::LiveFit;
+use crate::error::DiagnoseError;
+use crate::pooled::sizes::held;
+use snug_campaign::ParameterEstimate;
+use snug_identify::identify;
+use snug_model::BASE_PARAMETERS;
+
+/// One tightening under a fit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LiveTightening {
+    /// Mass, damping and stiffness with 95 % intervals, each in its unit; the effects' sizes held where all tightenings put them, known
+    /// as well as they are.
+    pub base: Vec<ParameterEstimate>,
+    /// The compared output as simulated, in its SI unit, a value for each sample of the window.
+    pub output: Vec<f64>,
+}
+
+impl LiveCases {
+    /// The tightening number `member` of [`LiveCases::tasks`] under `fit`.
+    ///
+    /// # Errors
+    /// What the model or the fit of this one tightening refuses.
+    ///
+    /// # Panics
+    /// Where there is no such tightening.
+    pub fn tightening(
+        &self,
+        fit: &LiveFit,
+        member: usize,
+    ) -> Result<LiveTightening, DiagnoseError> {
+        let (case, fitted) = (&self.cases[member], &fit.fitted);
+        let errors = fitted.shared_errors();
+        let model = match held(case, fitted, member, errors.as_deref()) {
+            Some(model) => model,
+            None => case.model_with(&fitted.effects)?,
+        };
+        let mut values: Vec<f64> = model.parameters().iter().map(|p| p.value).collect();
+        let own = fitted.own_indices().iter().zip(&fitted.own[member]);
+        own.for_each(|(&index, &value)| values[index] = value);
+        for part in fitted.parts(member, None) {
+            values[part.index] = part.value;
+        }
+        let mut output = vec![0.0; case.measured().len()];
+        model.output(&values, &case.input, case.quantity(), &mut output)?;
+        let mut estimate = identify(&model, &case.input, &case.tightening, &case.settings)?;
+        estimate.parameters.truncate(BASE_PARAMETERS.len());
+        Ok(LiveTightening {
+            base: estimate.parameters,
+            output,
+        })
+    }
+}
