@@ -20,6 +20,7 @@ mod statistics_json;
 mod tightenings_csv;
 mod traces_json;
 mod verdict_json;
+pub mod viewer;
 
 pub use findings_json::findings_json;
 pub use page::html;

@@ -2,22 +2,13 @@
 
 use crate::machine_words;
 use crate::section::{Section, rendered};
+use crate::viewer::{SCRIPT, STYLE};
 use maud::{DOCTYPE, Markup, PreEscaped, html as markup};
 use snug_campaign::CampaignResult;
 use snug_campaign::words::vocabulary::Vocabulary;
 
-const STYLE: &str = concat!(
-    include_str!("assets/page.css"),
-    include_str!("assets/figures.css"),
-    include_str!("assets/diagnosis.css")
-);
-const SCRIPT: &str = concat!(
-    "'use strict';\n",
-    include_str!("assets/scale.js"),
-    include_str!("assets/panel.js"),
-    include_str!("assets/viewer.js"),
-    include_str!("assets/table.js")
-);
+/// What the report's script has beside the viewer.
+const TABLES: &str = include_str!("assets/table.js");
 
 /// The whole report as one page that asks for nothing from outside.
 ///
@@ -65,7 +56,7 @@ fn page(result: &CampaignResult) -> String {
                         }
                     }
                 }
-                script { (PreEscaped(SCRIPT)) }
+                script { (PreEscaped(SCRIPT)) (PreEscaped(TABLES)) }
             }
         }
     };

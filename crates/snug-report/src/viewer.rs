@@ -1,0 +1,181 @@
+//! The pages' viewer of curves, for pages other than the report: its style, its script, and the data that both draw.
+
+use crate::curves::{self, DIGITS, Series, Values, embedded, steps, time_unit};
+use crate::decimation;
+use crate::number::drawn;
+use crate::signal_unit::motion_axis;
+use maud::{Markup, PreEscaped, html};
+use serde_json::{Value, json};
+use snug_campaign::{NORMAL_95, Quantity, SignalUnits};
+
+/// Style of every page.
+pub const STYLE: &str = concat!(
+    include_str!("assets/page.css"),
+    include_str!("assets/figures.css"),
+    include_str!("assets/diagnosis.css")
+);
+
+/// Script of the viewer; a script that comes behind it in the same element finds what is there as `viewers`.
+pub const SCRIPT: &str = concat!(
+    "'use strict';\n",
+    include_str!("assets/scale.js"),
+    include_str!("assets/panel.js"),
+    include_str!("assets/viewer.js")
+);
+
+/// Points of a line.
+const POINTS: usize = 1200;
+
+/// One output of one tightening, as measured and as two models have it; all in its SI unit, a value for each sample.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Compared<'a> {
+    /// Which output.
+    pub quantity: Quantity,
+    /// In which units it is shown.
+    pub units: &'a SignalUnits,
+    /// From sample to sample \[s\].
+    pub interval_s: f64,
+    /// As measured.
+    pub measured: &'a [f64],
+    /// As the model has it with which all began; `None` where that is the present one.
+    pub base: Option<&'a [f64]>,
+    /// As the present model has it.
+    pub now: &'a [f64],
+    /// Standard deviation of the measurement's noise in the output's SI unit; `None` where it is not known.
+    pub noise: Option<f64>,
+}
+
+type Panel = curves::Panel<Vec<f64>>;
+
+impl Compared<'_> {
+    /// What the viewer draws: the output, and what is left over with the band of the noise.
+    pub fn json(&self) -> Value {
+        let panels = self.panels();
+        let (unit, per_second) = time_unit(self.measured.len() as f64 * self.interval_s);
+        let lines: Vec<&[f64]> = panels
+            .iter()
+            .flat_map(|panel| panel.series.iter().map(|line| line.source.as_slice()))
+            .collect();
+        let leading = lines.last().copied().unwrap_or_default();
+        let kept = decimation::indices(leading, &lines, POINTS);
+        let signals = |panel: &Panel| -> Vec<Values> {
+            let values = |line: &Series<Vec<f64>>| {
+                let kept = kept.iter().map(|&index| line.source.get(index));
+                kept.map(|value| drawn(*value?, DIGITS)).collect()
+            };
+            panel.series.iter().map(values).collect()
+        };
+        let band = self.noise.filter(|noise| noise.is_finite());
+        json!({
+            "panels": panels.iter().map(Panel::json).collect::<Vec<_>>(),
+            "example": {
+                "step": self.interval_s * per_second,
+                "unit": unit,
+                "steps": steps(&kept),
+                "signals": panels.iter().map(signals).collect::<Vec<_>>(),
+                "noise": band.map(|noise| NORMAL_95 * noise * self.units.output_per_rad),
+            },
+        })
+    }
+
+    fn panels(&self) -> Vec<Panel> {
+        let shown = |values: &[f64]| -> Vec<f64> {
+            let per_rad = self.units.output_per_rad;
+            values.iter().map(|value| value * per_rad).collect()
+        };
+        let left = |model: &[f64]| -> Vec<f64> {
+            let pairs = self.measured.iter().zip(model);
+            shown(
+                &pairs
+                    .map(|(measured, model)| measured - model)
+                    .collect::<Vec<_>>(),
+            )
+        };
+        let line = |label, class, source| Series {
+            label,
+            class,
+            source,
+        };
+        let base = |of: &dyn Fn(&[f64]) -> Vec<f64>| {
+            let base = self.base.map(of);
+            base.map(|values| line("model to begin with", "c-rejected", values))
+        };
+        let mut motion = vec![line("measured", "c-measured", shown(self.measured))];
+        motion.extend(base(&shown));
+        motion.push(line("now", "c-simulated", shown(self.now)));
+        let mut rest: Vec<Series<Vec<f64>>> = base(&left).into_iter().collect();
+        rest.push(line("now", "c-simulated", left(self.now)));
+        let name = crate::quantity::capitalised(self.quantity.name());
+        vec![
+            Panel {
+                title: format!("{name}: model and measurement"),
+                axis: motion_axis(self.units, self.quantity),
+                series: motion,
+                residual: false,
+            },
+            Panel {
+                title: "What is left over: measured − simulated".into(),
+                axis: format!("residual [{}]", self.units.motion(self.quantity)),
+                series: rest,
+                residual: self.noise.is_some(),
+            },
+        ]
+    }
+}
+
+/// Where the viewer draws, `panels` one below the other; `data` is what it begins with.
+pub fn viewer(data: &Value, panels: &[&str]) -> Markup {
+    html! {
+        div.viewer data-viewer="viewer-data" {
+            div.figures {
+                @for title in panels {
+                    figure { figcaption { (title) } div data-panel="" {} }
+                }
+            }
+        }
+        script type="application/json" id="viewer-data" { (PreEscaped(embedded(data))) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_left_over_is_measured_minus_simulated_in_the_shown_unit() {
+        let units = SignalUnits {
+            output: "m".into(),
+            output_per_rad: 0.5,
+            ..SignalUnits::default()
+        };
+        let compared = Compared {
+            quantity: Quantity::Displacement,
+            units: &units,
+            interval_s: 1e-3,
+            measured: &[2.0, 4.0, 6.0],
+            base: Some(&[0.0, 4.0, 2.0]),
+            now: &[2.0, 2.0, 6.0],
+            noise: Some(0.1),
+        };
+        let told = compared.json();
+        let signals = &told["example"]["signals"];
+        assert_eq!(
+            signals[0],
+            json!([[1.0, 2.0, 3.0], [0.0, 2.0, 1.0], [1.0, 1.0, 3.0]])
+        );
+        assert_eq!(signals[1], json!([[1.0, 0.0, 2.0], [0.0, 1.0, 0.0]]));
+        assert_eq!(told["example"]["unit"], "ms");
+        let band = told["example"]["noise"].as_f64().expect("it is known");
+        assert!((band - 0.5 * 0.1 * NORMAL_95).abs() < 1e-12);
+        assert_eq!(told["panels"][1]["residual"], true);
+        let alone = Compared {
+            base: None,
+            ..compared
+        }
+        .json();
+        assert_eq!(
+            alone["panels"][1]["series"].as_array().map(Vec::len),
+            Some(1)
+        );
+    }
+}
