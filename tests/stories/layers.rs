@@ -60,6 +60,16 @@ const ALLOWED: &[(&str, &[&str])] = &[
         ],
     ),
     (
+        "snug-workbench",
+        &[
+            "snug-campaign",
+            "snug-diagnose",
+            "snug-model",
+            "snug-report",
+            "snug-study",
+        ],
+    ),
+    (
         "xtask",
         &[
             "snug-campaign",

@@ -23,6 +23,7 @@ Examples:
   cargo xtask add coulomb_friction --data DIR  the error before and after
   cargo xtask improve --data DIR               all of that, until only noise is left
   cargo xtask effects cubic_stiffness          one effect of the catalogue in full
+  cargo xtask workbench --data DIR             a page on this machine: click an effect, the error falls
 
   cargo xtask recover FILE.mcap                a recording that was cut short, made whole
 

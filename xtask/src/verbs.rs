@@ -10,6 +10,7 @@ mod recover;
 mod run;
 mod test;
 mod tidy;
+mod workbench;
 
 use crate::arguments::{ChangeOptions, RunOptions};
 use clap::Subcommand;
@@ -79,6 +80,23 @@ pub enum Verb {
     Effects {
         /// Name of one effect, for example coulomb_friction.
         name: Option<String>,
+    },
+    /// A page on this machine: click an effect, and the error falls while all tightenings are fitted with it.
+    ///
+    /// Only this machine is answered, at 127.0.0.1; Ctrl-C ends it. The first time it is built, which takes a minute or two.
+    Workbench {
+        /// Study file (RON); without it, the thesis' rig and file layout.
+        #[arg(long, value_name = "FILE.ron")]
+        study: Option<PathBuf>,
+        /// Folder (or file) with the data; overrides the study's.
+        #[arg(long, value_name = "DIR")]
+        data: Option<PathBuf>,
+        /// Port of 127.0.0.1 to listen at; 0 for any free one.
+        #[arg(long, value_name = "N")]
+        port: Option<u16>,
+        /// Does not open the browser.
+        #[arg(long)]
+        no_open: bool,
     },
     /// Makes a recording that was cut short whole: an index at its end, so that every reader opens it.
     ///
@@ -153,6 +171,12 @@ impl Verb {
                 write,
             } => init::init(&files, &study, write),
             Self::Effects { name } => effects::effects(name.as_deref()),
+            Self::Workbench {
+                study,
+                data,
+                port,
+                no_open,
+            } => workbench::workbench(study.as_deref(), data.as_deref(), port, no_open),
             Self::Recover { file } => recover::recover(&file),
             Self::Fixtures => fixtures::fixtures(),
             Self::Test {

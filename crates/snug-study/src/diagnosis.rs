@@ -293,7 +293,7 @@ fn nothing_fits(error: DiagnoseError, question: &Question<'_>) -> StudyError {
 }
 
 /// The named effects, the study's own among them, as they act on its rig.
-fn effects(
+pub(crate) fn effects(
     study: &Study,
     names: &[String],
     cases: &[FitTask<'_>],

@@ -1,0 +1,89 @@
+//! A study's tightenings, read, prepared and settled once, for models to be tried on them by hand.
+
+use crate::campaign_result::vocabulary;
+use crate::cases::{chosen, with_settled};
+use crate::diagnosis::effects;
+use crate::settling::{Settled, settle};
+use crate::{Study, StudyError};
+use snug_campaign::SignalUnits;
+use snug_campaign::words::vocabulary::Vocabulary;
+use snug_diagnose::{DiagnoseError, Goal, LiveCases, Question};
+use snug_files::Host;
+use snug_model::Effect;
+
+/// A study's tightenings, ready for models to be tried on them.
+pub struct Prepared {
+    /// The study, with the choices made that it left open.
+    pub study: Study,
+    /// The tightenings from which effects are learnt, as `diagnose` takes them.
+    pub live: LiveCases,
+    /// Effects of the study's own model.
+    pub effects: Vec<Effect>,
+    /// Measurement files that the data hold.
+    pub files: usize,
+    /// Units in which signals are shown.
+    pub units: SignalUnits,
+    /// In whose words results are told.
+    pub vocabulary: Vocabulary,
+    /// What is to be said of tightenings that take no part, and of choices that were made; a sentence each.
+    pub remarks: Vec<String>,
+}
+
+/// Reads and prepares a study's tightenings as `diagnose` does; `listed` hears how many files there are before they are read. Nothing
+/// is written.
+///
+/// # Errors
+/// As [`crate::run()`] for settings and data, and where no tightening can be compared with the model.
+pub fn prepare(study: &Study, listed: &dyn Fn(usize)) -> Result<Prepared, StudyError> {
+    study.check()?;
+    let listing = snug_ingest::list_on(&Host, &study.source, &study.source.path)?;
+    let files = study.validation.last(listing.files)?;
+    listed(files.len());
+    let (comparable, _) = chosen(study, &Host, &files, study.diagnosis.most_tightenings)?;
+    if comparable.cases.is_empty() {
+        return Err(DiagnoseError::NothingToCompare {
+            tightenings: 0,
+            reason: "each is faulty or kept for validation; `cargo xtask run` on the same data says why",
+        }
+        .into());
+    }
+    let cases = comparable.cases;
+    let (study, cases, reasons) = match settle(study, &cases) {
+        Some(Settled { study, reasons }) => {
+            let cases = with_settled(&study, cases)?;
+            (study, cases, reasons)
+        }
+        None => (study.clone(), cases, Vec::new()),
+    };
+    let own = effects(&study, &study.model.effects, &cases)?;
+    let question = Question {
+        cases: &[],
+        effects: own.clone(),
+        by_group: study.sizes_by_group(),
+        custom: study.model.custom_effects()?,
+        goal: Goal::Compare,
+    };
+    let mut search = study.diagnosis.search.clone();
+    search.seed = search.seed.wrapping_add(study.seed);
+    let units = study.source.units(study.preprocess.rig.lever_arm_m);
+    let remarks = reasons.iter().chain(&comparable.reasons);
+    Ok(Prepared {
+        remarks: remarks.map(ToString::to_string).collect(),
+        live: LiveCases::new(&question, cases, search)?,
+        effects: own,
+        files: files.len(),
+        vocabulary: vocabulary(&study, &units),
+        units,
+        study,
+    })
+}
+
+impl Prepared {
+    /// The named effects, from the catalogue or the study's own, as they act on its rig.
+    ///
+    /// # Errors
+    /// [`StudyError::Model`] names the one that is not known.
+    pub fn named(&self, names: &[String]) -> Result<Vec<Effect>, StudyError> {
+        effects(&self.study, names, self.live.tasks())
+    }
+}

@@ -1,0 +1,11 @@
+'use strict';
+// Waits for the tightenings, then shows the workbench at the same address.
+const sentence = document.querySelector('[data-sentence]');
+const told = new EventSource('/api/reading');
+told.onmessage = message => {
+  const event = JSON.parse(message.data);
+  if (event.kind === 'ready') { told.close(); location.reload(); return; }
+  if (event.kind === 'failed') told.close();
+  sentence.textContent = event.sentence;
+};
+told.onerror = () => { sentence.textContent = 'The workbench does not answer. Is it still running? This page tries again.'; };

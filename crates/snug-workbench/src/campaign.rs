@@ -1,0 +1,110 @@
+//! What is worked on: tightenings that are read once, the model to begin with, and the catalogue beside it.
+
+use crate::changes::EffectSet;
+use crate::error::WorkbenchError;
+use snug_campaign::words::number::significant;
+use snug_diagnose::{LiveFit, LiveTightening};
+use snug_model::{Description, Effect, Law};
+use snug_report::viewer::Compared;
+use snug_study::{Prepared, Study, prepare};
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+/// Digits of an error.
+const DIGITS: i32 = 4;
+
+/// Tightenings, read and prepared, with the model to begin with fitted to them.
+pub(crate) struct Campaign {
+    pub prepared: Prepared,
+    /// Of the study's own model.
+    pub base: Arc<LiveFit>,
+    /// What may be switched on and off: the study's own effects, then the candidates in the catalogue's order.
+    pub switches: Vec<Effect>,
+    /// Tightenings, those first that the model to begin with fits worst.
+    pub worst_first: Vec<usize>,
+    /// The title of the study, or the data's name.
+    pub title: String,
+    /// What an error counts in: multiples of the noise, or the shown output's unit.
+    pub error_unit: String,
+    /// What an error of a fit is multiplied with to be shown in it.
+    error_scale: f64,
+}
+
+impl Campaign {
+    /// Reads, prepares and fits; `listed` hears how many files there are.
+    pub fn read(study: &Study, listed: &dyn Fn(usize)) -> Result<Self, WorkbenchError> {
+        let prepared = prepare(study, listed)?;
+        let live = &prepared.live;
+        let never = AtomicBool::new(false);
+        let base = live.fit(&prepared.effects, None, &|_| (), &never)?;
+        let mut switches = prepared.effects.clone();
+        switches.extend(live.candidates(&base)?);
+        let errors = base.errors();
+        let mut worst_first: Vec<usize> = (0..errors.len()).collect();
+        worst_first.sort_by(|&a, &b| errors[b].total_cmp(&errors[a]));
+        let units = &prepared.units;
+        let quantity = live.tasks()[0].quantity();
+        let (error_scale, error_unit) = match base.is_over_noise() {
+            true => (1.0, "times the noise".to_owned()),
+            false => (
+                units.output_per_rad,
+                format!("{} root mean square", units.motion(quantity)),
+            ),
+        };
+        Ok(Self {
+            error_scale,
+            error_unit,
+            base: Arc::new(base),
+            switches,
+            worst_first,
+            title: study.title(),
+            prepared,
+        })
+    }
+
+    /// An error as it is shown, without its unit.
+    pub fn shown(&self, error: f64) -> String {
+        significant(self.error_scale * error, DIGITS)
+    }
+
+    /// The names of the effects to begin with.
+    pub fn base_set(&self) -> EffectSet {
+        EffectSet::of(self.prepared.effects.iter().map(Effect::name))
+    }
+
+    /// What people read about an effect on this rig.
+    pub fn description(&self, effect: Effect) -> &'static Description {
+        effect.description()
+    }
+
+    /// Index of the tightening with this number, counted from 1.
+    pub fn member(&self, number: usize) -> Result<usize, WorkbenchError> {
+        let count = self.prepared.live.tasks().len();
+        match (1..=count).contains(&number) {
+            true => Ok(number - 1),
+            false => Err(WorkbenchError::NoTightening { number, count }),
+        }
+    }
+
+    /// One tightening as measured and as two models have it, for the viewer.
+    pub fn compared<'a>(
+        &'a self,
+        member: usize,
+        base: Option<&'a LiveTightening>,
+        now: &'a LiveTightening,
+    ) -> Compared<'a> {
+        let case = &self.prepared.live.tasks()[member];
+        let noise = case.tightening.noise.as_ref();
+        Compared {
+            quantity: case.quantity(),
+            units: &self.prepared.units,
+            interval_s: case.tightening.time_base.interval_s,
+            measured: case.measured(),
+            base: base.map(|base| base.output.as_slice()),
+            now: &now.output,
+            noise: noise
+                .filter(|noise| noise.quantity == case.quantity())
+                .map(|noise| noise.standard_deviation),
+        }
+    }
+}

@@ -1,0 +1,68 @@
+//! Why the workbench could not be opened, or could not do what was asked of it.
+
+use snug_diagnose::DiagnoseError;
+use snug_study::StudyError;
+use std::path::PathBuf;
+use thiserror::Error;
+
+/// Why the workbench could not be opened, or could not do what was asked of it.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum WorkbenchError {
+    /// Somebody else listens at the port.
+    #[error(
+        "port {port} is taken by another program, maybe another workbench; choose one by --port N, or any free one by --port 0"
+    )]
+    PortTaken {
+        /// Which.
+        port: u16,
+    },
+    /// The port cannot be listened at for another reason.
+    #[error("port {port} of this machine cannot be opened: {source}")]
+    Port {
+        /// Which.
+        port: u16,
+        /// Why.
+        source: std::io::Error,
+    },
+    /// The server ended by itself.
+    #[error("the server ended: {source}")]
+    Server {
+        /// Why.
+        source: std::io::Error,
+    },
+    /// The tightenings have not been read yet.
+    #[error("the tightenings are still being read; try again in a moment")]
+    StillReading,
+    /// The tightenings could not be read.
+    #[error("{message}")]
+    Unreadable {
+        /// Why, in a sentence.
+        message: String,
+    },
+    /// Nobody has fitted this set of effects, or too much was fitted since.
+    #[error("this model is not fitted yet; switch its effects on once more")]
+    NotFitted,
+    /// A number for which there is no tightening.
+    #[error("there is no tightening {number}; there are 1 to {count}")]
+    NoTightening {
+        /// Which was asked for, counted from 1.
+        number: usize,
+        /// How many there are.
+        count: usize,
+    },
+    /// The study or its data.
+    #[error(transparent)]
+    Study(#[from] StudyError),
+    /// A fit.
+    #[error(transparent)]
+    Diagnose(#[from] DiagnoseError),
+    /// A study cannot be saved.
+    #[error("{} cannot be written: {source}", path.display())]
+    Save {
+        /// Where.
+        path: PathBuf,
+        /// Why.
+        source: std::io::Error,
+    },
+}

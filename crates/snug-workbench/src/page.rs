@@ -1,0 +1,180 @@
+//! The page: what is there before anything is clicked. What changes, the script fills in from what the server tells.
+
+use crate::campaign::Campaign;
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+use serde_json::json;
+use snug_campaign::words::effect_name::{effect_name, raised};
+use snug_model::Effect;
+use snug_report::viewer::{SCRIPT, STYLE, viewer};
+
+const OWN_STYLE: &str = include_str!("assets/workbench.css");
+const OWN_SCRIPT: &str = include_str!("assets/workbench.js");
+const READING_SCRIPT: &str = include_str!("assets/reading.js");
+
+fn around(title: &str, content: &Markup, script: &[&str]) -> Markup {
+    html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                meta name="color-scheme" content="light dark";
+                link rel="icon" href="data:,";
+                title { (title) " – Snug workbench" }
+                style { (PreEscaped(STYLE)) (PreEscaped(OWN_STYLE)) }
+            }
+            body {
+                (content)
+                script { @for part in script { (PreEscaped(part)) } }
+            }
+        }
+    }
+}
+
+/// While tightenings are read, or where they cannot be.
+pub(crate) fn reading(sentence: &str) -> Markup {
+    let content = html! {
+        main.waiting {
+            p.kind { "Snug workbench" }
+            h1 { "Reading the tightenings" }
+            p.lead data-sentence="" aria-live="polite" { (sentence) }
+        }
+    };
+    around("Reading", &content, &[READING_SCRIPT])
+}
+
+/// The workbench on tightenings that are read.
+pub(crate) fn working(campaign: &Campaign) -> Markup {
+    let count = campaign.prepared.live.tasks().len();
+    let content = html! {
+        a.skip href="#catalogue" { "Skip to the effects" }
+        header.bench-head {
+            p.kind { "Snug workbench" }
+            h1 { (campaign.title) }
+            p.note { (count) " tightenings from " (campaign.prepared.files) " files, fitted together" }
+        }
+        p.fault role="alert" data-fault="" hidden {}
+        main.bench {
+            (present(campaign))
+            (catalogue(campaign))
+            (centre(campaign))
+            (changed())
+        }
+        (bar())
+    };
+    around(&campaign.title, &content, &[SCRIPT, OWN_SCRIPT])
+}
+
+/// The error in large type, and the ladder of models.
+fn present(campaign: &Campaign) -> Markup {
+    html! {
+        section.present aria-labelledby="error-title" {
+            h2 id="error-title" { "Error" }
+            p.error { output data-error="" { "…" } " " span.unit { (campaign.error_unit) } }
+            p.steps data-steps="" aria-hidden="true" {}
+            p.says data-says="" aria-live="polite" {}
+            p.tested data-tested="" {}
+            h3 { "Models so far" }
+            ol.ladder data-ladder="" {}
+        }
+    }
+}
+
+/// Every effect as a switch.
+fn catalogue(campaign: &Campaign) -> Markup {
+    html! {
+        section.catalogue id="catalogue" aria-labelledby="catalogue-title" {
+            h2 id="catalogue-title" { "Effects" }
+            p.note { "Switch one on, and all tightenings are fitted together with it. Sorted by promise: the share of what is left over that a \
+                first look says it takes. A promise sorts; only the fit says what it keeps." }
+            ul.switches data-switches="" {
+                @for &effect in &campaign.switches { (switch(campaign, effect)) }
+            }
+        }
+    }
+}
+
+fn switch(campaign: &Campaign, effect: Effect) -> Markup {
+    let description = campaign.description(effect);
+    let label = format!("effect-{}", effect.name());
+    html! {
+        li.effect data-effect=(effect.name()) {
+            button.switch type="button" role="switch" aria-checked="false" aria-labelledby=(label) { span.knob {} }
+            div.about {
+                div.line {
+                    strong id=(label) { (effect_name(effect.name())) }
+                    span.promise data-promise="" title="promise: share of what the model to begin with leaves beyond the noise" { "" }
+                }
+                span.track { span.fill data-fill="" {} }
+                p { (raised(description.summary)) }
+                p.found data-sizes="" {}
+                details {
+                    summary { "check at the bench" }
+                    p { (raised(description.check)) }
+                    p.note { "How it shows: " (raised(description.shows_as)) }
+                }
+            }
+        }
+    }
+}
+
+/// One tightening: measured, before and now, and what is left over.
+fn centre(campaign: &Campaign) -> Markup {
+    let nothing = json!({
+        "panels": [
+            { "title": "Model and measurement", "axis": "", "series": [], "residual": false },
+            { "title": "What is left over", "axis": "", "series": [], "residual": false },
+        ],
+        "examples": [{ "step": 1, "unit": "ms", "steps": [0, 1], "signals": [], "noise": null }],
+    });
+    let tasks = campaign.prepared.live.tasks();
+    html! {
+        section.centre aria-labelledby="centre-title" {
+            h2.hidden id="centre-title" { "One tightening" }
+            div.chooser {
+                button type="button" data-worse="-1" aria-label="previous tightening" { "‹" }
+                label { span.hidden { "tightening, worst first" }
+                    select data-tightening="" {
+                        @for &member in &campaign.worst_first {
+                            option value=(member + 1) { (tasks[member].tightening.id) }
+                        }
+                    }
+                }
+                button type="button" data-worse="1" aria-label="next tightening" { "›" }
+            }
+            p.current data-heading="" aria-live="polite" { "…" }
+            (viewer(&nothing, &["Model and measurement", "What is left over: measured − simulated"]))
+            p.help { "Point at a curve to read values; drag across to zoom, double-click to see all again. Keys in a figure: ← → move the \
+                cursor, + − zoom, Esc shows all." }
+        }
+    }
+}
+
+/// What the last click changed.
+fn changed() -> Markup {
+    html! {
+        section.changed aria-labelledby="changed-title" {
+            h2 id="changed-title" { "What the last click changed" }
+            p.change data-change="" { "Nothing yet." }
+            dl.sizes data-found="" {}
+            h3 { "This tightening" }
+            div.scroll { table {
+                thead { tr { th scope="col" { "" } th scope="col" { "before" } th scope="col" { "now" } } }
+                tbody data-facts="" {}
+            } }
+            p.note { "With 95 % intervals." }
+        }
+    }
+}
+
+/// Undo, redo, save.
+fn bar() -> Markup {
+    html! {
+        footer.bar {
+            button type="button" data-undo="" disabled { "Undo" }
+            button type="button" data-redo="" disabled { "Redo" }
+            button type="button" data-save="" { "Save as study" }
+            p.saved data-saved="" aria-live="polite" {}
+        }
+    }
+}
