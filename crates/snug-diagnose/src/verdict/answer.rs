@@ -11,10 +11,9 @@ use crate::pooled::thresholds::AT_FLOOR;
 use crate::question::{Goal, Question};
 use crate::ranking::rank::{Candidate, Ranking};
 use crate::selection::path::{Addition, SelectionPath, misfits, twins};
-use crate::selection::thresholds::MOST;
 use crate::settings::DiagnoseSettings;
 use crate::verdict::comparisons::compare_sizes;
-use crate::verdict::earned;
+use crate::verdict::earned::{self, leaves_a_motion};
 use crate::verdict::experiment::separating_experiment;
 use crate::verdict::reasons::{
     Held, Situation, explanation, headline, paste, reasons, removal, stopped,
@@ -101,7 +100,8 @@ impl Examination<'_> {
             in_model: &added,
             explained: places.explained,
             is_more_than_noise: verdict == Verdict::Undecided
-                && (self.is_more_than_noise() || self.is_open(places.explained.as_ref())),
+                && (self.is_more_than_noise()
+                    || leaves_a_motion(&self.path, self.settings, places.explained.as_ref())),
             suspicions: &suspicions,
             ..self.situation(verdict, &ranking, &corrected)
         };
@@ -325,16 +325,6 @@ impl Examination<'_> {
             None => last.error() > floor,
         };
         leaves_much && self.path.chosen.is_none() && self.path.is_promising(self.settings).is_none()
-    }
-
-    /// Whether what is left is a motion of which no promising candidate explains much, where nobody knows the noise.
-    fn is_open(&self, explained: Option<&Explained>) -> bool {
-        let explains_much = |one: &Candidate| {
-            let last = self.path.last();
-            one.gain_beside(last) > MOST * last.squares()
-        };
-        let promising = self.path.is_promising(self.settings);
-        explained.is_some_and(Explained::leaves_a_motion) && !promising.is_some_and(explains_much)
     }
 
     /// The candidates, the chosen one first, and behind them the trends.

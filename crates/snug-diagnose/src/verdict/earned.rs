@@ -2,6 +2,10 @@
 
 use crate::locate::Seen;
 use crate::pooled::fitted::Fitted;
+use crate::ranking::rank::Candidate;
+use crate::selection::path::SelectionPath;
+use crate::selection::thresholds::MOST;
+use crate::settings::DiagnoseSettings;
 use crate::verdict::thresholds::{FAR_BETTER, LEAST_EXPLAINED, SHORTFALL};
 use snug_campaign::Quantity;
 use snug_campaign::words::explained::Explained;
@@ -74,6 +78,18 @@ fn neighbours(quantity: Quantity, seen: &[Seen<'_>]) -> f64 {
     } else {
         0.0
     }
+}
+
+/// Whether what is left is a motion of which no promising candidate explains much, where nobody knows the noise.
+pub(crate) fn leaves_a_motion(
+    path: &SelectionPath,
+    settings: &DiagnoseSettings,
+    explained: Option<&Explained>,
+) -> bool {
+    let last = path.last();
+    let promising = path.is_promising(settings);
+    let explains_much = |one: &Candidate| one.gain_beside(last) > MOST * last.squares();
+    explained.is_some_and(Explained::leaves_a_motion) && !promising.is_some_and(explains_much)
 }
 
 /// Whether a model that explains so much deserves a question about effects.
