@@ -14,9 +14,13 @@ pub(crate) fn save(bench: &Bench, effects: &EffectSet) -> Result<PathBuf, Workbe
         path: path.clone(),
         source,
     };
-    let text = match bench.study_file() {
+    let is_on_its_data = |file: &&Path| {
+        Study::read(file).is_ok_and(|study| study.source.path == bench.study().source.path)
+    };
+    let text = match bench.study_file().filter(is_on_its_data) {
         // Its comments stay, and its data lie where they lay.
         Some(file) => std::fs::read_to_string(file).map_err(failed)?,
+        // It was given other data, or there is none.
         None => on_absolute_data(bench.study()).map_err(failed)?.to_ron()?,
     };
     std::fs::write(&path, text).map_err(failed)?;
@@ -68,7 +72,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let file = folder.path().join("rig.ron");
         std::fs::write(&file, "// mine\n(seed: 3)").unwrap();
-        let study = Study::parse("(seed: 3)", &file).unwrap();
+        let study = Study::read(&file).unwrap();
         let bench = Bench::new(study, Some(file.clone()));
         let other = folder.path().join("rig.workbench.ron");
         std::fs::write(&other, "another's").unwrap();
@@ -89,5 +93,20 @@ mod tests {
             std::fs::read_to_string(&file).unwrap(),
             "// mine\n(seed: 3)"
         );
+    }
+
+    #[test]
+    fn a_study_that_was_given_other_data_is_saved_with_those() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("rig.ron");
+        std::fs::write(&file, "// mine\n(seed: 3)").unwrap();
+        let other = folder.path().join("other");
+        let mut study = Study::read(&file).unwrap();
+        study.set_data(&other);
+        let bench = Bench::new(study, Some(file));
+        let saved = save(&bench, &EffectSet::from_address("backlash")).unwrap();
+        let saved = Study::read(&saved).unwrap();
+        assert_eq!(saved.source.path, other);
+        assert_eq!(saved.model.effects, ["backlash"]);
     }
 }
