@@ -23,6 +23,7 @@ mod verdict_json;
 pub mod viewer;
 
 pub use findings_json::findings_json;
+pub use machine_words::markup;
 pub use page::html;
 pub use statistics_json::statistics_json;
 pub use tightenings_csv::tightenings_csv;

@@ -9,7 +9,7 @@ const DRAWN: &str = "application/json";
 /// Attributes that people read or hear.
 const READ: [&str; 3] = [" title=\"", " aria-label=\"", " placeholder=\""];
 
-/// The same markup in other words.
+/// A page's markup in the words of the rig at hand.
 pub fn markup(page: &str, vocabulary: Vocabulary) -> String {
     let mut told = String::with_capacity(page.len());
     let mut rest = page;

@@ -3,6 +3,7 @@
 use crate::changes::EffectSet;
 use crate::error::WorkbenchError;
 use snug_campaign::words::number::significant;
+use snug_campaign::words::vocabulary::Vocabulary;
 use snug_diagnose::{LiveFit, LiveTightening};
 use snug_model::{Description, Effect, Law};
 use snug_report::viewer::Compared;
@@ -73,8 +74,16 @@ impl Campaign {
     }
 
     /// What people read about an effect on this rig.
-    pub fn description(&self, effect: Effect) -> &'static Description {
-        effect.description()
+    pub fn description(&self, effect: Effect) -> Description {
+        match self.prepared.vocabulary {
+            Vocabulary::Hand => *effect.description(),
+            Vocabulary::Machine(_) => effect.description().of_machine(),
+        }
+    }
+
+    /// A sentence in the words of the rig at hand.
+    pub fn says(&self, text: &str) -> String {
+        self.prepared.vocabulary.says(text)
     }
 
     /// Index of the tightening with this number, counted from 1.

@@ -51,7 +51,7 @@ pub(crate) fn working(campaign: &Campaign) -> Markup {
         header.bench-head {
             p.kind { "Snug workbench" }
             h1 { (campaign.title) }
-            p.note { (count) " tightenings from " (campaign.prepared.files) " files, fitted together" }
+            p.note { (counted(count, "tightening")) " from " (counted(campaign.prepared.files, "file")) ", fitted together" }
         }
         p.fault role="alert" data-fault="" hidden {}
         main.bench {
@@ -63,6 +63,14 @@ pub(crate) fn working(campaign: &Campaign) -> Markup {
         (bar())
     };
     around(&campaign.title, &content, &[SCRIPT, OWN_SCRIPT])
+}
+
+/// `1 file`, `6 files`.
+fn counted(count: usize, what: &str) -> String {
+    match count {
+        1 => format!("1 {what}"),
+        some => format!("{some} {what}s"),
+    }
 }
 
 /// The error in large type, and the ladder of models.

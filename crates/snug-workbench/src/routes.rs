@@ -48,7 +48,10 @@ impl IntoResponse for WorkbenchError {
 async fn start(State(bench): State<Arc<Bench>>) -> Html<String> {
     let reading = bench.reading().borrow().clone();
     Html(match reading {
-        Reading::Done(campaign) => page::working(&campaign).into_string(),
+        Reading::Done(campaign) => {
+            let page = page::working(&campaign).into_string();
+            snug_report::markup(&page, campaign.prepared.vocabulary)
+        }
         Reading::UnderWay(sentence) | Reading::Failed(sentence) => {
             page::reading(&sentence).into_string()
         }
@@ -161,6 +164,7 @@ async fn tightening(
         let mut answer = campaign
             .compared(member, seen_base.as_ref(), &seen_now)
             .json();
+        answer["panels"] = told::drawn(&campaign, &answer["panels"]);
         answer["told"] = told::tightening(
             &campaign,
             member,

@@ -6,7 +6,7 @@ use crate::error::WorkbenchError;
 use serde_json::{Value, json};
 use snug_campaign::words::effect_name::{effect_name, unit_text};
 use snug_campaign::words::number::{percent, rounded, significant};
-use snug_campaign::{EffectParameter, ParameterEstimate};
+use snug_campaign::{EffectParameter, Interval, ParameterEstimate};
 use snug_diagnose::{FitStep, LiveFit, LiveTightening};
 use snug_model::Effect;
 
@@ -35,6 +35,12 @@ pub(crate) fn failed(effects: &EffectSet, error: &WorkbenchError) -> Value {
     json!({ "kind": "failed", "sentence": sentence })
 }
 
+/// What is drawn, in the words of the rig at hand.
+pub(crate) fn drawn(campaign: &Campaign, panels: &Value) -> Value {
+    let told = campaign.says(&panels.to_string());
+    serde_json::from_str(&told).unwrap_or_else(|_| panels.clone())
+}
+
 /// What candidates promise beside the present model.
 pub(crate) fn promises(effects: &[Effect], shares: &[f64]) -> Value {
     let pairs = effects.iter().zip(shares);
@@ -55,7 +61,7 @@ pub(crate) fn fitted(
     let present = changes.present();
     let before = changes.past().last();
     let sizes: Vec<Value> = (fit.sizes().iter())
-        .map(|(effect, sizes)| json!({ "effect": effect.name(), "sizes": sizes.iter().map(size).collect::<Vec<_>>() }))
+        .map(|(effect, sizes)| json!({ "effect": effect.name(), "sizes": sizes.iter().map(|one| size(campaign, one)).collect::<Vec<_>>() }))
         .collect();
     json!({
         "kind": "fitted",
@@ -96,8 +102,7 @@ fn tested(campaign: &Campaign, fit: &LiveFit) -> String {
     match fit.effects() == campaign.prepared.effects.as_slice() {
         true => "This is the study's own model.".into(),
         false => {
-            "Not yet tested on tightenings it was not fitted to; the command cargo xtask add does that."
-                .into()
+            campaign.says("Not yet tested on tightenings it was not fitted to; the command cargo xtask add does that.")
         }
     }
 }
@@ -139,8 +144,9 @@ fn ladder(
 }
 
 /// `stiffness of the reflex 638.8 [632.6, 645.0] N/m`.
-fn size(parameter: &EffectParameter) -> String {
-    parameter.size().to_string()
+fn size(campaign: &Campaign, parameter: &EffectParameter) -> String {
+    let size = campaign.prepared.vocabulary.size(parameter);
+    campaign.says(&size.size().to_string())
 }
 
 /// One tightening in words: heading, and m, c, k under the model before and under the present one.
@@ -161,7 +167,13 @@ pub(crate) fn tightening(
     let [before, now] = models;
     let pairs = before.1.base.iter().zip(&now.1.base);
     let facts: Vec<Value> = pairs
-        .map(|(before, now)| json!([base_name(&now.name), amount(before), amount(now)]))
+        .map(|(before, now)| {
+            json!([
+                base_name(campaign, now),
+                amount(campaign, before),
+                amount(campaign, now)
+            ])
+        })
         .collect();
     let error = |fit: &LiveFit| campaign.shown(fit.errors()[member]);
     let place = campaign.worst_first.iter().position(|&one| one == member);
@@ -175,9 +187,11 @@ pub(crate) fn tightening(
     })
 }
 
-/// `mass m`.
-fn base_name(name: &str) -> String {
-    match name {
+/// `mass m`; of what turns, `inertia I`.
+fn base_name(campaign: &Campaign, parameter: &ParameterEstimate) -> String {
+    let (_, unit) = campaign.prepared.vocabulary.about(&parameter.unit);
+    match parameter.name.as_str() {
+        "mass_kg" if unit == "kg m^2" => "inertia I".into(),
         "mass_kg" => "mass m".into(),
         "damping_kg_per_s" => "damping c".into(),
         "stiffness_n_per_m" => "stiffness k".into(),
@@ -186,15 +200,17 @@ fn base_name(name: &str) -> String {
 }
 
 /// Value with unit, and the interval.
-fn amount(parameter: &ParameterEstimate) -> Value {
-    let shown = rounded(parameter.value, parameter.interval);
+fn amount(campaign: &Campaign, parameter: &ParameterEstimate) -> Value {
+    let (factor, unit) = campaign.prepared.vocabulary.about(&parameter.unit);
+    let interval = parameter.interval.map(|ends| Interval {
+        low: factor * ends.low,
+        high: factor * ends.high,
+    });
+    let shown = rounded(factor * parameter.value, interval);
     let interval = match (shown.interval, parameter.fixed) {
         (Some(interval), _) => interval,
         (None, true) => "held fixed".into(),
         (None, false) => "no interval".into(),
     };
-    json!([
-        format!("{} {}", shown.value, unit_text(&parameter.unit)),
-        interval
-    ])
+    json!([format!("{} {}", shown.value, unit_text(&unit)), interval])
 }

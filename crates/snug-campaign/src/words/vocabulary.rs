@@ -135,7 +135,23 @@ impl Vocabulary {
         told
     }
 
-    /// A diagnosis with its sizes about the rig's own axis: Nm on one that turns, N on one that slides.
+    /// A size about the rig's own axis: Nm on one that turns, N on one that slides.
+    pub fn size(self, size: &EffectParameter) -> EffectParameter {
+        match self {
+            Self::Machine(Some(axis)) => axis.size(size),
+            _ => size.clone(),
+        }
+    }
+
+    /// By what a number in `unit` is multiplied to be told about the rig's own axis, and the unit that it then has.
+    pub fn about(self, unit: &str) -> (f64, String) {
+        match self {
+            Self::Machine(Some(axis)) => axis.about(unit),
+            _ => (1.0, unit.to_owned()),
+        }
+    }
+
+    /// A diagnosis with its sizes about the rig's own axis.
     pub fn told(self, diagnosis: &Diagnosis) -> Diagnosis {
         let mut told = diagnosis.clone();
         let Self::Machine(Some(axis)) = self else {

@@ -64,7 +64,7 @@ const promise = ({ effect, share, shown }) => {
 };
 
 const ladder = rungs => {
-  const largest = Math.max(...rungs.map(rung => rung.error || 0), 1);
+  const largest = Math.max(...rungs.map(rung => rung.error || 0));
   one('ladder').replaceChildren(...rungs.map((rung, i) => {
     const row = document.createElement('li'), bar = element('span', '', 'track'), fill = element('span', '', 'fill');
     fill.style.width = 100 * (rung.error || 0) / largest + '%';
@@ -104,7 +104,7 @@ const hear = {
   // The number on screen is where the solver stands.
   step(event) {
     show('error', event.shown);
-    state.steps.push(event.shown);
+    if (state.steps.at(-1) !== event.shown) state.steps.push(event.shown);
     show('steps', state.steps.slice(-8).join(' → '));
   },
   fitted(event) {
