@@ -4,10 +4,7 @@ use crate::data::cases::{Cases, Tally};
 use crate::data::clusters::Clusters;
 use crate::error::DiagnoseError;
 use crate::pooled::decimated::decimated;
-use crate::pooled::equation::is_one_with_friction;
-use crate::pooled::fit::fit_effects;
-use crate::pooled::fitted::Fitted;
-use crate::pooled::thresholds::ONE_MACHINE;
+use crate::pooled::one_machine::one_machine_or_several;
 use crate::question::{Goal, Question};
 use crate::selection::model_selection::ModelSelection;
 use crate::selection::path::SelectionPath;
@@ -15,7 +12,6 @@ use crate::settings::DiagnoseSettings;
 use crate::verdict::answer::{Answer, Examination};
 use crate::verdict::units::in_other_units;
 use crate::watch::Watch;
-use snug_model::Effect;
 
 /// Answers a question.
 ///
@@ -93,28 +89,6 @@ fn selected(
         Goal::Add(effects) => selection.add(effects, compared),
         Goal::Improve => selection.improve(compared),
     }
-}
-
-/// Recordings of one machine share mass, damping and stiffness, unless each with its own leaves far less: then something differs
-/// between them, as how warm a bearing is or which way it turns. Dry friction and an offset make such differences, too; where they
-/// explain far more, the machine is one. Beside it the fit of each by itself.
-pub(crate) fn one_machine_or_several<'a>(
-    cases: Cases<'a>,
-    effects: &[Effect],
-    clusters: Clusters,
-) -> Result<(Cases<'a>, Option<Fitted>), DiagnoseError> {
-    if !cases.are_of_one_machine() {
-        return Ok((cases, None));
-    }
-    let several = cases.each_its_own();
-    let [apart, together] = [several, cases].map(|all| fit_effects(all, effects, None, clusters));
-    let (apart, together) = (apart?, together?);
-    let leaves_far_less = apart.squares() < ONE_MACHINE * together.squares();
-    let cases = match leaves_far_less && !is_one_with_friction(&cases) {
-        true => several,
-        false => cases,
-    };
-    Ok((cases, Some(apart)))
 }
 
 #[cfg(test)]
