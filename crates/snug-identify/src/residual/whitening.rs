@@ -1,6 +1,6 @@
 //! The filter that makes a measured noise white, so that equal residuals are equally unlikely.
 
-use crate::residual::thresholds::SIDE_BY_SIDE;
+use crate::residual::thresholds::WHITENED_AT_ONCE;
 use snug_campaign::{NoiseFloor, Quantity, Tightening};
 use snug_model::with_processor_instructions;
 
@@ -64,30 +64,30 @@ impl Whitening {
     #[inline(always)]
     fn filter(&self, signal: &[f64], substeps: usize, white: &mut [f64]) {
         let past = self.order() * substeps;
-        let scale = 1.0 / self.innovation_sd;
         let count = white.len().min(signal.len().saturating_sub(past));
-        // A few registers of neighbouring samples take up lag after lag: the sum over the lags of one sample alone would wait for
-        // each of its additions.
-        let whole = count - count % SIDE_BY_SIDE;
-        let (blocks, rest) = white[..count].split_at_mut(whole);
-        for (block, white) in blocks.chunks_exact_mut(SIDE_BY_SIDE).enumerate() {
-            let signal = &signal[block * SIDE_BY_SIDE..];
-            let mut sums = [0.0; SIDE_BY_SIDE];
-            for (lag, a) in self.autoregression.iter().enumerate().rev() {
-                let earlier = &signal[past - (lag + 1) * substeps..][..SIDE_BY_SIDE];
-                for (sum, earlier) in sums.iter_mut().zip(earlier) {
-                    *sum += a * earlier;
-                }
-            }
-            for ((out, now), sum) in white.iter_mut().zip(&signal[past..]).zip(sums) {
-                *out = (now + sum) * scale;
+        let (whole, rest) = white[..count].as_chunks_mut::<WHITENED_AT_ONCE>();
+        let done = whole.len() * WHITENED_AT_ONCE;
+        for (block, white) in whole.iter_mut().enumerate() {
+            self.filter_some(&signal[block * WHITENED_AT_ONCE..], substeps, white);
+        }
+        self.filter_some(&signal[done..], substeps, rest);
+    }
+
+    /// No more than are whitened at once. A few registers of neighbouring samples take up lag after lag: the sum over the lags of one
+    /// sample alone would wait for each of its additions.
+    #[inline(always)]
+    fn filter_some(&self, signal: &[f64], substeps: usize, white: &mut [f64]) {
+        let (past, scale) = (self.order() * substeps, 1.0 / self.innovation_sd);
+        let mut sums = [0.0; WHITENED_AT_ONCE];
+        let sums = &mut sums[..white.len()];
+        for (lag, a) in self.autoregression.iter().enumerate().rev() {
+            let earlier = &signal[past - (lag + 1) * substeps..];
+            for (sum, earlier) in sums.iter_mut().zip(earlier) {
+                *sum += a * earlier;
             }
         }
-        for (place, out) in (whole..count).zip(rest) {
-            let earlier = |lag: usize| signal[place + past - (lag + 1) * substeps];
-            let lags = self.autoregression.iter().enumerate().rev();
-            let sum: f64 = lags.map(|(lag, a)| a * earlier(lag)).sum();
-            *out = (signal[place + past] + sum) * scale;
+        for ((out, now), sum) in white.iter_mut().zip(&signal[past..]).zip(sums) {
+            *out = (now + *sum) * scale;
         }
     }
 
