@@ -17,12 +17,11 @@ use snug_statistics::descriptive::quantile;
 /// share it most nearly.
 pub(crate) fn in_other_units(cases: &[FitTask<'_>], fitted: &Fitted) -> Option<OtherUnits> {
     let factors = [Factor::File, Factor::Participant];
-    let groups = factors.iter().filter_map(|one| Groups::of(cases, one));
-    let mut apart = groups.filter_map(|groups| furthest_apart(&groups, fitted));
-    apart.next()
+    let mut groups = factors.iter().filter_map(|one| Groups::of(cases, one));
+    groups.find_map(|groups| of_groups(&groups, fitted))
 }
 
-fn furthest_apart(groups: &Groups, fitted: &Fitted) -> Option<OtherUnits> {
+fn of_groups(groups: &Groups, fitted: &Fitted) -> Option<OtherUnits> {
     let members = groups.members();
     let is_judged =
         |members: &Vec<usize>| fitted.are_stretches() || members.len() >= FEWEST_OF_GROUP;
@@ -37,14 +36,13 @@ fn apart(sizes: &[(&str, OwnSizes)]) -> Option<OtherUnits> {
     let pairs = sizes.iter().flat_map(|one| {
         let others = sizes.iter();
         others.filter_map(move |other| {
-            let common =
-                common_factor(&other.1.at(1.0 - THREE_QUARTERS), &one.1.at(THREE_QUARTERS))?;
+            let common = common_factor(&other.1.low, &one.1.high)?;
             (common.factor >= NO_RIG_DIFFERS).then_some((other, one, common))
         })
     });
     let (larger, smaller, _) =
         pairs.min_by(|a, b| a.2.agree_within.total_cmp(&b.2.agree_within))?;
-    let factor = common_factor(&larger.1.at(0.5), &smaller.1.at(0.5))?.factor;
+    let factor = common_factor(&larger.1.middle, &smaller.1.middle)?.factor;
     let is_prefix = |prefix: &f64| (factor / prefix).ln().abs() <= SAME_FACTOR.ln();
     Some(OtherUnits {
         larger: larger.0.to_owned(),
@@ -54,24 +52,37 @@ fn apart(sizes: &[(&str, OwnSizes)]) -> Option<OtherUnits> {
     })
 }
 
-/// Logarithms of mass, damping and stiffness that tightenings have of their own, a list for each of the three.
-struct OwnSizes(Vec<Vec<f64>>);
+/// What mass, damping and stiffness tightenings have of their own: the value in the middle of each, and those that three quarters of
+/// them exceed and fall short of.
+struct OwnSizes {
+    low: Vec<f64>,
+    middle: Vec<f64>,
+    high: Vec<f64>,
+}
 
 impl OwnSizes {
     fn of(fitted: &Fitted, members: &[usize]) -> Self {
         let columns = (members.first()).map_or(0, |&first| fitted.own_base(first).len());
-        let own = |column: usize| {
-            members
+        let column = |column: usize| {
+            let own = members
                 .iter()
-                .map(move |&member| fitted.own_base(member)[column].ln())
+                .map(|&member| fitted.own_base(member)[column].ln());
+            own.collect()
         };
-        Self((0..columns).map(|column| own(column).collect()).collect())
+        Self::of_logarithms(&(0..columns).map(column).collect::<Vec<_>>())
     }
 
-    /// A quantile of each; 0 where one of them is.
-    fn at(&self, share: f64) -> Vec<f64> {
-        let of = |logarithms: &Vec<f64>| quantile(logarithms, share).map_or(0.0, f64::exp);
-        self.0.iter().map(of).collect()
+    /// From a list of logarithms for each of the three; a size is 0 where none is known.
+    fn of_logarithms(columns: &[Vec<f64>]) -> Self {
+        let at = |share: f64| -> Vec<f64> {
+            let of = |logarithms: &Vec<f64>| quantile(logarithms, share).map_or(0.0, f64::exp);
+            columns.iter().map(of).collect()
+        };
+        Self {
+            low: at(1.0 - THREE_QUARTERS),
+            middle: at(0.5),
+            high: at(THREE_QUARTERS),
+        }
     }
 }
 
@@ -105,7 +116,7 @@ mod tests {
     /// m, c, k of each tightening.
     fn sizes(of: &[[f64; 3]]) -> OwnSizes {
         let column = |column: usize| of.iter().map(|sizes| sizes[column].ln()).collect();
-        OwnSizes((0..3).map(column).collect())
+        OwnSizes::of_logarithms(&(0..3).map(column).collect::<Vec<_>>())
     }
 
     fn hand(times: f64) -> [f64; 3] {
