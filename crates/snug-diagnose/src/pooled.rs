@@ -4,6 +4,7 @@ pub(crate) mod between;
 pub(crate) mod change_point;
 pub(crate) mod decimated;
 pub(crate) mod equation;
+pub(crate) mod error_beyond;
 pub(crate) mod fit;
 pub(crate) mod fitted;
 mod group_evidence;

@@ -53,10 +53,7 @@ impl LiveCases {
         let each_its_own = counted.are_of_one_machine() && !one.are_of_one_machine();
         let question = Question {
             cases: &cases,
-            effects: question.effects.clone(),
-            by_group: question.by_group.clone(),
-            custom: question.custom.clone(),
-            goal: question.goal.clone(),
+            ..question.clone()
         };
         let sharing = question.sharing()?;
         Ok(Self {

@@ -1,6 +1,7 @@
 //! A pooled model after its fit: sizes, errors, and what it is worth in data that took no part.
 
 use crate::data::clusters::Clusters;
+use crate::pooled::error_beyond::error_beyond;
 use crate::pooled::model::{PooledModel, Room, Start};
 use crate::pooled::parameter_place::{effect_of, first_parameter, index_among};
 use crate::pooled::sharing::{SharedSize, Sharing, differs_by_group};
@@ -229,8 +230,8 @@ impl Fitted {
 
     /// Root mean square of the weighted residual, parameters of each tightening accounted for.
     pub fn error(&self) -> f64 {
-        let lost = self.own.len() * self.own_names.len() + self.shared.len();
-        (self.squares() / (self.count() - lost.min(self.count() - 1)) as f64).sqrt()
+        let parameters = self.own.len() * self.own_names.len() + self.shared.len();
+        error_beyond(self.squares(), self.count(), parameters)
     }
 
     /// Whether what it leaves is the noise.

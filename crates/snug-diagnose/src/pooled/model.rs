@@ -6,6 +6,7 @@ use crate::data::follower::Follower;
 use crate::data::simulation::{Asked, Simulated, simulate};
 use crate::error::DiagnoseError;
 use crate::pooled::between::{mix, once, places_in};
+use crate::pooled::error_beyond::error_beyond;
 use crate::pooled::parameter_place::first_parameter;
 use crate::pooled::sharing::{SharedSize, SharedSizes, Sharing, shared_sizes};
 use snug_identify::{FitTask, Whitening, convex_set, identify_all};
@@ -199,6 +200,9 @@ impl<'a> PooledModel<'a> {
     /// from where each ends by itself: what one of them asks for may be far from what the others do.
     pub fn usual_starts(&self) -> Vec<Start> {
         let usual = self.usual_start();
+        if self.models.len() == 1 {
+            return vec![usual];
+        }
         if !self.cases.are_of_one_machine() {
             let alone = self.each_alone(&usual);
             return vec![usual, alone];
@@ -283,11 +287,12 @@ impl<'a> PooledModel<'a> {
     ) -> Result<PooledFit, DiagnoseError> {
         let (own_sets, shared_set) = (self.own_sets.clone(), self.shared_set.clone());
         let (follower, tightenings) = (self.cases.follower(), self.cases.len());
-        let (residuals, is_whole) = (self.residuals_to_spare(), self.reach == 0);
-        let mut follow = |step: PooledStep| match follower {
+        let heard = follower.map(|follower| (follower, self.residuals_and_parameters()));
+        let is_whole = self.reach == 0;
+        let mut follow = |step: PooledStep| match heard {
             None => ControlFlow::Continue(()),
-            Some(follower) => {
-                let error = (2.0 * step.cost / residuals as f64).sqrt();
+            Some((follower, (residuals, parameters))) => {
+                let error = error_beyond(2.0 * step.cost, residuals, parameters);
                 follower.hear(step, tightenings, is_whole.then_some(error))
             }
         };
@@ -303,14 +308,6 @@ impl<'a> PooledModel<'a> {
         self.cases.tally().pooled_fit(&fit.work);
         follower.map_or(Ok(()), Follower::go_on)?;
         Ok(fit)
-    }
-
-    /// Residuals beyond the parameters that are fitted to them, one at least.
-    fn residuals_to_spare(&self) -> usize {
-        let counts = (0..self.cases.len()).map(|member| self.residual_count(member));
-        let count: usize = counts.sum();
-        let lost = self.cases.len() * self.own.len() + self.shared.len();
-        count - lost.min(count.saturating_sub(1))
     }
 
     /// Fits what is left of the residual once it is averaged over `reach` samples to either side, see [`smooth`].

@@ -56,3 +56,15 @@ impl PooledResidual for PooledModel<'_> {
         outcome
     }
 }
+
+impl PooledModel<'_> {
+    /// Weighted residuals of all members, and parameters that are fitted to them.
+    pub(super) fn residuals_and_parameters(&self) -> (usize, usize) {
+        let members = 0..self.cases.len();
+        let residuals = members.map(|member| self.residual_count(member)).sum();
+        (
+            residuals,
+            self.cases.len() * self.own.len() + self.shared.len(),
+        )
+    }
+}
