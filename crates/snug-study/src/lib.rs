@@ -34,7 +34,7 @@ pub use init::{Draft, DraftColumn, draft, write_draft};
 pub use prepared::{Prepared, prepare};
 pub use progress::ProgressEvent;
 pub use recover::{Recovered, recover};
-pub use rewriting::rewrite_effects;
+pub use rewriting::{rewrite_effects, write_with_effects};
 pub use run::{Outcome, RunSettings, run};
 pub use selection::SelectionSettings;
 pub use snug_preprocess::Preset;

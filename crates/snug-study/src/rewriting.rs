@@ -18,10 +18,37 @@ pub fn rewrite_effects(
     effects: &[String],
     custom: &[CustomEffectSettings],
 ) -> Result<(), StudyError> {
-    let text = text_of(path)?;
-    let mut wanted = Study::parse(&text, path)?;
+    match rewritten(&text_of(path)?, path, effects, custom)? {
+        Some(new) => Ok(snug_files::write_whole(&Host, path, new.as_bytes())?),
+        None => Ok(()),
+    }
+}
+
+/// Writes a study of this `text` with `effects` to `path`, whole or not at all, as [`rewrite_effects`] puts them in; what was written.
+///
+/// # Errors
+/// As [`rewrite_effects`].
+pub fn write_with_effects(
+    path: &Path,
+    text: &str,
+    effects: &[String],
+    custom: &[CustomEffectSettings],
+) -> Result<String, StudyError> {
+    let new = rewritten(text, path, effects, custom)?.unwrap_or_else(|| text.to_owned());
+    snug_files::write_whole(&Host, path, new.as_bytes())?;
+    Ok(new)
+}
+
+/// The text with these effects; nothing where they are its own.
+fn rewritten(
+    text: &str,
+    path: &Path,
+    effects: &[String],
+    custom: &[CustomEffectSettings],
+) -> Result<Option<String>, StudyError> {
+    let mut wanted = Study::parse(text, path)?;
     if wanted.model.effects == effects {
-        return Ok(());
+        return Ok(None);
     }
     wanted.model.effects = effects.to_vec();
     let declared: Vec<&str> = (wanted.model.custom.iter())
@@ -32,7 +59,7 @@ pub fn rewrite_effects(
         .cloned()
         .collect();
     wanted.model.custom.extend(new.iter().cloned());
-    let replaced = with_effects(&text, effects).and_then(|text| match new.as_slice() {
+    let replaced = with_effects(text, effects).and_then(|text| match new.as_slice() {
         [] => Some(text),
         new => with_laws(&text, new),
     });
@@ -40,7 +67,7 @@ pub fn rewrite_effects(
         Some(new) if Study::parse(&new, path).is_ok_and(|study| study == wanted) => new,
         _ => wanted.to_ron()?,
     };
-    Ok(snug_files::write_whole(&Host, path, new.as_bytes())?)
+    Ok(Some(new))
 }
 
 /// The text with the model's list of effects replaced or put in.

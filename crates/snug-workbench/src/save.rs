@@ -3,7 +3,7 @@
 use crate::bench::{Bench, locked};
 use crate::changes::EffectSet;
 use crate::error::WorkbenchError;
-use snug_study::{Study, rewrite_effects};
+use snug_study::{Study, write_with_effects};
 use std::path::{Path, PathBuf};
 
 /// Writes the study with these effects; where it stands.
@@ -23,9 +23,8 @@ pub(crate) fn save(bench: &Bench, effects: &EffectSet) -> Result<PathBuf, Workbe
         // It was given other data, or there is none.
         None => on_absolute_data(bench.study()).map_err(failed)?.to_ron()?,
     };
-    std::fs::write(&path, text).map_err(failed)?;
-    rewrite_effects(&path, effects.names(), &bench.study().model.custom)?;
-    let written = std::fs::read_to_string(&path).map_err(failed)?;
+    let laws = &bench.study().model.custom;
+    let written = write_with_effects(&path, &text, effects.names(), laws)?;
     *saved = Some((path.clone(), written));
     Ok(path)
 }
