@@ -2,8 +2,8 @@
 
 use crate::machine_words;
 use crate::section::{Section, rendered};
-use crate::viewer::{SCRIPT, STYLE};
-use maud::{DOCTYPE, Markup, PreEscaped, html as markup};
+use crate::viewer::{SCRIPT, document};
+use maud::{Markup, PreEscaped, html as markup};
 use snug_campaign::CampaignResult;
 use snug_campaign::words::vocabulary::Vocabulary;
 
@@ -29,38 +29,24 @@ pub fn html(result: &CampaignResult) -> String {
 
 fn page(result: &CampaignResult) -> String {
     let sections = rendered(result);
-    let page = markup! {
-        (DOCTYPE)
-        html lang="en" {
-            head {
-                meta charset="utf-8";
-                meta name="viewport" content="width=device-width, initial-scale=1";
-                meta name="color-scheme" content="light dark";
-                // An empty icon, so that a browser does not ask a server for one.
-                link rel="icon" href="data:,";
-                title { (result.title) " – Snug report" }
-                style { (PreEscaped(STYLE)) }
+    let body = markup! {
+        a.skip href="#overview" { "Skip to the results" }
+        (contents(&sections))
+        main {
+            header.top {
+                p.kind { "Snug report" }
+                h1 { (result.title) }
             }
-            body {
-                a.skip href="#overview" { "Skip to the results" }
-                (contents(&sections))
-                main {
-                    header.top {
-                        p.kind { "Snug report" }
-                        h1 { (result.title) }
-                    }
-                    @for (section, content) in &sections {
-                        section id=(section.anchor) aria-labelledby=(format!("{}-title", section.anchor)) {
-                            h2 id=(format!("{}-title", section.anchor)) { (section.title) }
-                            (content)
-                        }
-                    }
+            @for (section, content) in &sections {
+                section id=(section.anchor) aria-labelledby=(format!("{}-title", section.anchor)) {
+                    h2 id=(format!("{}-title", section.anchor)) { (section.title) }
+                    (content)
                 }
-                script { (PreEscaped(SCRIPT)) (PreEscaped(TABLES)) }
             }
         }
+        script { (PreEscaped(SCRIPT)) (PreEscaped(TABLES)) }
     };
-    page.into_string()
+    document(&format!("{} – Snug report", result.title), "", &body).into_string()
 }
 
 fn contents(sections: &[(&Section, Markup)]) -> Markup {

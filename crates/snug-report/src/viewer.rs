@@ -4,12 +4,13 @@ use crate::curves::{self, DIGITS, Series, Values, embedded, steps, time_unit};
 use crate::decimation;
 use crate::number::drawn;
 use crate::signal_unit::motion_axis;
-use maud::{Markup, PreEscaped, html};
+use maud::{DOCTYPE, Markup, PreEscaped, html};
 use serde_json::{Value, json};
+use snug_campaign::words::vocabulary::Vocabulary;
 use snug_campaign::{NORMAL_95, Quantity, SignalUnits};
 
 /// Style of every page.
-pub const STYLE: &str = concat!(
+const STYLE: &str = concat!(
     include_str!("assets/page.css"),
     include_str!("assets/figures.css"),
     include_str!("assets/diagnosis.css")
@@ -33,6 +34,8 @@ pub struct Compared<'a> {
     pub quantity: Quantity,
     /// In which units it is shown.
     pub units: &'a SignalUnits,
+    /// In whose words.
+    pub vocabulary: Vocabulary,
     /// From sample to sample \[s\].
     pub interval_s: f64,
     /// As measured.
@@ -109,7 +112,7 @@ impl Compared<'_> {
         vec![
             Panel {
                 title: format!("{name}: model and measurement"),
-                axis: motion_axis(self.units, self.quantity),
+                axis: (self.vocabulary).says(&motion_axis(self.units, self.quantity)),
                 series: motion,
                 residual: false,
             },
@@ -120,6 +123,25 @@ impl Compared<'_> {
                 residual: self.noise.is_some(),
             },
         ]
+    }
+}
+
+/// A page of this title: the viewer's style and `style` in its head, `body` in its body.
+pub fn document(title: &str, style: &str, body: &Markup) -> Markup {
+    html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                meta name="color-scheme" content="light dark";
+                // An empty icon, so that a browser does not ask a server for one.
+                link rel="icon" href="data:,";
+                title { (title) }
+                style { (PreEscaped(STYLE)) (PreEscaped(style)) }
+            }
+            body { (body) }
+        }
     }
 }
 
@@ -151,6 +173,7 @@ mod tests {
         let compared = Compared {
             quantity: Quantity::Displacement,
             units: &units,
+            vocabulary: Vocabulary::Hand,
             interval_s: 1e-3,
             measured: &[2.0, 4.0, 6.0],
             base: Some(&[0.0, 4.0, 2.0]),

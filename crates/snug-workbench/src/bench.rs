@@ -159,9 +159,7 @@ impl Bench {
             };
             let ticket = known.begin();
             let effects = known.changes.present().clone();
-            known.tell(
-                json!({ "kind": "fitting", "number": ticket.number, "effects": effects.names() }),
-            );
+            known.tell(told::fitting(campaign, ticket.number, &effects));
             (ticket, effects)
         };
         let (bench, campaign) = (Arc::clone(self), Arc::clone(campaign));
@@ -181,7 +179,7 @@ impl Bench {
             Err(error) => {
                 self.with_last(session, ticket, |known| {
                     known.changes.take_back();
-                    known.tell(told::failed(effects, &error));
+                    known.tell(told::failed(campaign, effects, &error));
                 });
                 // What was there before is told again.
                 if let Some(fit) = self.present(session) {

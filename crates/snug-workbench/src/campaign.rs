@@ -2,6 +2,7 @@
 
 use crate::changes::EffectSet;
 use crate::error::WorkbenchError;
+use snug_campaign::words::effect_name::effect_name;
 use snug_campaign::words::number::significant;
 use snug_campaign::words::vocabulary::Vocabulary;
 use snug_diagnose::{LiveFit, LiveTightening};
@@ -81,6 +82,11 @@ impl Campaign {
         }
     }
 
+    /// An effect as people say it on this rig.
+    pub fn called(&self, effect: &str) -> String {
+        self.says(&effect_name(effect))
+    }
+
     /// A sentence in the words of the rig at hand.
     pub fn says(&self, text: &str) -> String {
         self.prepared.vocabulary.says(text)
@@ -107,6 +113,7 @@ impl Campaign {
         Compared {
             quantity: case.quantity(),
             units: &self.prepared.units,
+            vocabulary: self.prepared.vocabulary,
             interval_s: case.tightening.time_base.interval_s,
             measured: case.measured(),
             base: base.map(|base| base.output.as_slice()),

@@ -1,34 +1,22 @@
 //! The page: what is there before anything is clicked. What changes, the script fills in from what the server tells.
 
 use crate::campaign::Campaign;
-use maud::{DOCTYPE, Markup, PreEscaped, html};
+use maud::{Markup, PreEscaped, html};
 use serde_json::json;
 use snug_campaign::words::effect_name::{effect_name, raised};
 use snug_model::Effect;
-use snug_report::viewer::{SCRIPT, STYLE, viewer};
+use snug_report::viewer::{SCRIPT, document, viewer};
 
 const OWN_STYLE: &str = include_str!("assets/workbench.css");
 const OWN_SCRIPT: &str = include_str!("assets/workbench.js");
 const READING_SCRIPT: &str = include_str!("assets/reading.js");
 
 fn around(title: &str, content: &Markup, script: &[&str]) -> Markup {
-    html! {
-        (DOCTYPE)
-        html lang="en" {
-            head {
-                meta charset="utf-8";
-                meta name="viewport" content="width=device-width, initial-scale=1";
-                meta name="color-scheme" content="light dark";
-                link rel="icon" href="data:,";
-                title { (title) " – Snug workbench" }
-                style { (PreEscaped(STYLE)) (PreEscaped(OWN_STYLE)) }
-            }
-            body {
-                (content)
-                script { @for part in script { (PreEscaped(part)) } }
-            }
-        }
-    }
+    let body = html! {
+        (content)
+        script { @for part in script { (PreEscaped(part)) } }
+    };
+    document(&format!("{title} – Snug workbench"), OWN_STYLE, &body)
 }
 
 /// While tightenings are read, or where they cannot be.

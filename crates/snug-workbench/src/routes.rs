@@ -34,10 +34,10 @@ pub(crate) fn router(bench: Arc<Bench>, guard: Guard) -> Router {
 
 impl IntoResponse for WorkbenchError {
     fn into_response(self) -> Response {
-        let status = match self {
+        let status = match &self {
             Self::StillReading => StatusCode::SERVICE_UNAVAILABLE,
             Self::NotFitted | Self::NoTightening { .. } => StatusCode::NOT_FOUND,
-            Self::Study(_) => StatusCode::BAD_REQUEST,
+            Self::Study(error) if error.is_bad_argument() => StatusCode::BAD_REQUEST,
             _ => StatusCode::INTERNAL_SERVER_ERROR,
         };
         let body = json!({ "sentence": self.to_string() });
@@ -164,7 +164,6 @@ async fn tightening(
         let mut answer = campaign
             .compared(member, seen_base.as_ref(), &seen_now)
             .json();
-        answer["panels"] = told::drawn(&campaign, &answer["panels"]);
         answer["told"] = told::tightening(
             &campaign,
             member,

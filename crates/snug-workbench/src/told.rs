@@ -10,6 +10,16 @@ use snug_campaign::{EffectParameter, Interval, ParameterEstimate};
 use snug_diagnose::{FitStep, LiveFit, LiveTightening};
 use snug_model::Effect;
 
+/// That a fit is under way.
+pub(crate) fn fitting(campaign: &Campaign, number: usize, effects: &EffectSet) -> Value {
+    json!({
+        "kind": "fitting",
+        "number": number,
+        "effects": effects.names(),
+        "tested": campaign.says("Fitting all tightenings together …"),
+    })
+}
+
 /// A step of the fit under way.
 pub(crate) fn step(campaign: &Campaign, number: usize, step: FitStep) -> Value {
     json!({
@@ -22,23 +32,14 @@ pub(crate) fn step(campaign: &Campaign, number: usize, step: FitStep) -> Value {
 }
 
 /// That a model cannot be fitted.
-pub(crate) fn failed(effects: &EffectSet, error: &WorkbenchError) -> Value {
-    let names: Vec<String> = effects
-        .names()
-        .iter()
-        .map(|name| effect_name(name))
-        .collect();
+pub(crate) fn failed(campaign: &Campaign, effects: &EffectSet, error: &WorkbenchError) -> Value {
+    let names = effects.names().iter().map(|name| campaign.called(name));
+    let names: Vec<String> = names.collect();
     let sentence = format!(
         "The model with {} could not be fitted: {error}. The model before is kept.",
         names.join(", ")
     );
     json!({ "kind": "failed", "sentence": sentence })
-}
-
-/// What is drawn, in the words of the rig at hand.
-pub(crate) fn drawn(campaign: &Campaign, panels: &Value) -> Value {
-    let told = campaign.says(&panels.to_string());
-    serde_json::from_str(&told).unwrap_or_else(|_| panels.clone())
 }
 
 /// What candidates promise beside the present model.
@@ -72,7 +73,7 @@ pub(crate) fn fitted(
         "error_before": before.and_then(error_of).map(|error| campaign.shown(error)),
         "says": says(fit),
         "tested": tested(campaign, fit),
-        "step": before.map(|before| change(before, present)),
+        "step": before.map(|before| change(campaign, before, present)),
         "sizes": sizes,
         "ladder": ladder(campaign, changes, error_of),
         "can_undo": before.is_some(),
@@ -108,13 +109,9 @@ fn tested(campaign: &Campaign, fit: &LiveFit) -> String {
 }
 
 /// `+ stretch reflex − backlash`.
-fn change(before: &EffectSet, after: &EffectSet) -> String {
-    let gained = after
-        .beyond(before)
-        .map(|name| format!("+ {}", effect_name(name)));
-    let lost = before
-        .beyond(after)
-        .map(|name| format!("− {}", effect_name(name)));
+fn change(campaign: &Campaign, before: &EffectSet, after: &EffectSet) -> String {
+    let gained = (after.beyond(before)).map(|name| format!("+ {}", campaign.called(name)));
+    let lost = (before.beyond(after)).map(|name| format!("− {}", campaign.called(name)));
     gained.chain(lost).collect::<Vec<_>>().join(" ")
 }
 
@@ -128,7 +125,7 @@ fn ladder(
     let all: Vec<&EffectSet> = changes.past().iter().chain([changes.present()]).collect();
     let rungs = all.iter().enumerate().map(|(place, &set)| {
         let name = match place.checked_sub(1).map(|before| all[before]) {
-            Some(before) => change(before, set),
+            Some(before) => change(campaign, before, set),
             None if *set == base && base.names().is_empty() => "mass, damper, spring".into(),
             None => "the study's own model".into(),
         };

@@ -1,5 +1,5 @@
-'use strict';
 // Waits for the tightenings, then shows the workbench at the same address.
+'use strict';
 const sentence = document.querySelector('[data-sentence]');
 const told = new EventSource('/api/reading');
 told.onmessage = message => {

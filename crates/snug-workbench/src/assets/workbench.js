@@ -97,7 +97,7 @@ const hear = {
     check();
     remember();
     document.body.classList.add('fitting');
-    show('tested', 'Fitting all tightenings together …');
+    show('tested', event.tested);
     show('steps', '');
     performance.mark('fitting');
   },
