@@ -321,10 +321,14 @@ fn tightenings_left_out(
 
 fn held(f: &mut Formatter<'_>, spared: &[String]) -> fmt::Result {
     let names: Vec<String> = spared.iter().map(|name| effect_name(name)).collect();
-    f.write_str("The input is taken as held from sample to sample, as a controller's is (`model.intersample: ZeroOrder`): a model of fewer effects then leaves as little")?;
+    f.write_str("The input is taken as held from sample to sample, as a controller's is (`model.intersample: ZeroOrder`): ")?;
     match names.is_empty() {
-        true => f.write_str("."),
-        false => write!(f, ", without {}.", names.join(" and ")),
+        true => f.write_str("the same effects then leave less."),
+        false => write!(
+            f,
+            "a model of fewer effects then leaves as little, without {}.",
+            names.join(" and ")
+        ),
     }?;
     f.write_str(" State `Linear` where it is not.")
 }
