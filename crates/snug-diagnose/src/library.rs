@@ -1,254 +1,23 @@
 //! Terms that are in no catalogue, to describe what no effect of it explains: the simplest polynomials in x and v and a
 //! few shapes the field knows.
 
+mod terms;
+
+use self::terms::{Factor, OF_A_HAND, OF_A_MACHINE, TERMS, Term};
 use crate::error::DiagnoseError;
 use snug_campaign::Rig;
 use snug_model::{CustomEffectSettings, CustomParameterSettings, Effect, Place, Scale};
 
-/// One candidate: name, what it is in words, and expression of force \[N\].
-struct Term {
-    name: &'static str,
-    says: &'static str,
-    /// What it is where its size p is negative.
-    says_below_zero: &'static str,
-    /// `{slow}` is a speed \[m/s\] over which it turns or sets in, see [`Term::slow_m_per_s`].
-    expression: &'static str,
-    parameters: &'static [Factor],
-}
-
 /// Speeds over which two of the terms turn or set in, on a hand \[m/s\].
 const SLOW_M_PER_S: [(&str, f64); 2] = [("sqrt_v_law", 0.001), ("abs_x_friction_law", 0.01)];
 
-/// A number in an expression.
-struct Factor {
-    name: &'static str,
-    unit: &'static str,
-    /// Worth trying, the usual one first.
-    starts: &'static [f64],
-    minimum: f64,
-    maximum: f64,
-}
-
-/// The factor p of a term that has no other number.
-const fn p(unit: &'static str) -> Factor {
-    Factor {
-        name: "p",
-        unit,
-        starts: &[0.0],
-        minimum: f64::NEG_INFINITY,
-        maximum: f64::INFINITY,
-    }
-}
-
-const TERMS: &[Term] = &[
-    Term {
-        name: "x_v_law",
-        says: "damping that is stronger the further the tool turns, and weaker on the far side of rest",
-        says_below_zero: "damping that is weaker the further the tool turns, and stronger on the far side of rest",
-        expression: "p*x*v",
-        parameters: &[p("N s/m^2")],
-    },
-    Term {
-        name: "x2_v_law",
-        says: "damping that grows with the square of the displacement",
-        says_below_zero: "damping that falls with the square of the displacement",
-        expression: "p*x^2*v",
-        parameters: &[p("N s/m^3")],
-    },
-    Term {
-        name: "abs_x_v_law",
-        says: "damping that grows with the displacement",
-        says_below_zero: "damping that falls with the displacement",
-        expression: "p*abs(x)*v",
-        parameters: &[p("N s/m^2")],
-    },
-    Term {
-        name: "x_v2_law",
-        says: "a spring that is stiffer the faster the tool moves, with the square of its speed",
-        says_below_zero: "a spring that is softer the faster the tool moves, with the square of its speed",
-        expression: "p*x*v^2",
-        parameters: &[p("N s^2/m^3")],
-    },
-    Term {
-        name: "x_v_abs_v_law",
-        says: "damping that grows with the speed, and changes sign with the displacement",
-        says_below_zero: "damping that falls with the speed, and changes sign with the displacement",
-        expression: "p*x*v*abs(v)",
-        parameters: &[p("N s^2/m^3")],
-    },
-    Term {
-        name: "v2_law",
-        says: "a push to one side that grows with the square of the speed",
-        says_below_zero: "a pull to one side that grows with the square of the speed",
-        expression: "p*v^2",
-        parameters: &[p("N s^2/m^2")],
-    },
-    Term {
-        name: "v3_law",
-        says: "damping that grows with the square of the speed",
-        says_below_zero: "damping that falls with the square of the speed",
-        expression: "p*v^3",
-        parameters: &[p("N s^3/m^3")],
-    },
-    Term {
-        name: "sqrt_v_law",
-        says: "something between friction and a damper: it grows with the root of the speed",
-        says_below_zero: "damping that is weaker the slower the tool moves: it falls short of a damper's by the root of the speed",
-        expression: "p*v/sqrt(abs(v)+{slow})",
-        parameters: &[p("N s^0.5/m^0.5")],
-    },
-    Term {
-        name: "stribeck_law",
-        says: "friction that fades as the tool moves faster",
-        says_below_zero: "friction that is missing at low speed and comes as the tool moves faster",
-        expression: "p*tanh(v/0.002)*exp(-(v/v0)^2)",
-        parameters: &[
-            Factor {
-                starts: &[1.0],
-                ..p("N")
-            },
-            Factor {
-                name: "v0",
-                unit: "m/s",
-                starts: &[0.05, 0.1],
-                minimum: 0.005,
-                maximum: 1.0,
-            },
-        ],
-    },
-    Term {
-        name: "end_stop_law",
-        says: "a second spring that is met beyond the displacement x0",
-        says_below_zero: "a spring that gives way beyond the displacement x0",
-        expression: "p*max(0,x-x0)",
-        parameters: &[
-            Factor {
-                starts: &[1000.0],
-                ..p("N/m")
-            },
-            Factor {
-                name: "x0",
-                unit: "m",
-                starts: &[0.005, 0.01],
-                minimum: 0.0005,
-                maximum: 0.05,
-            },
-        ],
-    },
-    Term {
-        name: "exponential_spring_law",
-        says: "a spring that stiffens ever faster, as tissue does",
-        says_below_zero: "a spring that gives way ever faster",
-        expression: "p*(exp(x/x0)-1-x/x0)",
-        parameters: &[
-            Factor {
-                starts: &[1.0],
-                ..p("N")
-            },
-            Factor {
-                name: "x0",
-                unit: "m",
-                starts: &[0.01, 0.005],
-                minimum: 0.002,
-                maximum: 0.1,
-            },
-        ],
-    },
-    Term {
-        name: "latch_law",
-        says: "a force that turns over where the grip passes x0, as at a latch",
-        says_below_zero: "a force that turns over where the grip passes x0, and pushes away from there",
-        expression: "p*tanh((x-x0)/0.001)",
-        parameters: &[
-            Factor {
-                starts: &[2.0],
-                ..p("N")
-            },
-            Factor {
-                name: "x0",
-                unit: "m",
-                starts: &[0.0, 0.004, 0.008],
-                minimum: -0.02,
-                maximum: 0.05,
-            },
-        ],
-    },
-    Term {
-        name: "late_damping_law",
-        says: "a damper that sets in a time t0 after the pulse begins",
-        says_below_zero: "a damper that lets go a time t0 after the pulse begins",
-        expression: "p*v*smooth_step((t-t0)/0.05)",
-        parameters: &[
-            Factor {
-                starts: &[5.0],
-                ..p("N s/m")
-            },
-            Factor {
-                name: "t0",
-                unit: "s",
-                starts: &[0.08, 0.04, 0.12],
-                minimum: 0.0,
-                maximum: 0.3,
-            },
-        ],
-    },
-    Term {
-        name: "x4_law",
-        says: "a spring that sets in late and pushes to one side only",
-        says_below_zero: "a spring that gives way late and to one side only",
-        expression: "p*x^4",
-        parameters: &[p("N/m^4")],
-    },
-    Term {
-        name: "x5_law",
-        says: "a spring that hardly acts at first and stiffens steeply",
-        says_below_zero: "a spring that hardly changes at first and gives way steeply",
-        expression: "p*x^5",
-        parameters: &[p("N/m^5")],
-    },
-    Term {
-        name: "abs_x_x_law",
-        says: "a spring that stiffens in proportion to the displacement",
-        says_below_zero: "a spring that softens in proportion to the displacement",
-        expression: "p*x*abs(x)",
-        parameters: &[p("N/m^2")],
-    },
-    Term {
-        name: "abs_x_friction_law",
-        says: "friction that grows with the displacement",
-        says_below_zero: "friction that falls with the displacement",
-        expression: "p*abs(x)*tanh(v/{slow})",
-        parameters: &[p("N/m")],
-    },
-    Term {
-        name: "x_abs_v_law",
-        says: "a spring that is stiffer the faster the tool moves",
-        says_below_zero: "a spring that is softer the faster the tool moves",
-        expression: "p*x*abs(v)",
-        parameters: &[p("N s/m^2")],
-    },
-    Term {
-        name: "torque_v_law",
-        says: "damping that grows with the torque",
-        says_below_zero: "damping that falls with the torque",
-        expression: "p*T*v",
-        parameters: &[p("s/m^2")],
-    },
-    Term {
-        name: "sine_law",
-        says: "a weight on an arm, as of a pendulum",
-        says_below_zero: "a weight on an arm that stands upright, as of an inverted pendulum",
-        expression: "p*sin(theta)",
-        parameters: &[p("N")],
-    },
-];
-
-/// Every term as an effect on a rig of this scale; on a machine those that have no number but p: places, speeds and times are a
-/// hand's.
+/// Every term that can act on a rig of this scale, as an effect.
 pub(crate) fn terms(scale: Scale, rig: &Rig) -> Result<Vec<Effect>, DiagnoseError> {
-    let is_machine = matches!(scale, Scale::Rig { .. });
-    let can_act = |term: &&Term| !is_machine || term.parameters.len() == 1;
-    let able = TERMS.iter().filter(can_act);
+    let more = match scale {
+        Scale::Rig { .. } => OF_A_MACHINE,
+        _ => OF_A_HAND,
+    };
+    let able = TERMS.iter().chain(more);
     able.map(|term| Ok(Effect::custom(&term.settings(scale, rig))?))
         .collect()
 }
@@ -272,7 +41,8 @@ pub(crate) fn in_words(effect: Effect, size: f64) -> Option<&'static str> {
 }
 
 fn term(name: &str) -> Option<&'static Term> {
-    TERMS.iter().find(|term| term.name == name)
+    let mut all = TERMS.iter().chain(OF_A_HAND).chain(OF_A_MACHINE);
+    all.find(|term| term.name == name)
 }
 
 impl Term {
@@ -282,12 +52,12 @@ impl Term {
             name: self.name.to_owned(),
             place: Place::Force,
             expression: self.expression.replace("{slow}", &slow),
-            parameters: self.parameters.iter().map(Factor::settings).collect(),
+            parameters: (self.parameters.iter())
+                .map(|factor| factor.settings(scale.times_hand(factor.unit, rig)))
+                .collect(),
         }
     }
-}
 
-impl Term {
     /// The speed that its expression names, as a hand or as much more or less as a rig moves.
     fn slow_m_per_s(&self, scale: Scale, rig: &Rig) -> String {
         let of_hand = SLOW_M_PER_S.iter().find(|(name, _)| *name == self.name);
@@ -301,14 +71,16 @@ impl Term {
 }
 
 impl Factor {
-    fn settings(&self) -> CustomParameterSettings {
+    /// Its numbers on a rig where they are so many times a hand's.
+    fn settings(&self, times_hand: f64) -> CustomParameterSettings {
+        let mut starts = self.starts.iter().map(|start| start * times_hand);
         CustomParameterSettings {
             name: self.name.to_owned(),
             unit: self.unit.to_owned(),
-            start: self.starts[0],
-            further_starts: self.starts[1..].to_vec(),
-            minimum: self.minimum,
-            maximum: self.maximum,
+            start: starts.next().unwrap_or_default(),
+            further_starts: starts.collect(),
+            minimum: self.minimum * times_hand,
+            maximum: self.maximum * times_hand,
             shared: true,
         }
     }
@@ -374,6 +146,9 @@ mod tests {
         ("x_abs_v_law", 0.0072),
         ("torque_v_law", -15.0),
         ("sine_law", 0.072_711_245_737_859_18),
+        ("abs_x_law", 0.024),
+        // It is 5 mm on the other side.
+        ("lower_end_stop_law", 0.0),
     ];
 
     fn force_n(effect: Effect, size: f64, since_onset_s: f64, [x_m, v_m_per_s]: [f64; 2]) -> f64 {
@@ -392,7 +167,8 @@ mod tests {
 
     #[test]
     fn every_term_pushes_as_its_formula_says() {
-        assert_eq!(FORCES.len(), TERMS.len());
+        let all = TERMS.iter().chain(OF_A_HAND).chain(OF_A_MACHINE);
+        assert_eq!(FORCES.len(), all.count());
         for &(name, expected) in FORCES {
             close(
                 force_n(made_up::term(name), 2.0, 0.06, [0.012, -0.3]),
@@ -400,6 +176,15 @@ mod tests {
                 1e-9,
             );
         }
+    }
+
+    /// 2 · (5 mm − 12 mm), on either side.
+    #[test]
+    fn both_stops_push_back() {
+        let pushes = |name, x| force_n(made_up::term(name), 2.0, 0.06, [x, 0.0]);
+        close(pushes("end_stop_law", 0.012), 0.014, 1e-12);
+        close(pushes("lower_end_stop_law", -0.012), -0.014, 1e-12);
+        assert_eq!(pushes("end_stop_law", -0.012), 0.0);
     }
 
     /// Half of 2 · v, 25 ms after it has begun at 80 ms.
@@ -425,24 +210,42 @@ mod tests {
     }
 
     #[test]
-    fn a_machine_has_no_terms_with_places_speeds_or_times_of_a_hand() {
+    fn a_hand_and_a_machine_have_terms_of_their_own() {
         let names = |scale| -> Vec<&str> {
             let terms = terms(scale, &RIG).expect("the terms are well formed");
             terms.iter().map(|term| term.name()).collect()
         };
-        let (all, of_machine) = (names(Scale::HandOnTool), names(MACHINE));
-        let a_hand_s: Vec<&&str> = all
-            .iter()
-            .filter(|name| !of_machine.contains(name))
-            .collect();
-        let expected = [
+        let (hand_s, machine_s) = (names(Scale::HandOnTool), names(MACHINE));
+        let beyond = |all: &[&'static str], others: &[&str]| -> Vec<&str> {
+            let own = all.iter().filter(|name| !others.contains(name));
+            own.copied().collect()
+        };
+        let of_a_hand = [
             "stribeck_law",
-            "end_stop_law",
             "exponential_spring_law",
             "latch_law",
             "late_damping_law",
         ];
-        assert_eq!(a_hand_s, expected.iter().collect::<Vec<_>>());
+        assert_eq!(beyond(&hand_s, &machine_s), of_a_hand);
+        let of_a_machine = ["abs_x_law", "lower_end_stop_law"];
+        assert_eq!(beyond(&machine_s, &hand_s), of_a_machine);
+    }
+
+    #[test]
+    fn places_are_as_far_in_on_a_machine_that_moves_further() {
+        let far = Scale::Rig {
+            torque_nm: 10.0,
+            angle_rad: 0.6,
+            time_s: 0.04,
+        };
+        let [near, far] = [MACHINE, far].map(|scale| {
+            let terms = terms(scale, &RIG).expect("the terms are well formed");
+            let stop = terms.into_iter().find(|term| term.name() == "end_stop_law");
+            declaration(stop.expect("there is such a term")).expect("it is one of them")
+        });
+        let [near, far] = [near, far].map(|stop| stop.parameters[1].clone());
+        close(far.start / near.start, 10.0, 1e-12);
+        close(far.maximum / near.minimum, 1000.0, 1e-12);
     }
 
     #[test]
@@ -469,11 +272,12 @@ mod tests {
 
     #[test]
     fn no_two_terms_are_told_alike() {
-        let mut told: Vec<&str> = (TERMS.iter())
+        let all = || TERMS.iter().chain(OF_A_HAND).chain(OF_A_MACHINE);
+        let mut told: Vec<&str> = all()
             .flat_map(|term| [term.says, term.says_below_zero])
             .collect();
         told.sort_unstable();
         told.dedup();
-        assert_eq!(told.len(), 2 * TERMS.len());
+        assert_eq!(told.len(), 2 * all().count());
     }
 }

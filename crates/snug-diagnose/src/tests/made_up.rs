@@ -158,11 +158,18 @@ pub(crate) fn quick(sign_flips: usize) -> DiagnoseSettings {
     }
 }
 
+/// A machine that moves as far and as fast as a hand, so that what is a hand's is its own.
+const LIKE_A_HAND: Scale = Scale::Rig {
+    torque_nm: 10.0,
+    angle_rad: 0.03,
+    time_s: 0.04,
+};
+
 /// The term called `name`, which is in no catalogue.
 pub(crate) fn term(name: &str) -> Effect {
-    let mut all = terms(Scale::HandOnTool, &RIG)
-        .expect("the terms are well formed")
-        .into_iter();
+    let [of_hand, of_machine] = [Scale::HandOnTool, LIKE_A_HAND]
+        .map(|scale| terms(scale, &RIG).expect("the terms are well formed"));
+    let mut all = of_hand.into_iter().chain(of_machine);
     all.find(|term| term.name() == name)
         .expect("there is such a term")
 }
