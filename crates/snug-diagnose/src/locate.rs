@@ -28,7 +28,9 @@ pub(crate) mod thresholds;
 use aspect::View;
 use bootstrap::Draws;
 use residual::Residuals;
-use snug_campaign::{Comparison, Drift, Estimate, Location, Motion, Tightening};
+use snug_campaign::{
+    Comparison, Drift, Estimate, ForceCurve, ForceMap, Location, Motion, Tightening,
+};
 
 /// One tightening with what a model makes of it.
 #[derive(Debug, Clone, Copy)]
@@ -115,4 +117,11 @@ pub fn locate(seen: &[Seen<'_>], seed: u64) -> Location {
 /// peak velocity are therefore those that the tightening's torque gives with the group's geometric-mean m, c, k.
 pub fn drifts(seen: &[Seen<'_>]) -> Vec<Drift> {
     drift::drifts(seen)
+}
+
+/// The missing force alone, over time and over displacement and velocity; nothing where nothing can be compared.
+pub(crate) fn missing_force(seen: &[Seen<'_>], seed: u64) -> (ForceCurve, ForceMap) {
+    let residuals = Residuals::of(seen);
+    let draws = Draws::new(residuals.all.len(), seed);
+    missing_force::curve_and_map(&residuals, &draws)
 }

@@ -30,9 +30,9 @@ pub struct LiveCases {
     pub(super) cases: Vec<FitTask<'static>>,
     pub(super) clusters: Clusters,
     pub(super) settings: DiagnoseSettings,
-    sharing: Sharing,
-    custom: Vec<Effect>,
-    each_its_own: bool,
+    pub(super) sharing: Sharing,
+    pub(super) custom: Vec<Effect>,
+    pub(super) each_its_own: bool,
 }
 
 impl LiveCases {

@@ -1,11 +1,12 @@
 //! A hidden spring that stiffens, found by hand: the error falls to the noise, step by step.
 
 use super::cases::LiveCases;
+use super::focus::Focus;
 use crate::data::follower::FitStep;
 use crate::error::DiagnoseError;
 use crate::question::{Goal, Question};
 use crate::settings::DiagnoseSettings;
-use crate::tests::made_up::{close, hand, noisy};
+use crate::tests::made_up::{SAMPLES, close, hand, noisy, silent};
 use snug_identify::FitTask;
 use snug_model::Effect::{self, CubicStiffness, TorqueOffset};
 use std::sync::Mutex;
@@ -122,4 +123,135 @@ fn one_tightening_has_its_own_numbers_and_curve() {
         .tightening(&fit(&[TorqueOffset]), 3)
         .expect("it can be fitted");
     assert!(squares(&seen.output) < squares(&other.output));
+}
+
+fn rms(values: impl Iterator<Item = f64>) -> f64 {
+    let (sum, count) = values.fold((0.0, 0.0), |(sum, count), v| (sum + v * v, count + 1.0));
+    (sum / count).sqrt()
+}
+
+#[test]
+fn a_closer_look_leaves_what_the_fit_left_there() {
+    let live = live();
+    let base = live
+        .fit(&[], None, &|_| (), &never())
+        .expect("it can be fitted");
+    let closer = |members: &[usize], samples| {
+        let focus = Focus {
+            members: members.to_vec(),
+            samples,
+        };
+        let closer = live.focused(&focus).expect("it can be looked at");
+        let fit = closer.as_fitted(&base, members).expect("it can be run");
+        (closer, fit)
+    };
+    let (_, some) = closer(&[2, 7], None);
+    for (place, member) in [(0, 2), (1, 7)] {
+        close(some.errors()[place], base.errors()[member], 1e-9);
+    }
+    // The spring is missed where the tool turns furthest, not as it begins to move.
+    let error = |samples| closer(&[2, 7], Some(samples)).1.errors()[0];
+    assert!(error(60..SAMPLES) > 1.05 * error(0..30));
+    let (few, fit) = closer(&[2, 7], Some(20..SAMPLES));
+    let shares = few
+        .promises(&fit, &fit, &[CubicStiffness])
+        .expect("it can be scored");
+    assert!(shares[0] > 0.5, "{shares:?}");
+    let nobody = Focus {
+        members: Vec::new(),
+        samples: None,
+    };
+    assert!(live.focused(&nobody).is_err());
+    let instant = Focus {
+        members: vec![0],
+        samples: Some(10..11),
+    };
+    assert!(live.focused(&instant).is_err());
+}
+
+#[test]
+fn numbers_set_by_hand_are_simulated_and_fitted_from() {
+    let live = live();
+    let with = live
+        .fit(&[CubicStiffness], None, &|_| (), &never())
+        .expect("it can be fitted");
+    let seen = live.tightening(&with, 3).expect("it can be fitted");
+    let mut values: Vec<f64> = seen.numbers.iter().map(|one| one.value).collect();
+    assert_eq!(seen.numbers[3].effect, Some(CubicStiffness));
+    assert!(
+        seen.numbers
+            .iter()
+            .all(|one| one.range.contains(&one.value))
+    );
+    let as_fitted = live
+        .by_hand(&with, 3, &values)
+        .expect("it can be simulated");
+    assert_eq!(as_fitted.output, seen.output);
+    close(as_fitted.error, with.errors()[3], 1e-9);
+    values[2] *= 1.5;
+    values[3] *= 0.2;
+    let off = live
+        .by_hand(&with, 3, &values)
+        .expect("it can be simulated");
+    assert!(off.error > 2.0 * as_fitted.error, "{}", off.error);
+    let again = live
+        .fit_from(&with, 3, &values, &|_| (), &never())
+        .expect("it can be fitted");
+    close(again.error(), with.error(), 1e-6);
+}
+
+/// To first order: most of the residual goes, and what m, c, k can imitate is not counted twice.
+#[test]
+fn the_missing_effect_s_signature_looks_like_the_residual() {
+    let live = live();
+    let base = live
+        .fit(&[], None, &|_| (), &never())
+        .expect("it can be fitted");
+    let worst = (0..10).max_by(|&a, &b| base.errors()[a].total_cmp(&base.errors()[b]));
+    let member = worst.expect("there are some");
+    let seen = live.tightening(&base, member).expect("it can be fitted");
+    let measured = live.tasks()[member].measured();
+    let residual = || measured.iter().zip(&seen.output).map(|(m, s)| m - s);
+    let left = |effect| {
+        let signature = live.signature(&base, member, effect);
+        let signature = signature.expect("it can be scored").expect("it has a size");
+        assert_eq!(signature.len(), measured.len());
+        rms(residual().zip(signature).map(|(r, s)| r - s))
+    };
+    let before = rms(residual());
+    let (right, wrong) = (left(CubicStiffness), left(TorqueOffset));
+    assert!(right < wrong && right < before, "{right} {wrong} {before}");
+}
+
+#[test]
+fn the_hidden_effect_is_real_and_another_beside_it_is_not() {
+    let live = live();
+    let fit = |effects: &[Effect]| {
+        live.fit(effects, None, &|_| (), &never())
+            .expect("it can be fitted")
+    };
+    let watch = silent();
+    let test = |without: &[Effect], effect| {
+        let tested = live.held_out(&fit(without), effect, &watch);
+        tested.expect("it can be tested").expect("it can be run")
+    };
+    let real = test(&[], CubicStiffness);
+    assert!(real.is_supported && real.better.is_none(), "{real:?}");
+    assert!(real.share > 0.8 && real.p_family < 0.05 && real.family > 10);
+    let idle = test(&[CubicStiffness], TorqueOffset);
+    assert!(!idle.is_supported, "{idle:?}");
+}
+
+#[test]
+fn a_missing_spring_is_a_force_that_fades_once_it_is_in() {
+    let live = live();
+    let largest = |effects: &[Effect]| {
+        let fit = live
+            .fit(effects, None, &|_| (), &never())
+            .expect("it can be fitted");
+        let (curve, _) = live.missing_force(&fit).expect("each can be fitted");
+        assert!(!curve.at.is_empty());
+        curve.force_n.iter().fold(0.0_f64, |a, f| a.max(f.abs()))
+    };
+    assert!(largest(&[CubicStiffness]) < 0.6 * largest(&[]));
 }

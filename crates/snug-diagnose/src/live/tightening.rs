@@ -1,10 +1,12 @@
 //! One tightening under a fit: its own numbers, and what the model makes of it.
 
+use super::by_hand::{HandNumber, range};
 use super::cases::LiveCases;
 use super::fit::LiveFit;
 use crate::error::DiagnoseError;
+use crate::pooled::parameter_place::effect_of;
 use crate::pooled::sizes::held;
-use snug_campaign::ParameterEstimate;
+use snug_campaign::{Interval, ParameterEstimate};
 use snug_identify::identify;
 use snug_model::BASE_PARAMETERS;
 
@@ -16,6 +18,8 @@ pub struct LiveTightening {
     pub base: Vec<ParameterEstimate>,
     /// The compared output as simulated, in its SI unit, a value for each sample of the window.
     pub output: Vec<f64>,
+    /// Every number of its model, in the model's order, as it may be set by hand.
+    pub numbers: Vec<HandNumber>,
 }
 
 impl LiveCases {
@@ -46,10 +50,36 @@ impl LiveCases {
         let mut output = vec![0.0; case.measured().len()];
         model.output(&values, &case.input, case.quantity(), &mut output)?;
         let mut estimate = identify(&model, &case.input, &case.tightening, &case.settings)?;
+        let shared: Vec<(&str, Interval)> = (fit.sizes().iter().flat_map(|(_, sizes)| sizes))
+            .filter_map(|size| {
+                let (low, high) = (size.low?, size.high?);
+                Some((size.name.as_str(), Interval { low, high }))
+            })
+            .collect();
+        let known = |index: usize, name: &str| {
+            let of_all = shared.iter().find(|(known, _)| *known == name);
+            let own = estimate.parameters.get(index).and_then(|one| one.interval);
+            own.or(of_all.map(|(_, interval)| *interval))
+        };
+        let numbers = (model.parameters().iter().zip(&values).enumerate())
+            .map(|(index, (parameter, &value))| {
+                let interval = known(index, &parameter.name);
+                let bounds = [parameter.minimum, parameter.maximum];
+                HandNumber {
+                    name: parameter.name.clone(),
+                    unit: parameter.unit.clone(),
+                    value,
+                    interval,
+                    range: range(value, interval, bounds),
+                    effect: effect_of(&fitted.effects, index).map(|(effect, _)| effect),
+                }
+            })
+            .collect();
         estimate.parameters.truncate(BASE_PARAMETERS.len());
         Ok(LiveTightening {
             base: estimate.parameters,
             output,
+            numbers,
         })
     }
 }
