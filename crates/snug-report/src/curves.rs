@@ -3,6 +3,7 @@
 use crate::figure::{Axis, Bar, Figure, Mark, captioned, legend, linear_range};
 use maud::{Markup, html};
 use serde_json::{Value, json};
+use std::borrow::Cow;
 
 /// Digits that drawing and reading off need.
 pub const DIGITS: i32 = 6;
@@ -46,7 +47,7 @@ pub struct Panel<S> {
 /// One curve of a panel.
 pub struct Series<S> {
     /// Name in the legend.
-    pub label: &'static str,
+    pub label: Cow<'static, str>,
     /// Colour.
     pub class: &'static str,
     /// Where its values come from.
@@ -93,7 +94,7 @@ impl<S> Panel<S> {
         let mut entries: Vec<(&str, &str)> = self
             .series
             .iter()
-            .map(|series| (series.class, series.label))
+            .map(|series| (series.class, &*series.label))
             .collect();
         let mut marks = Vec::new();
         if let Some(noise) = noise {

@@ -21,7 +21,7 @@ pub struct Source {
 
 fn series(key: &'static str, label: &'static str, class: &'static str) -> Series<Source> {
     Series {
-        label,
+        label: label.into(),
         class,
         source: Source { key, minus: None },
     }

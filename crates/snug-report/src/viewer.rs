@@ -3,11 +3,12 @@
 use crate::curves::{self, DIGITS, Series, Values, embedded, steps, time_unit};
 use crate::decimation;
 use crate::number::drawn;
+use crate::section::location::force;
 use crate::signal_unit::motion_axis;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use serde_json::{Value, json};
 use snug_campaign::words::vocabulary::Vocabulary;
-use snug_campaign::{NORMAL_95, Quantity, SignalUnits};
+use snug_campaign::{ForceCurve, ForceMap, NORMAL_95, Quantity, SignalUnits};
 
 /// Style of every page.
 const STYLE: &str = concat!(
@@ -27,7 +28,38 @@ pub const SCRIPT: &str = concat!(
 /// Points of a line.
 const POINTS: usize = 1200;
 
-/// One output of one tightening, as measured and as two models have it; all in its SI unit, a value for each sample.
+/// What one model makes of an output, in its SI unit, a value for each sample.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Simulated<'a> {
+    /// Which model, as the legend says it.
+    pub label: &'a str,
+    /// The style of its line.
+    pub class: &'static str,
+    /// What it makes.
+    pub output: &'a [f64],
+}
+
+impl<'a> Simulated<'a> {
+    /// The model with which all began.
+    pub fn first(output: &'a [f64]) -> Self {
+        Self {
+            label: "model to begin with",
+            class: "c-rejected",
+            output,
+        }
+    }
+
+    /// The present model.
+    pub fn now(output: &'a [f64]) -> Self {
+        Self {
+            label: "now",
+            class: "c-simulated",
+            output,
+        }
+    }
+}
+
+/// One output of one tightening, as measured and as models have it; all in its SI unit, a value for each sample.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Compared<'a> {
     /// Which output.
@@ -40,10 +72,10 @@ pub struct Compared<'a> {
     pub interval_s: f64,
     /// As measured.
     pub measured: &'a [f64],
-    /// As the model has it with which all began; `None` where that is the present one.
-    pub base: Option<&'a [f64]>,
-    /// As the present model has it.
-    pub now: &'a [f64],
+    /// As models have it, the last drawn above the others.
+    pub models: Vec<Simulated<'a>>,
+    /// What is drawn beside what is left over: what a missing effect would leave.
+    pub signature: Option<Simulated<'a>>,
     /// Standard deviation of the measurement's noise in the output's SI unit; `None` where it is not known.
     pub noise: Option<f64>,
 }
@@ -94,20 +126,24 @@ impl Compared<'_> {
                     .collect::<Vec<_>>(),
             )
         };
-        let line = |label, class, source| Series {
-            label,
+        let line = |label: &str, class, source| Series {
+            label: label.to_owned().into(),
             class,
             source,
         };
-        let base = |of: &dyn Fn(&[f64]) -> Vec<f64>| {
-            let base = self.base.map(of);
-            base.map(|values| line("model to begin with", "c-rejected", values))
+        let drawn = |of: &dyn Fn(&[f64]) -> Vec<f64>| -> Vec<Series<Vec<f64>>> {
+            let models = self.models.iter();
+            models
+                .map(|model| line(model.label, model.class, of(model.output)))
+                .collect()
         };
         let mut motion = vec![line("measured", "c-measured", shown(self.measured))];
-        motion.extend(base(&shown));
-        motion.push(line("now", "c-simulated", shown(self.now)));
-        let mut rest: Vec<Series<Vec<f64>>> = base(&left).into_iter().collect();
-        rest.push(line("now", "c-simulated", left(self.now)));
+        motion.extend(drawn(&shown));
+        let mut rest = drawn(&left);
+        rest.extend(
+            (self.signature)
+                .map(|signature| line(signature.label, signature.class, shown(signature.output))),
+        );
         let name = crate::quantity::capitalised(self.quantity.name());
         vec![
             Panel {
@@ -145,6 +181,11 @@ pub fn document(title: &str, style: &str, body: &Markup) -> Markup {
     }
 }
 
+/// The missing force over time and over displacement and velocity, as the report draws it; nothing where there is none.
+pub fn missing_force(curve: &ForceCurve, map: &ForceMap) -> Markup {
+    force::drawings(curve, map)
+}
+
 /// Where the viewer draws, `panels` one below the other; `data` is what it begins with.
 pub fn viewer(data: &Value, panels: &[&str]) -> Markup {
     html! {
@@ -176,8 +217,11 @@ mod tests {
             vocabulary: Vocabulary::Hand,
             interval_s: 1e-3,
             measured: &[2.0, 4.0, 6.0],
-            base: Some(&[0.0, 4.0, 2.0]),
-            now: &[2.0, 2.0, 6.0],
+            models: vec![
+                Simulated::first(&[0.0, 4.0, 2.0]),
+                Simulated::now(&[2.0, 2.0, 6.0]),
+            ],
+            signature: None,
             noise: Some(0.1),
         };
         let told = compared.json();
@@ -192,13 +236,17 @@ mod tests {
         assert!((band - 0.5 * 0.1 * NORMAL_95).abs() < 1e-12);
         assert_eq!(told["panels"][1]["residual"], true);
         let alone = Compared {
-            base: None,
+            models: vec![Simulated::now(&[2.0, 2.0, 6.0])],
+            signature: Some(Simulated {
+                label: "friction",
+                class: "c-signature",
+                output: &[0.0, 2.0, 0.0],
+            }),
             ..compared
         }
         .json();
-        assert_eq!(
-            alone["panels"][1]["series"].as_array().map(Vec::len),
-            Some(1)
-        );
+        let lines = |panel: usize| alone["panels"][panel]["series"].as_array().map(Vec::len);
+        assert_eq!((lines(0), lines(1)), (Some(2), Some(2)));
+        assert_eq!(alone["example"]["signals"][1][1], json!([0.0, 1.0, 0.0]));
     }
 }

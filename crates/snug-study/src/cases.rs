@@ -22,7 +22,7 @@ pub fn cases(
     files: &[PathBuf],
     most: usize,
 ) -> Result<Vec<FitTask<'static>>, StudyError> {
-    Ok(chosen(study, &Host, files, most)?.0.cases)
+    Ok(chosen(study, &Host, files, most, &|| ())?.0.cases)
 }
 
 /// Samples that must be scored for a comparison to say anything.
@@ -31,12 +31,14 @@ const FEWEST_SCORED: usize = 100;
 /// Tightenings of one file that take part at least, if it has them: what drifts within a file shows between two.
 const EACH: usize = 2;
 
-/// The same, with what is to be said of those that take no part, and the files as far as there is room for them.
+/// The same, with what is to be said of those that take no part, and the files as far as there is room for them; `one_more` hears of
+/// every file that was read.
 pub(crate) fn chosen(
     study: &Study,
     disk: &dyn Disk,
     files: &[PathBuf],
     most: usize,
+    one_more: &(dyn Fn() + Sync),
 ) -> Result<(Comparable, KeptFiles), StudyError> {
     let kept = Mutex::new(KeptFiles::default());
     let is_fitted = |file: &&PathBuf| !study.validation.keeps(file);
@@ -57,6 +59,7 @@ pub(crate) fn chosen(
                 }
                 Err(error) => (Vec::new(), Some(error)),
             };
+            one_more();
             let part = Part::of(number, all, each, number / stride);
             Ok(Part { unread, ..part })
         });

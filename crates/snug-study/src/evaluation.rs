@@ -216,6 +216,22 @@ fn preparation_rejections(
     .rejections()
 }
 
+/// Whether a tightening that preparation found no fault with would be selected with this estimate.
+pub fn is_usable(
+    study: &Study,
+    task: &FitTask<'_>,
+    model: &Model,
+    estimate: &Estimate,
+) -> Result<bool, ModelError> {
+    let values: Vec<f64> = estimate.parameters.iter().map(|p| p.value).collect();
+    let tightening = &task.tightening;
+    let traces = traces(model, &task.input, tightening, &values)?;
+    let measures = measures(study, tightening, &traces, estimate, task.unscored());
+    let (preset, scale) = (study.preprocess.preset, model.scale());
+    let rejections = (study.selection).rejections(preset, scale, estimate, &measures);
+    Ok(rejections.is_empty())
+}
+
 /// Everything that follows from a tightening and its parameters.
 fn simulated(
     study: &Study,

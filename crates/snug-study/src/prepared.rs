@@ -3,13 +3,15 @@
 use crate::campaign_result::vocabulary;
 use crate::cases::{chosen, with_settled};
 use crate::diagnosis::effects;
+use crate::evaluation::is_usable;
 use crate::settling::{Settled, settle};
 use crate::{Study, StudyError};
 use snug_campaign::SignalUnits;
 use snug_campaign::words::vocabulary::Vocabulary;
-use snug_diagnose::{DiagnoseError, Goal, LiveCases, Question};
+use snug_diagnose::{DiagnoseError, Goal, LiveCases, LiveFit, Question};
 use snug_files::Host;
 use snug_model::Effect;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// A study's tightenings, ready for models to be tried on them.
 pub struct Prepared {
@@ -29,17 +31,37 @@ pub struct Prepared {
     pub remarks: Vec<String>,
 }
 
-/// Reads and prepares a study's tightenings as `diagnose` does; `listed` hears how many files there are before they are read. Nothing
-/// is written.
+/// How far reading has come.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct FilesRead {
+    /// Files that are read and prepared.
+    pub read: usize,
+    /// Files that the data hold.
+    pub files: usize,
+}
+
+/// Reads and prepares a study's tightenings as `diagnose` does; `tell` hears how many files there are before they are read, and of each
+/// that was. Nothing is written.
 ///
 /// # Errors
 /// As [`crate::run()`] for settings and data, and where no tightening can be compared with the model.
-pub fn prepare(study: &Study, listed: &dyn Fn(usize)) -> Result<Prepared, StudyError> {
+pub fn prepare(study: &Study, tell: &(dyn Fn(FilesRead) + Sync)) -> Result<Prepared, StudyError> {
     study.check()?;
     let listing = snug_ingest::list_on(&Host, &study.source, &study.source.path)?;
     let files = study.validation.last(listing.files)?;
-    listed(files.len());
-    let (comparable, _) = chosen(study, &Host, &files, study.diagnosis.most_tightenings)?;
+    let (count, read) = (files.len(), AtomicUsize::new(0));
+    tell(FilesRead {
+        read: 0,
+        files: count,
+    });
+    let one_more = || {
+        tell(FilesRead {
+            read: read.fetch_add(1, Ordering::Relaxed) + 1,
+            files: count,
+        })
+    };
+    let most = study.diagnosis.most_tightenings;
+    let (comparable, _) = chosen(study, &Host, &files, most, &one_more)?;
     if comparable.cases.is_empty() {
         return Err(DiagnoseError::NothingToCompare {
             tightenings: 0,
@@ -85,5 +107,18 @@ impl Prepared {
     /// [`StudyError::Model`] names the one that is not known.
     pub fn named(&self, names: &[String]) -> Result<Vec<Effect>, StudyError> {
         effects(&self.study, names, self.live.tasks())
+    }
+
+    /// How many of the tightenings would be selected under `fit`, as the study selects them.
+    ///
+    /// # Errors
+    /// [`StudyError::Diagnose`] for what the fit of a tightening refuses, [`StudyError::Model`] for what its simulation does.
+    pub fn usable(&self, fit: &LiveFit) -> Result<usize, StudyError> {
+        let estimates = self.live.estimates(fit)?;
+        let mut usable = 0;
+        for (task, (model, estimate)) in self.live.tasks().iter().zip(&estimates) {
+            usable += usize::from(is_usable(&self.study, task, model, estimate)?);
+        }
+        Ok(usable)
     }
 }

@@ -1,27 +1,29 @@
 //! The workbench behind the pages: what was read, what was fitted, and who works on it.
 
+mod after;
+
 use crate::campaign::Campaign;
 use crate::changes::{Changes, EffectSet};
 use crate::error::WorkbenchError;
 use crate::fits::Fits;
+use crate::focus::Closer;
+use crate::look::Looks;
+use crate::results::Results;
 use crate::session::{Session, Ticket};
 use crate::told;
-use serde_json::{Value, json};
+use after::Tests;
+use serde_json::Value;
 use snug_diagnose::{DiagnoseError, LiveFit};
-use snug_model::Effect;
-use snug_study::Study;
+use snug_study::{FilesRead, Study};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::Ordering;
+use std::sync::atomic::AtomicBool;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
 use tokio::sync::{broadcast, watch};
 
 /// Pages that are known at a time; of more, one that nobody looks at is forgotten. Chosen.
 const MOST_SESSIONS: usize = 64;
-
-/// Candidates that are scored together: between two such batches a newer click is heard. Chosen.
-const SCORED_TOGETHER: usize = 8;
 
 /// How far reading has come.
 #[derive(Clone)]
@@ -39,6 +41,10 @@ pub struct Bench {
     study_file: Option<PathBuf>,
     reading: watch::Sender<Reading>,
     fits: Mutex<Fits>,
+    tests: Mutex<Tests>,
+    /// Single tightenings under fits, and results as files.
+    pub(crate) looks: Mutex<Looks>,
+    pub(crate) results: Mutex<Results>,
     sessions: Mutex<BTreeMap<String, Session>>,
     /// What was saved, and where.
     pub(crate) saved: Mutex<Option<(PathBuf, String)>>,
@@ -59,6 +65,9 @@ impl Bench {
             study_file,
             reading,
             fits: Mutex::default(),
+            tests: Mutex::default(),
+            looks: Mutex::default(),
+            results: Mutex::default(),
             sessions: Mutex::default(),
             saved: Mutex::default(),
         })
@@ -66,11 +75,14 @@ impl Bench {
 
     /// Reads and prepares the tightenings, and fits the model to begin with. Pages are told how far it is.
     pub fn read(&self) {
-        let listed = |files: usize| {
-            let told = format!("Reading and preparing tightenings from {files} files.");
+        let tell = |FilesRead { read, files }| {
+            let told = match read == files {
+                false => format!("Reading and preparing: {read} of {files} files."),
+                true => format!("{files} files are read. Fitting the model to begin with."),
+            };
             self.reading.send_replace(Reading::UnderWay(told));
         };
-        match Campaign::read(&self.study, &listed) {
+        match Campaign::read(&self.study, &tell) {
             Ok(campaign) => {
                 let (set, fit) = (campaign.base_set(), Arc::clone(&campaign.base));
                 locked(&self.fits).keep(set, fit);
@@ -111,15 +123,27 @@ impl Bench {
         locked(&self.fits).get(effects)
     }
 
-    /// A page listens: it begins with `effects`, or goes to them where its session knows another model, and hears of everything from
-    /// there on.
+    /// The fit of `effects`, made now where nobody made it before.
+    pub(crate) fn fitted_now(
+        &self,
+        campaign: &Campaign,
+        effects: &EffectSet,
+        end: &AtomicBool,
+    ) -> Result<Arc<LiveFit>, WorkbenchError> {
+        self.fit(campaign, effects, &|_| (), end)
+    }
+
+    /// A page listens: it begins with `effects` and a closer look, or goes to them where its session knows others, and hears of
+    /// everything from there on.
     pub(crate) fn attend(
         self: &Arc<Self>,
         session: &str,
         effects: EffectSet,
+        closer: Closer,
     ) -> Result<broadcast::Receiver<Arc<Value>>, WorkbenchError> {
         let campaign = self.campaign()?;
         campaign.prepared.named(effects.names())?;
+        closer.focus(&campaign)?;
         let listener = {
             let mut sessions = locked(&self.sessions);
             forget_some(&mut sessions);
@@ -130,21 +154,22 @@ impl Bench {
             };
             let known = sessions.entry(session.to_owned()).or_insert_with(begun);
             known.changes.choose(effects);
+            known.closer = closer;
             known.listen()
         };
         self.work_on(session, &campaign);
         Ok(listener)
     }
 
-    /// Changes the model of a session, of which a page may not know that it is gone, and fits it.
+    /// Changes what a session shows, of which a page may not know that it is gone, and fits it.
     pub(crate) fn change(
         self: &Arc<Self>,
         session: &str,
-        change: impl FnOnce(&mut Changes),
+        change: impl FnOnce(&mut Session),
     ) -> Result<(), WorkbenchError> {
         let campaign = self.campaign()?;
         if let Some(known) = locked(&self.sessions).get_mut(session) {
-            change(&mut known.changes);
+            change(known);
         }
         self.work_on(session, &campaign);
         Ok(())
@@ -152,28 +177,85 @@ impl Bench {
 
     /// Fits a session's present model, unless it was fitted before; what is under way for this session is ended.
     fn work_on(self: &Arc<Self>, session: &str, campaign: &Arc<Campaign>) {
-        let (ticket, effects) = {
-            let mut sessions = locked(&self.sessions);
-            let Some(known) = sessions.get_mut(session) else {
-                return;
-            };
-            let ticket = known.begin();
-            let effects = known.changes.present().clone();
-            known.tell(told::fitting(campaign, ticket.number, &effects));
-            (ticket, effects)
+        let Some((ticket, effects)) = self.begin(session, campaign) else {
+            return;
         };
         let (bench, campaign) = (Arc::clone(self), Arc::clone(campaign));
         let session = session.to_owned();
         // Wherever it is asked for: a fit takes a processor for itself.
-        std::thread::spawn(move || bench.work(&session, &campaign, &ticket, &effects));
+        std::thread::spawn(move || {
+            let begun = bench.fitted(&effects).is_none().then(Instant::now);
+            let tell = |step| {
+                bench.with_last(&session, &ticket, |known| {
+                    known.tell(told::step(&campaign, ticket.number, step))
+                });
+            };
+            let fit = bench.fit(&campaign, &effects, &tell, &ticket.end);
+            bench.went(&session, &campaign, &ticket, &effects, fit, begun);
+        });
     }
 
-    fn work(&self, session: &str, campaign: &Campaign, ticket: &Ticket, effects: &EffectSet) {
-        let begun = match self.fitted(effects) {
-            Some(_) => None,
-            None => Some(Instant::now()),
+    /// Fits a session's present model anew, from where it ended but for one tightening, which begins with `values`, as what all share
+    /// does. Where that ends lower, it is the fit from then on.
+    pub(crate) fn fit_from(
+        self: &Arc<Self>,
+        session: &str,
+        member: usize,
+        values: Vec<f64>,
+    ) -> Result<(), WorkbenchError> {
+        let campaign = self.campaign()?;
+        let present = self.present(session).ok_or(WorkbenchError::NotFitted)?;
+        let Some((ticket, effects)) = self.begin(session, &campaign) else {
+            return Ok(());
         };
-        let fit = match self.fit(session, campaign, ticket, effects) {
+        let (bench, session) = (Arc::clone(self), session.to_owned());
+        std::thread::spawn(move || {
+            let begun = Some(Instant::now());
+            let tell = |step| {
+                bench.with_last(&session, &ticket, |known| {
+                    known.tell(told::step(&campaign, ticket.number, step))
+                });
+            };
+            let live = &campaign.prepared.live;
+            let fit = live
+                .fit_from(&present, member, &values, &tell, &ticket.end)
+                .map(Arc::new)
+                .map_err(WorkbenchError::from);
+            let fit = fit.map(|fit| {
+                let is_lower = locked(&bench.fits).improve(&effects, &fit);
+                if is_lower {
+                    locked(&bench.looks).forget();
+                }
+                let sentence = told::from_here(&campaign, &present, &fit, is_lower);
+                bench.with_last(&session, &ticket, |known| known.tell(sentence));
+                if is_lower { fit } else { present }
+            });
+            bench.went(&session, &campaign, &ticket, &effects, fit, begun);
+        });
+        Ok(())
+    }
+
+    /// Ends what is under way for a session and says that something is; what is to be fitted.
+    fn begin(&self, session: &str, campaign: &Campaign) -> Option<(Ticket, EffectSet)> {
+        let mut sessions = locked(&self.sessions);
+        let known = sessions.get_mut(session)?;
+        let ticket = known.begin();
+        let effects = known.changes.present().clone();
+        known.tell(told::fitting(campaign, ticket.number, &effects));
+        Some((ticket, effects))
+    }
+
+    /// Tells what a fit came to, and what follows from it.
+    fn went(
+        &self,
+        session: &str,
+        campaign: &Campaign,
+        ticket: &Ticket,
+        effects: &EffectSet,
+        fit: Result<Arc<LiveFit>, WorkbenchError>,
+        begun: Option<Instant>,
+    ) {
+        let fit = match fit {
             Ok(fit) => fit,
             Err(WorkbenchError::Diagnose(DiagnoseError::Interrupted)) => return,
             Err(error) => {
@@ -189,47 +271,35 @@ impl Bench {
             }
         };
         self.tell_fitted(session, campaign, ticket, &fit, begun);
-        for candidates in campaign.switches.chunks(SCORED_TOGETHER) {
-            if ticket.end.load(Ordering::Relaxed) {
-                return;
-            }
-            self.tell_promises(session, campaign, ticket, &fit, candidates);
-        }
-        self.with_last(session, ticket, |known| {
-            known.tell(json!({ "kind": "ranked" }))
-        });
+        self.look_further(session, campaign, ticket, effects, &fit);
     }
 
     fn fit(
         &self,
-        session: &str,
         campaign: &Campaign,
-        ticket: &Ticket,
         effects: &EffectSet,
+        tell: &(dyn Fn(snug_diagnose::FitStep) + Sync),
+        end: &AtomicBool,
     ) -> Result<Arc<LiveFit>, WorkbenchError> {
         if let Some(fit) = self.fitted(effects) {
             return Ok(fit);
         }
         let named = campaign.prepared.named(effects.names())?;
         let from = locked(&self.fits).nearest(effects);
-        let tell = |step| {
-            self.with_last(session, ticket, |known| {
-                known.tell(told::step(campaign, ticket.number, step))
-            });
-        };
         let live = &campaign.prepared.live;
-        let fit = Arc::new(live.fit(&named, from.as_deref(), &tell, &ticket.end)?);
+        let fit = Arc::new(live.fit(&named, from.as_deref(), tell, end)?);
         locked(&self.fits).keep(effects.clone(), Arc::clone(&fit));
         Ok(fit)
     }
 
+    /// The model of a session.
+    pub(crate) fn present_set(&self, session: &str) -> Option<EffectSet> {
+        let sessions = locked(&self.sessions);
+        Some(sessions.get(session)?.changes.present().clone())
+    }
+
     fn present(&self, session: &str) -> Option<Arc<LiveFit>> {
-        let present = locked(&self.sessions)
-            .get(session)?
-            .changes
-            .present()
-            .clone();
-        self.fitted(&present)
+        self.fitted(&self.present_set(session)?)
     }
 
     fn tell_fitted(
@@ -245,28 +315,6 @@ impl Bench {
             let error = |effects: &EffectSet| self.fitted(effects).map(|fit| fit.error());
             known.tell(told::fitted(campaign, &known.changes, fit, &error, seconds));
         });
-    }
-
-    fn tell_promises(
-        &self,
-        session: &str,
-        campaign: &Campaign,
-        ticket: &Ticket,
-        fit: &LiveFit,
-        candidates: &[Effect],
-    ) {
-        let absent = |effect: &&Effect| !fit.effects().contains(effect);
-        let absent: Vec<Effect> = candidates.iter().filter(absent).copied().collect();
-        match campaign
-            .prepared
-            .live
-            .promises(fit, &campaign.base, &absent)
-        {
-            Ok(shares) => self.with_last(session, ticket, |known| {
-                known.tell(told::promises(&absent, &shares));
-            }),
-            Err(error) => tracing::warn!(%error, "candidates could not be scored"),
-        }
     }
 
     /// Does something with a session, unless something else was asked of it since.

@@ -2,13 +2,14 @@
 
 use crate::changes::EffectSet;
 use crate::error::WorkbenchError;
+use crate::focus::{Group, groups};
 use snug_campaign::words::effect_name::effect_name;
 use snug_campaign::words::number::significant;
 use snug_campaign::words::vocabulary::Vocabulary;
-use snug_diagnose::{LiveFit, LiveTightening};
+use snug_diagnose::LiveFit;
 use snug_model::{Description, Effect, Law};
-use snug_report::viewer::Compared;
-use snug_study::{Prepared, Study, prepare};
+use snug_report::viewer::{Compared, Simulated};
+use snug_study::{FilesRead, Prepared, Study, prepare};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
@@ -24,6 +25,8 @@ pub(crate) struct Campaign {
     pub switches: Vec<Effect>,
     /// Tightenings, those first that the model to begin with fits worst.
     pub worst_first: Vec<usize>,
+    /// Tightenings that have a condition in common, to be looked at alone.
+    pub groups: Vec<Group>,
     /// The title of the study, or the data's name.
     pub title: String,
     /// What an error counts in: multiples of the noise, or the shown output's unit.
@@ -33,9 +36,9 @@ pub(crate) struct Campaign {
 }
 
 impl Campaign {
-    /// Reads, prepares and fits; `listed` hears how many files there are.
-    pub fn read(study: &Study, listed: &dyn Fn(usize)) -> Result<Self, WorkbenchError> {
-        let prepared = prepare(study, listed)?;
+    /// Reads, prepares and fits; `tell` hears of every file that is read.
+    pub fn read(study: &Study, tell: &(dyn Fn(FilesRead) + Sync)) -> Result<Self, WorkbenchError> {
+        let prepared = prepare(study, tell)?;
         let live = &prepared.live;
         let never = AtomicBool::new(false);
         let base = live.fit(&prepared.effects, None, &|_| (), &never)?;
@@ -59,6 +62,7 @@ impl Campaign {
             base: Arc::new(base),
             switches,
             worst_first,
+            groups: groups(live.tasks()),
             title: study.title(),
             prepared,
         })
@@ -101,12 +105,12 @@ impl Campaign {
         }
     }
 
-    /// One tightening as measured and as two models have it, for the viewer.
+    /// One tightening as measured and as models have it, for the viewer; `signature` is drawn beside what is left over.
     pub fn compared<'a>(
         &'a self,
         member: usize,
-        base: Option<&'a LiveTightening>,
-        now: &'a LiveTightening,
+        models: Vec<Simulated<'a>>,
+        signature: Option<Simulated<'a>>,
     ) -> Compared<'a> {
         let case = &self.prepared.live.tasks()[member];
         let noise = case.tightening.noise.as_ref();
@@ -116,8 +120,8 @@ impl Campaign {
             vocabulary: self.prepared.vocabulary,
             interval_s: case.tightening.time_base.interval_s,
             measured: case.measured(),
-            base: base.map(|base| base.output.as_slice()),
-            now: &now.output,
+            models,
+            signature,
             noise: noise
                 .filter(|noise| noise.quantity == case.quantity())
                 .map(|noise| noise.standard_deviation),

@@ -38,6 +38,16 @@ impl EffectSet {
         self.beyond(other).count() + other.beyond(self).count()
     }
 
+    /// All but this one.
+    pub fn without(&self, name: &str) -> Self {
+        Self::of(
+            self.0
+                .iter()
+                .map(String::as_str)
+                .filter(|known| *known != name),
+        )
+    }
+
     /// What it has and the other has not.
     pub fn beyond<'a>(&'a self, other: &'a Self) -> impl Iterator<Item = &'a str> {
         let own = self.0.iter().map(String::as_str);

@@ -43,6 +43,43 @@ pub enum WorkbenchError {
     /// Nobody has fitted this set of effects, or too much was fitted since.
     #[error("this model is not fitted yet; switch its effects on once more")]
     NotFitted,
+    /// A condition that no tightening has.
+    #[error("there is no group {key:?}; there are {}", keys.join(", "))]
+    NoGroup {
+        /// Which was asked for.
+        key: String,
+        /// Which there are.
+        keys: Vec<String>,
+    },
+    /// A stretch of time that is none.
+    #[error(
+        "from_s = {from_s:?} and to_s = {to_s:?} are no stretch of time: both are needed, in seconds, the first below the second"
+    )]
+    NoStretch {
+        /// Where it was to begin \[s\].
+        from_s: Option<f64>,
+        /// Where it was to end \[s\].
+        to_s: Option<f64>,
+    },
+    /// Numbers set by hand that are not those of the model.
+    #[error(
+        "values = {given:?} are not the {count} numbers of this model, each finite, with commas between them"
+    )]
+    NoNumbers {
+        /// What was given.
+        given: String,
+        /// How many there are.
+        count: usize,
+    },
+    /// Results that were not made, or are kept no longer.
+    #[error("there is no such file here; ask for the report once more")]
+    NoResults,
+    /// A folder for results.
+    #[error("results cannot be kept: {source}")]
+    Results {
+        /// Why.
+        source: std::io::Error,
+    },
     /// A number for which there is no tightening.
     #[error("there is no tightening {number}; there are 1 to {count}")]
     NoTightening {

@@ -69,7 +69,8 @@ fn present(campaign: &Campaign) -> Markup {
             p.error { output data-error="" { "…" } " " span.unit { (campaign.error_unit) } }
             p.steps data-steps="" aria-hidden="true" {}
             p.says data-says="" aria-live="polite" {}
-            p.tested data-tested="" {}
+            p.tested data-tested="" aria-live="polite" {}
+            p.note data-evidence="" {}
             h3 { "Models so far" }
             ol.ladder data-ladder="" {}
         }
@@ -104,6 +105,8 @@ fn switch(campaign: &Campaign, effect: Effect) -> Markup {
                 span.track { span.fill data-fill="" {} }
                 p { (raised(description.summary)) }
                 p.found data-sizes="" {}
+                p.real data-real="" {}
+                button.quiet type="button" aria-pressed="false" data-signature="" { "show what it would leave" }
                 details {
                     summary { "check at the bench" }
                     p { (raised(description.check)) }
@@ -132,18 +135,49 @@ fn centre(campaign: &Campaign) -> Markup {
                 label { span.hidden { "tightening, worst first" }
                     select data-tightening="" {
                         @for &member in &campaign.worst_first {
-                            option value=(member + 1) { (tasks[member].tightening.id) }
+                            option value=(member + 1) data-groups=(groups_of(campaign, member)) { (tasks[member].tightening.id) }
                         }
                     }
                 }
                 button type="button" data-worse="1" aria-label="next tightening" { "›" }
             }
+            (closer(campaign))
             p.current data-heading="" aria-live="polite" { "…" }
             (viewer(&nothing, &["Model and measurement", "What is left over: measured − simulated"]))
+            section.force aria-labelledby="force-title" {
+                h3 id="force-title" { "The missing force" }
+                div data-force="" aria-live="off" {}
+            }
             p.help { "Point at a curve to read values; drag across to zoom, double-click to see all again. Keys in a figure: ← → move the \
                 cursor, + − zoom, Esc shows all." }
         }
     }
+}
+
+/// Which tightenings, and which stretch of time, count for the promises.
+fn closer(campaign: &Campaign) -> Markup {
+    html! {
+        div.closer {
+            label { "look at "
+                select data-group="" {
+                    option value="" { "all tightenings" }
+                    @for group in &campaign.groups { option value=(group.key) { (group.name) } }
+                }
+            }
+            button.quiet type="button" data-brush="" disabled { "rank by the stretch shown" }
+            button.quiet type="button" data-everything="" hidden { "back to everything" }
+        }
+        p.note data-closer="" aria-live="polite" {}
+    }
+}
+
+/// The keys of the groups that a tightening is in, with bars around each.
+fn groups_of(campaign: &Campaign, member: usize) -> String {
+    let own = campaign
+        .groups
+        .iter()
+        .filter(|group| group.members.contains(&member));
+    own.fold("|".to_owned(), |keys, group| keys + &group.key + "|")
 }
 
 /// What the last click changed.
@@ -152,13 +186,28 @@ fn changed() -> Markup {
         section.changed aria-labelledby="changed-title" {
             h2 id="changed-title" { "What the last click changed" }
             p.change data-change="" { "Nothing yet." }
+            p.note data-usable="" {}
             dl.sizes data-found="" {}
+            div.rival data-rival="" hidden {
+                h3 { "Against the rival" }
+                p data-rival-name="" {}
+                p data-rival-says="" {}
+                ul data-rival-sizes="" {}
+            }
             h3 { "This tightening" }
-            div.scroll { table {
-                thead { tr { th scope="col" { "" } th scope="col" { "before" } th scope="col" { "now" } } }
+            div.scroll tabindex="0" role="region" aria-label="mass, damping and stiffness of this tightening" { table {
+                thead { tr { th scope="col" { "" } th scope="col" { "before" } th scope="col" { "now" } th scope="col" data-rival-column="" hidden { "rival" } } }
                 tbody data-facts="" {}
             } }
             p.note { "With 95 % intervals." }
+            h3 { "By hand" }
+            p.note { "Drag a number of the present model and see this tightening follow. The mark is the fitted value, the bar its 95 % interval." }
+            div.sliders data-sliders="" {}
+            p.by-hand data-by-hand="" aria-live="polite" {}
+            p.buttons {
+                button.quiet type="button" data-from-here="" disabled { "fit from here" }
+                button.quiet type="button" data-as-fitted="" disabled { "back to the fit" }
+            }
         }
     }
 }
@@ -169,8 +218,11 @@ fn bar() -> Markup {
         footer.bar {
             button type="button" data-undo="" disabled { "Undo" }
             button type="button" data-redo="" disabled { "Redo" }
+            button type="button" data-pin="" aria-pressed="false" { "Pin as rival" }
             button type="button" data-save="" { "Save as study" }
+            button type="button" data-results="" { "Report and recording" }
             p.saved data-saved="" aria-live="polite" {}
+            p.saved data-links="" aria-live="polite" {}
         }
     }
 }

@@ -1,11 +1,14 @@
 //! What the server answers to.
 
 use crate::bench::{Bench, Reading};
-use crate::changes::{Changes, EffectSet};
+use crate::changes::EffectSet;
 use crate::error::WorkbenchError;
-use crate::{page, save, told};
-use axum::extract::{Json, Query, State};
-use axum::http::StatusCode;
+use crate::focus::Closer;
+use crate::look::Look;
+use crate::session::Session;
+use crate::{page, results, save};
+use axum::extract::{Json, Path, Query, State};
+use axum::http::{StatusCode, header};
 use axum::response::sse::{Event, KeepAlive, Sse};
 use axum::response::{Html, IntoResponse, Response};
 use axum::routing::{get, post};
@@ -14,6 +17,7 @@ use serde::Deserialize;
 use serde_json::{Value, json};
 use std::convert::Infallible;
 use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 use tokio_stream::StreamExt;
 use tokio_stream::wrappers::{BroadcastStream, WatchStream};
 
@@ -27,7 +31,10 @@ pub(crate) fn router(bench: Arc<Bench>, guard: Guard) -> Router {
         .route("/api/events", get(events))
         .route("/api/change", post(change))
         .route("/api/tightening", get(tightening))
+        .route("/api/force", get(missing_force))
         .route("/api/save", post(save_study))
+        .route("/api/results", post(make_results))
+        .route("/results/{number}/{name}", get(result_file))
         .with_state(bench)
         .layer(middleware::from_fn_with_state(guard, guarded))
 }
@@ -36,7 +43,10 @@ impl IntoResponse for WorkbenchError {
     fn into_response(self) -> Response {
         let status = match &self {
             Self::StillReading => StatusCode::SERVICE_UNAVAILABLE,
-            Self::NotFitted | Self::NoTightening { .. } => StatusCode::NOT_FOUND,
+            Self::NotFitted | Self::NoTightening { .. } | Self::NoResults => StatusCode::NOT_FOUND,
+            Self::NoGroup { .. } | Self::NoStretch { .. } | Self::NoNumbers { .. } => {
+                StatusCode::BAD_REQUEST
+            }
             Self::Study(error) if error.is_bad_argument() => StatusCode::BAD_REQUEST,
             _ => StatusCode::INTERNAL_SERVER_ERROR,
         };
@@ -74,12 +84,16 @@ async fn reading(State(bench): State<Arc<Bench>>) -> impl IntoResponse {
     Sse::new(told).keep_alive(KeepAlive::default())
 }
 
-/// Which page, and which model it shows.
+/// Which page, and what it shows.
 #[derive(Deserialize)]
 struct Attendance {
     session: String,
     #[serde(default)]
     effects: String,
+    #[serde(default)]
+    group: String,
+    from_s: Option<f64>,
+    to_s: Option<f64>,
 }
 
 async fn events(
@@ -87,7 +101,12 @@ async fn events(
     Query(page): Query<Attendance>,
 ) -> Result<Response, WorkbenchError> {
     let effects = EffectSet::from_address(&page.effects);
-    let listener = bench.attend(&page.session, effects)?;
+    let closer = Closer {
+        group: page.group,
+        from_s: page.from_s,
+        to_s: page.to_s,
+    };
+    let listener = bench.attend(&page.session, effects, closer)?;
     // Whoever lagged behind is cut off, comes again, and is told the whole state.
     let told = BroadcastStream::new(listener)
         .take_while(Result::is_ok)
@@ -101,9 +120,18 @@ async fn events(
 #[derive(Deserialize)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 enum Wish {
-    Choose { effects: String },
+    Choose {
+        effects: String,
+    },
     Undo,
     Redo,
+    /// A closer look, or one at everything again.
+    Closer(Closer),
+    /// A fit of the present model from numbers that were set by hand.
+    FitFrom {
+        number: usize,
+        values: String,
+    },
 }
 
 #[derive(Deserialize)]
@@ -117,75 +145,110 @@ async fn change(
     State(bench): State<Arc<Bench>>,
     Json(wished): Json<Wished>,
 ) -> Result<StatusCode, WorkbenchError> {
-    let wish: Box<dyn FnOnce(&mut Changes) + Send> = match wished.wish {
-        Wish::Undo => Box::new(Changes::undo),
-        Wish::Redo => Box::new(Changes::redo),
+    let wish: Box<dyn FnOnce(&mut Session) + Send> = match wished.wish {
+        Wish::Undo => Box::new(|known| known.changes.undo()),
+        Wish::Redo => Box::new(|known| known.changes.redo()),
         Wish::Choose { effects } => {
             let effects = EffectSet::from_address(&effects);
             bench.campaign()?.prepared.named(effects.names())?;
-            Box::new(move |changes| changes.choose(effects))
+            Box::new(move |known| known.changes.choose(effects))
+        }
+        Wish::Closer(closer) => {
+            closer.focus(&*bench.campaign()?)?;
+            Box::new(move |known| known.closer = closer)
+        }
+        Wish::FitFrom { number, values } => {
+            fit_from(bench, wished.session, number, values).await?;
+            return Ok(StatusCode::ACCEPTED);
         }
     };
     bench.change(&wished.session, wish)?;
     Ok(StatusCode::ACCEPTED)
 }
 
-/// Which tightening, under which models.
-#[derive(Deserialize)]
-struct Wanted {
+async fn fit_from(
+    bench: Arc<Bench>,
+    session: String,
     number: usize,
-    #[serde(default)]
-    effects: String,
-    /// The model before; the one to begin with where it is not said.
-    before: Option<String>,
+    values: String,
+) -> Result<(), WorkbenchError> {
+    aside(move || {
+        let member = bench.campaign()?.member(number)?;
+        let effects = bench
+            .present_set(&session)
+            .ok_or(WorkbenchError::NotFitted)?;
+        let values = bench.set_by_hand(&effects, member, &values)?;
+        bench.fit_from(&session, member, values)
+    })
+    .await
+}
+
+/// Does what takes a while where it keeps nobody waiting.
+async fn aside<T: Send + 'static>(
+    work: impl FnOnce() -> Result<T, WorkbenchError> + Send + 'static,
+) -> Result<T, WorkbenchError> {
+    (tokio::task::spawn_blocking(work).await).unwrap_or(Err(WorkbenchError::NotFitted))
 }
 
 async fn tightening(
     State(bench): State<Arc<Bench>>,
-    Query(wanted): Query<Wanted>,
+    Query(look): Query<Look>,
 ) -> Result<Json<Value>, WorkbenchError> {
-    let work = move || {
-        let campaign = bench.campaign()?;
-        let member = campaign.member(wanted.number)?;
-        let fit = |effects: &EffectSet| bench.fitted(effects).ok_or(WorkbenchError::NotFitted);
-        let base_set = campaign.base_set();
-        let now_set = EffectSet::from_address(&wanted.effects);
-        let before_set = wanted.before.as_deref().map(EffectSet::from_address);
-        let before_set = before_set.unwrap_or_else(|| base_set.clone());
-        let live = &campaign.prepared.live;
-        let (before, now) = (fit(&before_set)?, fit(&now_set)?);
-        let seen_before = live.tightening(&before, member)?;
-        let seen_now = live.tightening(&now, member)?;
-        let seen_base = match (before_set == base_set, now_set == base_set) {
-            (_, true) => None,
-            (true, false) => Some(seen_before.clone()),
-            (false, false) => Some(live.tightening(&campaign.base, member)?),
-        };
-        let mut answer = campaign
-            .compared(member, seen_base.as_ref(), &seen_now)
-            .json();
-        answer["told"] = told::tightening(
-            &campaign,
-            member,
-            [(&before, &seen_before), (&now, &seen_now)],
-        );
-        Ok(Json(answer))
-    };
-    tokio::task::spawn_blocking(work)
-        .await
-        .unwrap_or(Err(WorkbenchError::NotFitted))
+    aside(move || bench.look(&look).map(Json)).await
 }
 
-/// Which model is saved.
+/// Which model.
 #[derive(Deserialize)]
-struct Kept {
+struct Which {
     #[serde(default)]
     effects: String,
 }
 
+async fn missing_force(
+    State(bench): State<Arc<Bench>>,
+    Query(which): Query<Which>,
+) -> Result<Html<String>, WorkbenchError> {
+    aside(move || {
+        let campaign = bench.campaign()?;
+        let effects = EffectSet::from_address(&which.effects);
+        let fit = bench.fitted_now(&campaign, &effects, &AtomicBool::new(false))?;
+        let (curve, map) = campaign.prepared.live.missing_force(&fit)?;
+        let drawn = snug_report::viewer::missing_force(&curve, &map).into_string();
+        Ok(Html(snug_report::markup(
+            &drawn,
+            campaign.prepared.vocabulary,
+        )))
+    })
+    .await
+}
+
+async fn make_results(
+    State(bench): State<Arc<Bench>>,
+    Json(which): Json<Which>,
+) -> Result<Json<Value>, WorkbenchError> {
+    let effects = EffectSet::from_address(&which.effects);
+    let number = aside(move || bench.make_results(&effects)).await?;
+    let links: Vec<String> = (results::FILES.iter())
+        .map(|(name, _)| format!("/results/{number}/{name}"))
+        .collect();
+    Ok(Json(json!({ "links": links })))
+}
+
+async fn result_file(
+    State(bench): State<Arc<Bench>>,
+    Path((number, name)): Path<(usize, String)>,
+) -> Result<Response, WorkbenchError> {
+    aside(move || {
+        let (path, kind) = bench.result_file(number, &name)?;
+        let bytes = std::fs::read(path).map_err(|source| WorkbenchError::Results { source })?;
+        Ok(([(header::CONTENT_TYPE, kind)], bytes).into_response())
+    })
+    .await
+}
+
 async fn save_study(
     State(bench): State<Arc<Bench>>,
-    Json(kept): Json<Kept>,
+    Json(kept): Json<Which>,
 ) -> Result<Json<Value>, WorkbenchError> {
     let effects = EffectSet::from_address(&kept.effects);
     let campaign = bench.campaign()?;

@@ -1,6 +1,7 @@
 //! One page that somebody works on: its models one after the other, the fit under way, and who listens.
 
 use crate::changes::Changes;
+use crate::focus::Closer;
 use serde_json::Value;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -9,6 +10,8 @@ use tokio::sync::broadcast;
 /// One page that somebody works on.
 pub(crate) struct Session {
     pub changes: Changes,
+    /// What the page looks at more closely.
+    pub closer: Closer,
     /// Number of the fit that was asked for last.
     number: usize,
     /// Ends the fit under way.
@@ -30,6 +33,7 @@ impl Session {
     pub fn new(changes: Changes) -> Self {
         Self {
             changes,
+            closer: Closer::default(),
             number: 0,
             end: Arc::default(),
             events: broadcast::Sender::new(ROOM),

@@ -1,14 +1,20 @@
 //! What pages are told, as JSON: every number as text, with its unit and interval.
 
+mod tested;
+mod tightening;
+
 use crate::campaign::Campaign;
 use crate::changes::{Changes, EffectSet};
 use crate::error::WorkbenchError;
+use crate::focus::Closer;
 use serde_json::{Value, json};
-use snug_campaign::words::effect_name::{effect_name, unit_text};
-use snug_campaign::words::number::{percent, rounded, significant};
-use snug_campaign::{EffectParameter, Interval, ParameterEstimate};
-use snug_diagnose::{FitStep, LiveFit, LiveTightening};
+use snug_campaign::EffectParameter;
+use snug_campaign::words::number::{percent, significant};
+use snug_diagnose::{FitStep, LiveFit};
 use snug_model::Effect;
+
+pub(crate) use tested::{tested, testing};
+pub(crate) use tightening::tightening;
 
 /// That a fit is under way.
 pub(crate) fn fitting(campaign: &Campaign, number: usize, effects: &EffectSet) -> Value {
@@ -72,7 +78,7 @@ pub(crate) fn fitted(
         "shown": campaign.shown(fit.error()),
         "error_before": before.and_then(error_of).map(|error| campaign.shown(error)),
         "says": says(fit),
-        "tested": tested(campaign, fit),
+        "tested": worth(campaign, fit),
         "step": before.map(|before| change(campaign, before, present)),
         "sizes": sizes,
         "ladder": ladder(campaign, changes, error_of),
@@ -99,12 +105,10 @@ fn says(fit: &LiveFit) -> String {
 }
 
 /// What a fresh fit is worth.
-fn tested(campaign: &Campaign, fit: &LiveFit) -> String {
+fn worth(campaign: &Campaign, fit: &LiveFit) -> String {
     match fit.effects() == campaign.prepared.effects.as_slice() {
         true => "This is the study's own model.".into(),
-        false => {
-            campaign.says("Not yet tested on tightenings it was not fitted to; the command cargo xtask add does that.")
-        }
+        false => campaign.says("Not yet tested on tightenings it was not fitted to."),
     }
 }
 
@@ -146,68 +150,48 @@ fn size(campaign: &Campaign, parameter: &EffectParameter) -> String {
     campaign.says(&size.size().to_string())
 }
 
-/// One tightening in words: heading, and m, c, k under the model before and under the present one.
-pub(crate) fn tightening(
-    campaign: &Campaign,
-    member: usize,
-    models: [(&LiveFit, &LiveTightening); 2],
-) -> Value {
-    let tightening = &campaign.prepared.live.tasks()[member].tightening;
-    let conditions = &tightening.conditions;
-    let mut heading = vec![tightening.id.to_string()];
-    let named = [
-        &conditions.participant,
-        &conditions.strategy,
-        &conditions.joint,
-    ];
-    heading.extend(named.into_iter().flatten().cloned());
-    let [before, now] = models;
-    let pairs = before.1.base.iter().zip(&now.1.base);
-    let facts: Vec<Value> = pairs
-        .map(|(before, now)| {
-            json!([
-                base_name(campaign, now),
-                amount(campaign, before),
-                amount(campaign, now)
-            ])
-        })
-        .collect();
-    let error = |fit: &LiveFit| campaign.shown(fit.errors()[member]);
-    let place = campaign.worst_first.iter().position(|&one| one == member);
-    json!({
-        "number": member + 1,
-        "heading": heading.join(" · "),
-        "place": format!("{} of {}, worst first", place.map_or(0, |place| place + 1), campaign.worst_first.len()),
-        "error_before": error(before.0),
-        "error": error(now.0),
-        "facts": facts,
-    })
-}
-
-/// `mass m`; of what turns, `inertia I`.
-fn base_name(campaign: &Campaign, parameter: &ParameterEstimate) -> String {
-    let (_, unit) = campaign.prepared.vocabulary.about(&parameter.unit);
-    match parameter.name.as_str() {
-        "mass_kg" if unit == "kg m^2" => "inertia I".into(),
-        "mass_kg" => "mass m".into(),
-        "damping_kg_per_s" => "damping c".into(),
-        "stiffness_n_per_m" => "stiffness k".into(),
-        other => effect_name(other),
-    }
-}
-
-/// Value with unit, and the interval.
-fn amount(campaign: &Campaign, parameter: &ParameterEstimate) -> Value {
-    let (factor, unit) = campaign.prepared.vocabulary.about(&parameter.unit);
-    let interval = parameter.interval.map(|ends| Interval {
-        low: factor * ends.low,
-        high: factor * ends.high,
-    });
-    let shown = rounded(factor * parameter.value, interval);
-    let interval = match (shown.interval, parameter.fixed) {
-        (Some(interval), _) => interval,
-        (None, true) => "held fixed".into(),
-        (None, false) => "no interval".into(),
+/// What is looked at more closely, and what the models leave there.
+pub(crate) fn closer(campaign: &Campaign, closer: &Closer, base: &LiveFit, now: &LiveFit) -> Value {
+    let says = closer.says(campaign).unwrap_or_default();
+    let errors = match base.effects() == now.effects() {
+        true => campaign.shown(now.error()),
+        false => format!(
+            "{} → {}",
+            campaign.shown(base.error()),
+            campaign.shown(now.error())
+        ),
     };
-    json!([format!("{} {}", shown.value, unit_text(&unit)), interval])
+    let sentence = format!(
+        "A closer look at {says}: error {errors} {}. Promises count there.",
+        campaign.error_unit
+    );
+    json!({ "kind": "closer", "sentence": sentence })
+}
+
+/// How many tightenings would be selected with the model to begin with, and with the present one.
+pub(crate) fn usable(campaign: &Campaign, before: usize, now: usize) -> Value {
+    let all = campaign.prepared.live.tasks().len();
+    let sentence = match before == now {
+        true => format!("usable tightenings: {now} of {all}"),
+        false => format!("usable tightenings: {before} → {now} of {all}"),
+    };
+    json!({ "kind": "usable", "sentence": campaign.says(&sentence) })
+}
+
+/// What came of a fit from numbers that were set by hand.
+pub(crate) fn from_here(
+    campaign: &Campaign,
+    before: &LiveFit,
+    fit: &LiveFit,
+    is_lower: bool,
+) -> Value {
+    let (was, is) = (campaign.shown(before.error()), campaign.shown(fit.error()));
+    let sentence = match is_lower {
+        true => format!("From here the fit ends lower: {was} → {is}."),
+        false if was == is => "From here the fit ends where it ended before.".to_owned(),
+        false => {
+            format!("From here the fit ends at {is}, above {was}: what was there before is kept.")
+        }
+    };
+    json!({ "kind": "from_here", "sentence": sentence })
 }

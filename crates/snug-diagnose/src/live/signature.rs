@@ -13,7 +13,7 @@ use snug_model::Effect;
 
 impl LiveCases {
     /// What of the residual of tightening number `member` under `fit` an effect would take, to first order: its push of the output in
-    /// the size that all tightenings together predict, less what the tightening's own parameters can imitate of it. In the SI unit of
+    /// the size that all tightenings together predict, less what the model's own parameters can imitate of it. In the SI unit of
     /// the compared output, a value for each sample of the window; `None` where no tightening says anything of its size.
     ///
     /// # Errors
@@ -53,8 +53,19 @@ impl LiveCases {
         }];
         let plain = without.outputs(&asked);
         let mut push = column.signatures(&with, &asked, &plain).swap_remove(0);
+        if let Some(follows) = scorer.shared_that_follow(column) {
+            for (place, &size) in pooled.shared_of[member].iter().enumerate() {
+                let share = (pooled.shares.as_ref()).map_or(1.0, |all| all[member][place]);
+                let of_one = without.derivatives(&asked, pooled.shared[size].index);
+                take(&mut push, share * follows[size], &of_one[0]);
+            }
+        }
         push.iter_mut().for_each(|value| *value *= times);
-        without_imitation(&without, &asked, &pooled.own, &mut push);
+        let own = match scorer.is_joint() {
+            true => pooled.own.clone(),
+            false => pooled.order(),
+        };
+        without_imitation(&without, &asked, &own, &mut push);
         Ok(Some(push))
     }
 }
@@ -94,9 +105,13 @@ fn without_imitation(
     let Some(parts) = normal.solve_scaled(&right) else {
         return;
     };
-    for (part, sensitivity) in parts.iter().zip(&sensitivities) {
-        for (value, s) in push.iter_mut().zip(sensitivity) {
-            *value -= part * s;
-        }
+    for (&part, sensitivity) in parts.iter().zip(&sensitivities) {
+        take(push, part, sensitivity);
+    }
+}
+
+fn take(from: &mut [f64], times: f64, what: &[f64]) {
+    for (value, what) in from.iter_mut().zip(what) {
+        *value -= times * what;
     }
 }

@@ -6,7 +6,7 @@ use crate::data::follower::FitStep;
 use crate::error::DiagnoseError;
 use crate::question::{Goal, Question};
 use crate::settings::DiagnoseSettings;
-use crate::tests::made_up::{SAMPLES, close, hand, noisy, silent};
+use crate::tests::made_up::{SAMPLES, close, custom_force, hand, noisy, silent};
 use snug_identify::FitTask;
 use snug_model::Effect::{self, CubicStiffness, TorqueOffset};
 use std::sync::Mutex;
@@ -221,6 +221,22 @@ fn the_missing_effect_s_signature_looks_like_the_residual() {
     let before = rms(residual());
     let (right, wrong) = (left(CubicStiffness), left(TorqueOffset));
     assert!(right < wrong && right < before, "{right} {wrong} {before}");
+}
+
+/// The same spring under another name: once it is in the model, the other would leave nothing.
+#[test]
+fn what_the_model_s_effects_can_imitate_leaves_no_signature() {
+    let live = live();
+    let with = live
+        .fit(&[CubicStiffness], None, &|_| (), &never())
+        .expect("it can be fitted");
+    let again = custom_force("cubic_again", "2*p*x^3", 0.0);
+    let rms_of = |effect| {
+        let signature = live.signature(&with, 3, effect).expect("it can be scored");
+        signature.map_or(0.0, |signature| rms(signature.into_iter()))
+    };
+    let measured = rms(live.tasks()[3].measured().iter().copied());
+    assert!(rms_of(again) < 1e-3 * measured, "{}", rms_of(again));
 }
 
 #[test]

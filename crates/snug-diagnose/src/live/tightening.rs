@@ -6,9 +6,10 @@ use super::fit::LiveFit;
 use crate::error::DiagnoseError;
 use crate::pooled::parameter_place::effect_of;
 use crate::pooled::sizes::held;
-use snug_campaign::{Interval, ParameterEstimate};
-use snug_identify::identify;
-use snug_model::BASE_PARAMETERS;
+use crate::verdict::tightening_fits::held_models;
+use snug_campaign::{Estimate, Interval, ParameterEstimate};
+use snug_identify::{FitTask, identify, identify_all, in_batches};
+use snug_model::{BASE_PARAMETERS, Model};
 
 /// One tightening under a fit.
 #[derive(Debug, Clone, PartialEq)]
@@ -81,5 +82,25 @@ impl LiveCases {
             output,
             numbers,
         })
+    }
+}
+
+impl LiveCases {
+    /// The model of each tightening, the effects' sizes held as in [`LiveCases::tightening`], and what is identified with it.
+    ///
+    /// # Errors
+    /// What the fit of a tightening refuses.
+    pub fn estimates(&self, fit: &LiveFit) -> Result<Vec<(Model, Estimate)>, DiagnoseError> {
+        let models = held_models(&self.cases, &fit.fitted);
+        let tasks: Vec<FitTask<'_>> = (self.cases.iter().zip(&models))
+            .map(|(case, model)| case.with_model(model))
+            .collect();
+        let estimates = in_batches(&tasks, |some| {
+            identify_all(some)
+                .into_iter()
+                .collect::<Result<Vec<_>, _>>()
+        })?;
+        let models = models.iter().map(|model| model.clone().into_owned());
+        Ok(models.zip(estimates).collect())
     }
 }

@@ -131,6 +131,14 @@ impl<'a, 'h> Scorer<'a, 'h> {
         })
     }
 
+    /// By how much the shared parameters of the model follow so many times one of a column's signature; nothing where they are taken
+    /// out tightening by tightening.
+    pub fn shared_that_follow(&self, column: &Column) -> Option<Vec<f64>> {
+        let is_taken_out = !self.fitted.shared.is_empty() && self.is_joint();
+        let curvature = || self.fitted.shared_curvature();
+        is_taken_out.then(|| curvature().solve_scaled(&column.cross))?
+    }
+
     /// How many campaigns of nothing but noise there are.
     pub fn control_campaigns(&self) -> usize {
         self.control.campaigns
@@ -194,7 +202,7 @@ impl<'a, 'h> Scorer<'a, 'h> {
     }
 
     /// Whether what all share is taken out over all tightenings together.
-    fn is_joint(&self) -> bool {
+    pub fn is_joint(&self) -> bool {
         self.clusters.are_whole() || self.fitted.shares_all() && self.pooled.cases.len() > 1
     }
 

@@ -19,13 +19,7 @@ pub(crate) struct TighteningFits<'a> {
 impl<'a> TighteningFits<'a> {
     /// Identifies every tightening with the shared parameters held where all tightenings together put them.
     pub fn of(cases: &'a [FitTask<'a>], fitted: &Fitted) -> Result<Self, DiagnoseError> {
-        let errors = fitted.shared_errors();
-        let models: Vec<Cow<'_, Model>> = (cases.iter().enumerate())
-            .map(|(member, case)| {
-                let held = held(case, fitted, member, errors.as_deref());
-                held.map_or(Cow::Borrowed(&*case.model), Cow::Owned)
-            })
-            .collect();
+        let models = held_models(cases, fitted);
         let tasks: Vec<FitTask<'_>> = (cases.iter().zip(&models))
             .map(|(case, model)| case.with_model(model))
             .collect();
@@ -52,6 +46,17 @@ impl<'a> TighteningFits<'a> {
             })
             .collect()
     }
+}
+
+/// The model of each with everything but its own parameters held where all tightenings together put it.
+pub(crate) fn held_models<'a>(cases: &'a [FitTask<'a>], fitted: &Fitted) -> Vec<Cow<'a, Model>> {
+    let errors = fitted.shared_errors();
+    (cases.iter().enumerate())
+        .map(|(member, case)| {
+            let held = held(case, fitted, member, errors.as_deref());
+            held.map_or(Cow::Borrowed(&*case.model), Cow::Owned)
+        })
+        .collect()
 }
 
 /// Estimates and motions.

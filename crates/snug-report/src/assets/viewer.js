@@ -16,13 +16,17 @@ class Viewer {
   }
 
   choose(number) {
+    this.take(number);
+    this.draw();
+  }
+
+  take(number) {
     this.number = number;
     this.view = this.cursor = null;
     const example = this.data.examples[number];
     let sample = 0;
     this.times = example.steps.map(step => (sample += step) * example.step);
     if (this.choice) this.describe(example);
-    this.draw();
   }
 
   describe(example) {
@@ -58,6 +62,7 @@ class Viewer {
   zoom(from, to) {
     this.view = from === undefined ? null : [from, to];
     this.draw();
+    this.root.dispatchEvent(new Event('zoomed'));
   }
 
   // Puts the cursor at the sample next to a time.

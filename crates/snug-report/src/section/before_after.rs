@@ -26,7 +26,7 @@ type Panel = curves::Panel<Vec<f64>>;
 
 fn line(label: &'static str, class: &'static str, values: &[f64]) -> Series<Vec<f64>> {
     Series {
-        label,
+        label: label.into(),
         class,
         source: values.to_vec(),
     }

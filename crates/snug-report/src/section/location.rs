@@ -1,7 +1,7 @@
 //! Brings every view of the misfit into one section, with the drift that a missing effect leaves in fitted values.
 
 mod aspects;
-mod force;
+pub(crate) mod force;
 mod force_map;
 
 use super::{Render, Section};

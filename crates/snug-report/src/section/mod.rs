@@ -12,7 +12,7 @@ mod findings;
 mod glossary;
 mod identifiability;
 mod ladder;
-mod location;
+pub(crate) mod location;
 mod overview;
 mod p_values;
 mod ranking;

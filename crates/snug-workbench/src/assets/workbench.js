@@ -13,6 +13,13 @@ const state = {
   given: address().has('effects'),
   tightening: address().get('tightening') || one('tightening').value,
   before: null,
+  // What is looked at more closely, the model to hold the present one against, the effect whose signature is shown.
+  group: address().get('group') || '',
+  stretch: address().has('from_s') ? [Number(address().get('from_s')), Number(address().get('to_s'))] : null,
+  rival: address().has('rival') ? address().get('rival') : null,
+  signature: null,
+  // Numbers set by hand; none where they are as fitted.
+  values: null,
   // Of each effect what it promises beside the present model, and what it did beside the one before.
   shares: new Map(),
   texts: new Map(),
@@ -21,8 +28,15 @@ const state = {
 const session = sessionStorage.getItem('snug-session') || crypto.randomUUID();
 sessionStorage.setItem('snug-session', session);
 
+// What is looked at more closely, as the server takes it.
+const closer = () => ({
+  ...(state.group && { group: state.group }),
+  ...(state.stretch && { from_s: state.stretch[0], to_s: state.stretch[1] }),
+});
+
 const remember = () => {
-  const query = new URLSearchParams({ effects: state.effects.join(','), tightening: state.tightening });
+  const query = new URLSearchParams({ effects: state.effects.join(','), tightening: state.tightening, ...closer() });
+  if (state.rival !== null) query.set('rival', state.rival);
   history.replaceState(null, '', '?' + query.toString().replaceAll('%2C', ','));
 };
 
@@ -47,7 +61,7 @@ const ask = async (path, body) => {
 // Switches: what is in the model first, then by promise.
 const items = () => [...one('switches').children];
 const check = () => items().forEach(item =>
-  item.querySelector('button').setAttribute('aria-checked', String(state.effects.includes(item.dataset.effect))));
+  item.querySelector('.switch').setAttribute('aria-checked', String(state.effects.includes(item.dataset.effect))));
 const sort = () => {
   const focused = document.activeElement, key = item => state.effects.includes(item.dataset.effect) ? 2 : state.shares.get(item.dataset.effect) ?? 0;
   const sorted = items().sort((a, b) => key(b) - key(a));
@@ -98,7 +112,11 @@ const hear = {
     remember();
     document.body.classList.add('fitting');
     show('tested', event.tested);
+    show('evidence', '');
+    delete one('tested').dataset.state;
     show('steps', '');
+    show('by-hand', '');
+    items().forEach(item => { item.querySelector('[data-real]').textContent = ''; });
     performance.mark('fitting');
   },
   // The number on screen is where the solver stands.
@@ -122,10 +140,26 @@ const hear = {
     ladder(event.ladder);
     one('undo').disabled = !event.can_undo;
     one('redo').disabled = !event.can_redo;
+    one('usable').textContent = '';
+    state.values = null;
+    pinned();
     look();
+    force();
   },
   promises(event) { event.shares.forEach(promise); },
   ranked() { sort(); },
+  closer(event) { show('closer', event.sentence); },
+  usable(event) { show('usable', event.sentence); },
+  from_here(event) { show('by-hand', event.sentence); },
+  // Whether an effect that was added is real, once tightenings have said so that it was not fitted to.
+  tested(event) {
+    const place = items().find(item => item.dataset.effect === event.effect)?.querySelector('[data-real]');
+    if (place) Object.assign(place, { textContent: event.short, title: event.sentence }).dataset.state = event.state;
+    if (!event.is_last) return;
+    show('tested', event.sentence);
+    show('evidence', event.evidence ?? '');
+    one('tested').dataset.state = event.state;
+  },
   failed(event) { document.body.classList.remove('fitting'); fault(event.sentence); state.fault = event.sentence; },
 };
 
@@ -135,10 +169,13 @@ const look = async () => {
   const number = ++looked;
   const query = new URLSearchParams({ number: state.tightening, effects: state.effects.join(',') });
   if (state.before) query.set('before', state.before.join(','));
+  if (state.rival !== null) query.set('rival', state.rival);
+  if (state.signature && !state.effects.includes(state.signature)) query.set('signature', state.signature);
+  if (state.values) query.set('values', state.values.join(','));
   const answer = await ask('/api/tightening?' + query);
   if (!answer || number !== looked) return;
   one('tightening').value = state.tightening;
-  const { heading, place, error, error_before: before } = answer.told;
+  const { heading, place, error, error_before: before, rival, by_hand: byHand } = answer.told;
   show('heading', `${heading} · ${place} · error ${before === error ? '' : before + ' → '}${error}`);
   one('facts').replaceChildren(...answer.told.facts.map(texts => {
     const row = document.createElement('tr');
@@ -150,8 +187,73 @@ const look = async () => {
     }));
     return row;
   }));
+  against(rival, error);
+  if (state.values) show('by-hand', `By hand: error ${byHand}, as fitted ${error}.`);
+  else sliders(answer.told.numbers);
+  state.perSecond = answer.example.step / answer.told.interval_s;
   draw(answer);
 };
+// The same once more while something is dragged: one request at a time, the last one always.
+let asking = false, again = false;
+const follow = async () => {
+  if (asking) { again = true; return; }
+  asking = true;
+  do { again = false; await look(); } while (again);
+  asking = false;
+};
+
+// The missing force of all tightenings, over time and over displacement and velocity.
+let forced = 0;
+const force = async () => {
+  const number = ++forced;
+  try {
+    const answer = await fetch('/api/force?' + new URLSearchParams({ effects: state.effects.join(',') }));
+    if (answer.ok && number === forced) one('force').innerHTML = await answer.text();
+  } catch { /* That the workbench is gone is said where its events end. */ }
+};
+
+// Sliders: a number of the present model each.
+const sliders = numbers => {
+  one('as-fitted').disabled = one('from-here').disabled = true;
+  one('sliders').replaceChildren(...numbers.map(({ name, unit, factor, value, low, high, interval }, i) => {
+    const row = element('label', '', 'slider'), range = document.createElement('input'), output = element('output', '');
+    const width = high - low || 1, percent = at => 100 * Math.min(1, Math.max(0, (at - low) / width)) + '%';
+    const say = at => { output.textContent = `${shown(factor * at)} ${unit}`; range.setAttribute('aria-valuetext', output.textContent); };
+    Object.assign(range, { type: 'range', min: low, max: high, step: 'any', value });
+    const track = element('span', '', 'interval'), mark = element('span', '', 'mark');
+    if (interval) Object.assign(track.style, { left: percent(interval[0]), width: `calc(${percent(interval[1])} - ${percent(interval[0])})` });
+    mark.style.left = percent(value);
+    const rail = element('span', '', 'rail');
+    rail.append(...(interval ? [track] : []), mark);
+    range.addEventListener('input', () => {
+      state.values ??= numbers.map(number => number.value);
+      state.values[i] = Number(range.value);
+      say(state.values[i]);
+      one('as-fitted').disabled = one('from-here').disabled = false;
+      follow();
+    });
+    say(value);
+    row.append(element('span', name, 'name'), output, range, rail);
+    return row;
+  }));
+};
+
+// The rival: another model, drawn and told beside the present one.
+const name = effects => effects.length ? effects.map(effect =>
+  items().find(item => item.dataset.effect === effect)?.querySelector('strong').textContent ?? effect).join(' + ') : 'no effect';
+const pinned = () => {
+  const has = state.rival !== null;
+  one('pin').textContent = has ? 'Let the rival go' : 'Pin as rival';
+  one('pin').setAttribute('aria-pressed', String(has));
+  one('rival').hidden = one('rival-column').hidden = !has;
+  if (has) show('rival-name', `A: ${name(state.effects)}. B, pinned: ${name(state.rival.split(',').filter(Boolean))}.`);
+};
+const against = (rival, here) => {
+  if (!rival) return;
+  show('rival-says', `Error of A ${one('error').textContent}, of B ${rival.error}; in this tightening ${here} and ${rival.error_here}.`);
+  one('rival-sizes').replaceChildren(...rival.sizes.map(size => element('li', `B: ${size}`)));
+};
+
 const draw = ({ panels, example }) => {
   const viewer = viewers[0], view = state.shown === state.tightening ? viewer.view : null;
   viewer.data.examples[0] = example;
@@ -159,14 +261,36 @@ const draw = ({ panels, example }) => {
     if (JSON.stringify(panel.spec) !== JSON.stringify(panels[i])) viewer.panels[i] = new Panel(panel.host, panels[i], viewer);
     panel.host.previousElementSibling.textContent = panels[i].title;
   });
-  viewer.choose(0);
-  viewer.view = view;
+  viewer.take(0);
+  viewer.view = view ?? (state.stretch && state.shown === undefined ? state.stretch.map(at => at * state.perSecond) : null);
   viewer.draw();
   state.shown = state.tightening;
 };
-const turnTo = number => { state.tightening = number; remember(); look(); };
+const turnTo = number => {
+  Object.assign(state, { tightening: number, values: null });
+  show('by-hand', '');
+  remember();
+  look();
+};
 
-items().forEach(item => item.querySelector('button').addEventListener('click', () => {
+// A closer look: at a group, or at the stretch that is zoomed to.
+const among = () => [...one('tightening').options].filter(option => !option.hidden);
+const choosable = () => {
+  for (const option of one('tightening').options) option.hidden = option.disabled = state.group !== '' && !option.dataset.groups.includes(`|${state.group}|`);
+  one('group').value = state.group;
+  one('everything').hidden = !state.group && !state.stretch;
+  if (!state.group && !state.stretch) show('closer', '');
+};
+const lookCloser = change => {
+  Object.assign(state, change);
+  choosable();
+  if (!among().some(option => option.value === state.tightening)) state.tightening = among()[0].value;
+  remember();
+  ask('/api/change', { kind: 'closer', ...closer() });
+};
+const zoomed = () => { one('brush').disabled = !viewers[0].view; };
+
+items().forEach(item => item.querySelector('.switch').addEventListener('click', () => {
   const name = item.dataset.effect, has = state.effects.includes(name);
   const effects = has ? state.effects.filter(other => other !== name) : [...state.effects, name];
   state.effects = effects;
@@ -175,10 +299,40 @@ items().forEach(item => item.querySelector('button').addEventListener('click', (
 }));
 one('tightening').addEventListener('change', event => turnTo(event.target.value));
 document.querySelectorAll('[data-worse]').forEach(button => button.addEventListener('click', () => {
-  const options = [...one('tightening').options], count = options.length;
+  const options = among(), count = options.length;
   const at = options.findIndex(option => option.value === state.tightening);
   turnTo(options[(at + Number(button.dataset.worse) + count) % count].value);
 }));
+items().forEach(item => item.querySelector('[data-signature]').addEventListener('click', () => {
+  state.signature = state.signature === item.dataset.effect ? null : item.dataset.effect;
+  items().forEach(other => other.querySelector('[data-signature]').setAttribute('aria-pressed', String(other.dataset.effect === state.signature)));
+  look();
+}));
+one('group').addEventListener('change', event => lookCloser({ group: event.target.value }));
+one('brush').addEventListener('click', () => lookCloser({ stretch: viewers[0].view.map(at => at / state.perSecond) }));
+one('everything').addEventListener('click', () => lookCloser({ group: '', stretch: null }));
+viewers[0].root.addEventListener('zoomed', zoomed);
+one('as-fitted').addEventListener('click', () => { state.values = null; show('by-hand', ''); look(); });
+one('from-here').addEventListener('click', () => ask('/api/change', { kind: 'fit_from', number: Number(state.tightening), values: state.values.join(',') }));
+one('pin').addEventListener('click', () => {
+  state.rival = state.rival === null ? state.effects.join(',') : null;
+  remember();
+  pinned();
+  look();
+});
+one('results').addEventListener('click', async () => {
+  one('results').disabled = true;
+  show('links', 'Making report and recording of this model …');
+  const answer = await ask('/api/results', { effects: state.effects.join(',') });
+  one('results').disabled = false;
+  show('links', '');
+  for (const link of answer?.links ?? []) {
+    const anchor = element('a', link.split('/').pop());
+    Object.assign(anchor, { href: link, target: '_blank' });
+    if (link.endsWith('.mcap')) anchor.download = 'recording.mcap';
+    one('links').append(anchor, ' ');
+  }
+});
 one('undo').addEventListener('click', () => ask('/api/change', { kind: 'undo' }));
 one('redo').addEventListener('click', () => ask('/api/change', { kind: 'redo' }));
 one('save').addEventListener('click', async () => {
@@ -188,7 +342,7 @@ one('save').addEventListener('click', async () => {
 
 // Listens; where the server is gone, again after a while, with the model that is on screen.
 const listen = () => {
-  const query = new URLSearchParams({ session });
+  const query = new URLSearchParams({ session, ...closer() });
   if (state.given || state.effects.length) query.set('effects', state.effects.join(','));
   const events = new EventSource('/api/events?' + query);
   events.onmessage = message => {
@@ -202,4 +356,6 @@ const listen = () => {
     setTimeout(listen, 1000);
   };
 };
+choosable();
+pinned();
 listen();

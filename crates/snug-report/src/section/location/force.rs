@@ -3,7 +3,7 @@
 use super::force_map;
 use crate::figure::{Axis, Figure, Mark, captioned, legend, linear_range};
 use maud::{Markup, html};
-use snug_campaign::{ForceCurve, Location};
+use snug_campaign::{ForceCurve, ForceMap, Location};
 
 /// Both pictures, those there are.
 pub fn figures(location: &Location) -> Markup {
@@ -17,9 +17,16 @@ pub fn figures(location: &Location) -> Markup {
         p { "The force between tool and hand that would have to be added so that the model met the measurement, averaged over \
             the tightenings. Its shape names the law: the same for going and coming back is a spring, one sign per direction of \
             motion is friction, a fixed time after the onset is a nerve." }
+        (drawings(curve, map))
+    }
+}
+
+/// The pictures alone.
+pub fn drawings(curve: &ForceCurve, map: &ForceMap) -> Markup {
+    html! {
         div.figures {
-            @if over_time { (over_time_figure(curve)) }
-            @if over_state { (force_map::figure(map)) }
+            @if !curve.at.is_empty() { (over_time_figure(curve)) }
+            @if force_map::holds(map) { (force_map::figure(map)) }
         }
     }
 }
