@@ -1,0 +1,83 @@
+//! The page for everybody: on paper-narrow screens, in the dark, with a keyboard alone, and to a screen reader.
+
+use crate::browser::{Headless, Tab, installed};
+use crate::server::{Server, study_in};
+use serde_json::Value;
+use tempfile::TempDir;
+
+/// Faults that axe-core calls serious or critical; `SNUG_AXE` names its script, which then must be there.
+async fn serious(tab: &Tab, script: &str) -> Vec<String> {
+    tab.value(&format!("{script};0")).await;
+    let told = tab
+        .value(
+            "axe.run().then(found => found.violations.filter(one => ['serious', 'critical'].includes(one.impact))
+             .map(one => one.id + ': ' + one.nodes.map(node => node.html.slice(0, 120)).slice(0, 3).join(' | ')))",
+        )
+        .await;
+    let faults = told.as_array().unwrap().iter();
+    faults
+        .map(|fault| fault.as_str().unwrap().to_owned())
+        .collect()
+}
+
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn the_page_is_for_everybody() {
+    let Some(program) = installed() else { return };
+    let axe = std::env::var_os("SNUG_AXE").map(|path| std::fs::read_to_string(path).unwrap());
+    if axe.is_none() {
+        println!("skipped: SNUG_AXE names no script of axe-core");
+    }
+    let folder = TempDir::new().unwrap();
+    let server = Server::begin(0, &study_in(folder.path()));
+    let browser = Headless::launch(program).await;
+    for (width, scheme) in [
+        (1400, "light"),
+        (1400, "dark"),
+        (390, "light"),
+        (390, "dark"),
+    ] {
+        let address = format!("{}?effects=stretch_reflex&rival=", server.address());
+        let tab = browser.open(&address, width, scheme).await;
+        tab.until("document.querySelector('[data-error]')?.textContent === '1.007'")
+            .await;
+        tab.until("document.querySelector('[data-tested]').dataset.state === 'real'")
+            .await;
+        let sideways = tab.value("document.documentElement.scrollWidth").await;
+        assert!(sideways.as_i64() <= Some(width), "{sideways} of {width}");
+        if let Some(axe) = &axe {
+            let faults = serious(&tab, axe).await;
+            assert!(faults.is_empty(), "{width} {scheme}: {faults:#?}");
+        }
+        tab.was_well(server.port);
+        tab.page.close().await.unwrap();
+    }
+    browser.close().await;
+    server.end();
+}
+
+/// From the top of the page by Tab alone to the switch that promises most, and on by the space bar.
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn a_keyboard_is_enough() {
+    let Some(program) = installed() else { return };
+    let folder = TempDir::new().unwrap();
+    let server = Server::begin(0, &study_in(folder.path()));
+    let browser = Headless::launch(program).await;
+    let tab = browser.open(&server.address(), 1400, "light").await;
+    tab.until("document.querySelector('[data-error]')?.textContent === '1.541'")
+        .await;
+    tab.until("(document.querySelector('[data-usable]')?.textContent ?? '') !== ''")
+        .await;
+    let at = "document.activeElement.closest('li')?.dataset.effect ?? ''";
+    let mut presses = 0;
+    while tab.value(at).await != Value::from("stretch_reflex") {
+        tab.press("Tab").await;
+        presses += 1;
+        assert!(presses < 60, "the switch is out of reach");
+    }
+    tab.press(" ").await;
+    tab.until("document.querySelector('[data-error]').textContent === '1.007'")
+        .await;
+    println!("{presses} presses of Tab to the first switch");
+    browser.close().await;
+    server.end();
+}

@@ -1,0 +1,7 @@
+//! The workbench in a real browser, as somebody uses it who has read nothing but the page.
+#![allow(clippy::unwrap_used, clippy::print_stdout)]
+
+mod access;
+mod browser;
+mod mystery;
+mod server;

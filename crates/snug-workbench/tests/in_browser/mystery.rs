@@ -1,0 +1,186 @@
+//! The mystery solved with a mouse: the error falls on screen, and what is saved can be run.
+
+use crate::browser::{Headless, installed};
+use crate::server::{Server, study_in};
+use serde_json::Value;
+use snug_study::{RunSettings, Study, run};
+use std::path::Path;
+use std::sync::atomic::AtomicBool;
+use tempfile::TempDir;
+
+/// Notes every text that the error takes, and when, since the switch was clicked \[ms\].
+const WATCH: &str = "(() => {
+  const error = document.querySelector('[data-error]');
+  window.fallen = [];
+  document.addEventListener('click', () => { window.clicked = performance.now(); }, { capture: true, once: true });
+  new MutationObserver(() => fallen.push([performance.now() - window.clicked, Number(error.textContent)])).observe(error, { childList: true });
+})()";
+
+/// Longest until the first lower error is on screen, and until the fit has ended \[ms\]. Chosen: what is aimed at is 200 and 1000 on a
+/// machine that does nothing else; the tests of a whole workspace run beside this one.
+const AT_FIRST_MS: f64 = 2000.0;
+const AT_LAST_MS: f64 = 10_000.0;
+
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn the_mystery_is_solved_by_clicking() {
+    let Some(program) = installed() else { return };
+    let folder = TempDir::new().unwrap();
+    let study_file = study_in(folder.path());
+    let server = Server::begin(0, &study_file);
+    let browser = Headless::launch(program).await;
+    let tab = browser.open(&server.address(), 1400, "light").await;
+
+    // The misfit is seen, and what promises most stands first.
+    tab.until("document.querySelector('[data-error]')?.textContent === '1.541'")
+        .await;
+    tab.until("(document.querySelector('[data-usable]')?.textContent ?? '') !== ''")
+        .await;
+    assert!(
+        tab.text("says")
+            .await
+            .starts_with("More than the noise is left")
+    );
+    let usable = tab.text("usable").await;
+    assert_eq!(usable, "usable tightenings: 7 of 24");
+    let first = "document.querySelector('[data-switches] > li').dataset.effect";
+    assert_eq!(tab.value(first).await, "stretch_reflex");
+    tab.click("[data-effect=stretch_reflex] [data-signature]")
+        .await;
+    tab.until("[...document.querySelectorAll('.toggle')].some(key => key.textContent.includes('would leave'))")
+        .await;
+
+    // One click, and the error falls step by step.
+    tab.value(WATCH).await;
+    tab.click("[data-effect=stretch_reflex] .switch").await;
+    tab.until("document.querySelector('[data-error]').textContent === '1.007'")
+        .await;
+    let fallen = tab.value("fallen").await;
+    let fallen: Vec<(f64, f64)> = (fallen.as_array().unwrap().iter())
+        .map(|one| (one[0].as_f64().unwrap(), one[1].as_f64().unwrap()))
+        .collect();
+    assert!(fallen.len() >= 2, "{fallen:?}");
+    assert!(
+        fallen.windows(2).all(|pair| pair[1].1 <= pair[0].1),
+        "{fallen:?}"
+    );
+    let (at_first, at_last) = (fallen[0].0, fallen[fallen.len() - 1].0);
+    println!("first lower error after {at_first:.0} ms, the last after {at_last:.0} ms");
+    assert!(at_first < AT_FIRST_MS && at_last < AT_LAST_MS, "{fallen:?}");
+    assert_eq!(tab.text("says").await, "Nothing but the noise is left.");
+
+    // Whether it is real is said by tightenings that it was not fitted to.
+    tab.until("document.querySelector('[data-tested]').dataset.state === 'real'")
+        .await;
+    assert_eq!(tab.text("tested").await, "Tested: stretch reflex is real.");
+    assert_eq!(tab.text("usable").await, "usable tightenings: 7 → 24 of 24");
+
+    // A stretch of time is brushed, and counts alone.
+    tab.drag(0.3, 0.6).await;
+    tab.click("[data-brush]").await;
+    tab.until("document.querySelector('[data-closer]').textContent.includes('from ')")
+        .await;
+    tab.click("[data-everything]").await;
+    tab.until("document.querySelector('[data-closer]').textContent === ''")
+        .await;
+
+    // A number follows the keyboard, and the curve the number.
+    tab.page
+        .find_element(".slider input")
+        .await
+        .unwrap()
+        .focus()
+        .await
+        .unwrap();
+    tab.press("ArrowRight").await;
+    tab.until("document.querySelector('[data-by-hand]').textContent.startsWith('By hand: error ')")
+        .await;
+    tab.click("[data-as-fitted]").await;
+
+    // Undone and done again with the keyboard, saved, and run as any study is.
+    for (button, error) in [("undo", "1.541"), ("redo", "1.007")] {
+        let selector = format!("[data-{button}]");
+        tab.page
+            .find_element(selector)
+            .await
+            .unwrap()
+            .focus()
+            .await
+            .unwrap();
+        tab.press("Enter").await;
+        tab.until(&format!(
+            "document.querySelector('[data-error]').textContent === '{error}'"
+        ))
+        .await;
+    }
+    tab.click("[data-save]").await;
+    tab.until("document.querySelector('[data-saved]').textContent.startsWith('Saved as ')")
+        .await;
+    reproduces(&folder.path().join("mystery.workbench.ron"));
+
+    // A reload shows the same.
+    tab.page.reload().await.unwrap();
+    tab.until("document.querySelector('[data-error]')?.textContent === '1.007'")
+        .await;
+    assert_eq!(switched_on(&tab.value(ON).await), ["stretch_reflex"]);
+    tab.was_well(server.port);
+    browser.close().await;
+    server.end();
+}
+
+const ON: &str = "[...document.querySelectorAll('.switch[aria-checked=true]')].map(on => on.closest('li').dataset.effect)";
+
+fn switched_on(value: &Value) -> Vec<String> {
+    let names = value.as_array().unwrap().iter();
+    names
+        .map(|name| name.as_str().unwrap().to_owned())
+        .collect()
+}
+
+/// The saved study, run: every tightening is used, and only noise is left.
+fn reproduces(study_file: &Path) {
+    let study = Study::read(study_file).unwrap();
+    assert_eq!(study.model.effects, ["stretch_reflex"]);
+    let out = TempDir::new().unwrap();
+    let never = AtomicBool::new(false);
+    let outcome = run(&study, &RunSettings::new(out.path()), &|_| (), &never).unwrap();
+    let mut errors: Vec<f64> = (outcome.result.tightenings.iter())
+        .filter_map(|one| one.measures.error_over_noise)
+        .collect();
+    errors.sort_by(f64::total_cmp);
+    assert_eq!(errors.len(), 24);
+    let median = 0.5 * (errors[11] + errors[12]);
+    assert!((median - 1.0).abs() < 0.02, "{errors:?}");
+}
+
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn a_server_that_goes_and_comes_back_loses_nothing() {
+    let Some(program) = installed() else { return };
+    let folder = TempDir::new().unwrap();
+    let study_file = study_in(folder.path());
+    let server = Server::begin(0, &study_file);
+    let (port, address) = (server.port, server.address());
+    let browser = Headless::launch(program).await;
+    let tab = browser.open(&address, 1400, "light").await;
+    let other = browser.open(&address, 1400, "light").await;
+    for (tab, effect) in [(&tab, "stretch_reflex"), (&other, "cubic_stiffness")] {
+        tab.until("document.querySelector('[data-error]')?.textContent === '1.541'")
+            .await;
+        tab.click(&format!("[data-effect={effect}] .switch")).await;
+        tab.until("document.querySelector('[data-error]').textContent < '1.541'")
+            .await;
+    }
+    server.end();
+    tab.until("!document.querySelector('[data-fault]').hidden")
+        .await;
+    assert!(tab.text("fault").await.contains("Is it still running?"));
+    let again = Server::begin(port, &study_file);
+    for (tab, effect) in [(&tab, "stretch_reflex"), (&other, "cubic_stiffness")] {
+        tab.until("document.querySelector('[data-fault]').hidden")
+            .await;
+        tab.until("!document.body.classList.contains('fitting')")
+            .await;
+        assert_eq!(switched_on(&tab.value(ON).await), [effect]);
+    }
+    browser.close().await;
+    again.end();
+}
