@@ -1,19 +1,22 @@
 //! `report.html`: the page around the sections.
 
 use crate::machine_words;
-use crate::section::{Section, rendered};
+use crate::section::{Rendered, rendered};
 use crate::viewer::{SCRIPT, document};
 use maud::{Markup, PreEscaped, html as markup};
 use snug_campaign::CampaignResult;
 use snug_campaign::words::vocabulary::Vocabulary;
 
 /// What the report's script has beside the viewer.
-const TABLES: &str = include_str!("assets/table.js");
+const OWN_SCRIPT: &str = concat!(
+    include_str!("assets/contents.js"),
+    include_str!("assets/table.js")
+);
 
 /// The whole report as one page that asks for nothing from outside.
 ///
 /// Text from the campaign is escaped; the page works without JavaScript, which only adds stepping, zoom, values under
-/// the cursor, sorting and filtering.
+/// the cursor, sorting, filtering and where one is in the list of chapters.
 ///
 /// Of a machine it is told in a machine's words.
 pub fn html(result: &CampaignResult) -> String {
@@ -28,31 +31,46 @@ pub fn html(result: &CampaignResult) -> String {
 }
 
 fn page(result: &CampaignResult) -> String {
-    let sections = rendered(result);
+    let chapters = rendered(result);
     let body = markup! {
-        a.skip href="#overview" { "Skip to the results" }
-        (contents(&sections))
+        a.skip href="#result" { "Skip to the results" }
+        (contents(&chapters))
         main {
             header.top {
                 p.kind { "Snug report" }
                 h1 { (result.title) }
             }
-            @for (section, content) in &sections {
+            @for chapter in &chapters { (chapter_markup(chapter)) }
+        }
+        script { (PreEscaped(SCRIPT)) (PreEscaped(OWN_SCRIPT)) }
+    };
+    document(&format!("{} – Snug report", result.title), "", &body).into_string()
+}
+
+fn contents(chapters: &[Rendered]) -> Markup {
+    markup! {
+        nav.contents aria-label="Chapters" {
+            ol { @for Rendered { chapter, .. } in chapters { li { a href=(format!("#{}", chapter.anchor)) { (chapter.title) } } } }
+        }
+    }
+}
+
+/// A chapter: its name, what it holds where that is more than one section, and the sections.
+fn chapter_markup(Rendered { chapter, sections }: &Rendered) -> Markup {
+    markup! {
+        div.chapter id=(chapter.anchor) {
+            p.kind {
+                (chapter.title)
+                @if sections.len() > 1 {
+                    span.parts { @for (section, _) in sections { a href=(format!("#{}", section.anchor)) { (section.short_title) } } }
+                }
+            }
+            @for (section, content) in sections {
                 section id=(section.anchor) aria-labelledby=(format!("{}-title", section.anchor)) {
                     h2 id=(format!("{}-title", section.anchor)) { (section.title) }
                     (content)
                 }
             }
-        }
-        script { (PreEscaped(SCRIPT)) (PreEscaped(TABLES)) }
-    };
-    document(&format!("{} – Snug report", result.title), "", &body).into_string()
-}
-
-fn contents(sections: &[(&Section, Markup)]) -> Markup {
-    markup! {
-        nav.contents aria-label="Sections" {
-            ol { @for (section, _) in sections { li { a href=(format!("#{}", section.anchor)) { (section.short_title) } } } }
         }
     }
 }

@@ -61,13 +61,22 @@ fn with(change: impl Fn(&mut Diagnosis)) -> CampaignResult {
 }
 
 #[test]
-fn sections_stand_right_after_the_overview_and_only_with_a_diagnosis() {
+fn sections_stand_as_one_asks_and_only_with_a_diagnosis() {
     let page = html(&diagnosed::improve());
     let sections = markup::sections(&page);
-    let found = found(&page);
-    assert_eq!(found[0], "verdict");
+    let asked = [
+        "comparison",
+        "location",
+        "verdict",
+        "ranking",
+        "before-after",
+        "ladder",
+        "detectability",
+    ];
     assert_eq!(sections[0], "overview");
-    assert!(sections[1..].starts_with(&found), "{sections:?}");
+    assert!(sections[1..].starts_with(&asked), "{sections:?}");
+    assert_eq!(sections.last(), Some(&"effort"));
+    assert_eq!(found(&page), [&asked[..], &["effort"]].concat());
 }
 
 #[test]

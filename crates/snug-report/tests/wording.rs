@@ -50,11 +50,11 @@ fn text(markup: &str) -> String {
     })
 }
 
-/// The sections that stand between the overview and the selection.
+/// The chapters that stand between the result and the single tightenings.
 fn diagnosis(result: &CampaignResult) -> String {
     let page = html(result);
-    let start = page.find("<section id=\"verdict\"").unwrap();
-    let end = page.find("<section id=\"selection\"").unwrap();
+    let start = page.find("<div class=\"chapter\" id=\"compare\"").unwrap();
+    let end = page.find("<div class=\"chapter\" id=\"each\"").unwrap();
     text(&page[start..end])
 }
 

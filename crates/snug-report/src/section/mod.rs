@@ -1,6 +1,7 @@
-//! The page's sections. A new one is a new file and one line in [`SECTIONS`].
+//! The page's sections. A new one is a new file and one line in [`chapters`].
 
 mod before_after;
+mod chapters;
 mod comparison;
 mod conditions;
 mod corrections;
@@ -25,6 +26,8 @@ mod validation;
 mod verdict;
 
 use crate::grouping::grouped;
+use chapters::CHAPTERS;
+pub use chapters::Chapter;
 use maud::{Markup, html};
 use snug_campaign::{
     CampaignResult, ConditionSummary, Diagnosis, Rejection, Severity, TighteningResult,
@@ -34,7 +37,7 @@ use snug_campaign::{
 pub struct Section {
     /// Stable name within the page's address.
     pub anchor: &'static str,
-    /// Short title for the list of sections.
+    /// Short title for the list at the head of its chapter.
     pub short_title: &'static str,
     /// Heading.
     pub title: &'static str,
@@ -52,48 +55,30 @@ pub enum Render {
     Diagnosed(fn(&Diagnosis, &CampaignResult) -> Option<Markup>),
 }
 
-/// The sections that a result has something for with their content, in reading order.
-pub fn rendered(result: &CampaignResult) -> Vec<(&'static Section, Markup)> {
-    SECTIONS
-        .iter()
-        .filter_map(|section| {
-            let content = match section.render {
-                Render::Always(render) => render(result),
-                Render::Sometimes(render) => render(result)?,
-                Render::Diagnosed(render) => render(result.diagnosis.as_ref()?, result)?,
-            };
-            Some((section, content))
-        })
-        .collect()
+/// A chapter that a result has something for: its sections with their content, in reading order.
+pub struct Rendered {
+    /// Which one.
+    pub chapter: &'static Chapter,
+    /// What it shows.
+    pub sections: Vec<(&'static Section, Markup)>,
 }
 
-/// Every section, from what a manager asks to what an engineer asks; what a diagnosis shows stands right after the
-/// overview.
-const SECTIONS: &[Section] = &[
-    overview::SECTION,
-    verdict::SECTION,
-    ladder::SECTION,
-    before_after::SECTION,
-    ranking::SECTION,
-    location::SECTION,
-    comparison::SECTION,
-    detectability::SECTION,
-    effort::SECTION,
-    validation::SECTION,
-    selection::SECTION,
-    corrections::SECTION,
-    tightening_figures::SECTION,
-    distributions::SECTION,
-    conditions::SECTION,
-    p_values::SECTION,
-    torque::SECTION,
-    tightening_table::SECTION,
-    identifiability::SECTION,
-    findings::SECTION,
-    deviations::SECTION,
-    study::SECTION,
-    glossary::SECTION,
-];
+/// The chapters that a result has something for.
+pub fn rendered(result: &CampaignResult) -> Vec<Rendered> {
+    let content = |section: &'static Section| {
+        let content = match section.render {
+            Render::Always(render) => render(result),
+            Render::Sometimes(render) => render(result)?,
+            Render::Diagnosed(render) => render(result.diagnosis.as_ref()?, result)?,
+        };
+        Some((section, content))
+    };
+    let chapters = CHAPTERS.iter().map(|chapter| Rendered {
+        chapter,
+        sections: chapter.sections.iter().filter_map(content).collect(),
+    });
+    chapters.filter(|one| !one.sections.is_empty()).collect()
+}
 
 /// The levels of every factor, factors and levels in the order in which they come.
 fn factors(result: &CampaignResult) -> Vec<(&str, Vec<&ConditionSummary>)> {

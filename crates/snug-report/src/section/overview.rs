@@ -1,6 +1,7 @@
 //! The page's opening: the outcome in one sentence, key numbers, and a warning where data were left out or changed.
 
 use super::{Render, Section, findings_of, fitted};
+use crate::effect_words::sentence;
 use crate::number::{fixed, missing, percent, percent_interval, plain, rounded, share, short};
 use crate::quantity::{self, capitalised};
 use crate::quartiles::Quartiles;
@@ -21,8 +22,12 @@ pub const SECTION: Section = Section {
 };
 
 fn render(result: &CampaignResult) -> Markup {
+    let verdict = result.diagnosis.as_ref();
     html! {
-        p.lead { (outcome(result)) }
+        @if let Some(found) = verdict {
+            p.lead { span.verdict.(found.verdict.name()) { (found.word()) } " " (sentence(&found.headline)) }
+        }
+        p.lead[verdict.is_none()] { (outcome(result)) }
         p { (measured(result)) }
         (key_numbers(result))
         (attention(result))
@@ -64,7 +69,7 @@ fn usable(result: &CampaignResult, all: usize) -> String {
         );
     }
     let agreement = match error_over_noise(result) {
-        // The verdict, right below, judges all tightenings together, and is the better judge.
+        // The verdict, right above, judges all tightenings together, and is the better judge.
         Some(ratio) if result.diagnosis.is_some() => format!(
             "in half of them the model leaves {} times the measurement noise or less",
             fixed(ratio, 2)

@@ -18,15 +18,26 @@ pub fn assert_finite_attributes(page: &str) {
     }
 }
 
-/// Names of a page's sections, in order; its list of contents leads to just these.
+/// Names of a page's sections, in order; its list of contents leads to just its chapters, and they to just their sections.
 pub fn sections(page: &str) -> Vec<&str> {
     let (_, rest) = page
         .split_once("<nav class=\"contents\"")
         .expect("a list of contents");
-    let (contents, _) = rest.split_once("</nav>").expect("its end");
+    let (contents, rest) = rest.split_once("</nav>").expect("its end");
     let listed = between(contents, "href=\"#", "\"");
-    assert_eq!(listed, between(page, "<section id=\"", "\""));
-    listed
+    assert_eq!(listed, between(rest, "<div class=\"chapter\" id=\"", "\""));
+    let chapters = rest.split("<div class=\"chapter\"").skip(1);
+    let sections = chapters.flat_map(|chapter| {
+        let own = between(chapter, "<section id=\"", "\"");
+        let parts = chapter.split_once("<span class=\"parts\">");
+        let parts = parts.and_then(|(_, rest)| rest.split_once("</span>"));
+        match parts {
+            Some((parts, _)) => assert_eq!(between(parts, "href=\"#", "\""), own),
+            None => assert_eq!(own.len(), 1, "{own:?}"),
+        }
+        own
+    });
+    sections.collect()
 }
 
 fn between<'a>(text: &'a str, start: &str, end: &str) -> Vec<&'a str> {
