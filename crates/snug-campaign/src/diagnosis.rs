@@ -3,7 +3,7 @@
 use crate::words::headline::Headline;
 use crate::words::reason::Reason;
 use crate::words::stopped::Stopped;
-use crate::{Comparison, Drift, Factor, Location, TighteningId, Traces};
+use crate::{Comparison, Drift, Factor, Location, Rung};
 use serde::{Deserialize, Serialize};
 
 /// What the campaign says about the model.
@@ -247,29 +247,6 @@ pub struct CorrectedEffect {
     pub unit: String,
 }
 
-/// One rung of the error ladder: a model and what it leaves.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Rung {
-    /// Effects in the model.
-    pub effects: Vec<String>,
-    /// Pooled root mean square of the whitened residual; `None` when the noise is not known.
-    pub error_over_noise: Option<f64>,
-    /// The same in tightenings that took no part in fixing the effects' sizes.
-    pub heldout_error_over_noise: Option<f64>,
-    /// The same with whole target torques held out; `None` with fewer than two.
-    pub heldout_target_error_over_noise: Option<f64>,
-    /// The same with whole participants held out; `None` with fewer than two.
-    pub heldout_participant_error_over_noise: Option<f64>,
-    /// Root-mean-square residual of the fitted output, in its unit.
-    pub rms_fitted_output: f64,
-    /// Root-mean-square residual of the displacement \[rad\].
-    pub rms_displacement_rad: Option<f64>,
-    /// Median over tightenings of the displacement's fit \[%\].
-    pub fit_percent_median: Option<f64>,
-    /// Share of tightenings that the study's preset selects.
-    pub selected_fraction: f64,
-}
-
 /// The noise that errors are compared with.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct NoiseStatement {
@@ -369,17 +346,6 @@ pub struct Removal {
     pub statement: String,
 }
 
-/// One tightening before and after: the study's own model and the final one on the same measurement.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Showcase {
-    /// Which one: where the study's own model fails most.
-    pub id: TighteningId,
-    /// Signals with the study's own model.
-    pub before: Traces,
-    /// Signals with the final model.
-    pub after: Traces,
-}
-
 /// How much work a diagnosis was: counts, no times, the same on every run and for any number of threads.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct WorkDone {
@@ -446,8 +412,6 @@ pub struct Diagnosis {
     pub unlisted: Option<UnlistedTerm>,
     /// What would tell the winner from its twins.
     pub experiment: Option<Experiment>,
-    /// One tightening before and after; `None` when the model did not change.
-    pub showcase: Option<Showcase>,
     /// How much work it was.
     pub work: WorkDone,
 }
@@ -456,7 +420,8 @@ impl Diagnosis {
     /// The formula of a term that is in no catalogue, added or ranked; nothing for an effect that has a name of its own.
     pub fn expression(&self, effect: &str) -> Option<&String> {
         let added = self.added.iter().map(|one| (&one.effect, &one.expression));
-        let ranked = self.ranking.iter();
+        let earlier = self.ladder.iter().flat_map(|rung| &rung.ranking);
+        let ranked = self.ranking.iter().chain(earlier);
         let mut known = added.chain(ranked.map(|one| (&one.effect, &one.expression)));
         known.find(|(name, _)| *name == effect)?.1.as_ref()
     }

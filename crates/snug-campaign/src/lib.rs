@@ -15,6 +15,7 @@ mod noise;
 mod parameter;
 mod recording;
 mod rig;
+mod rung;
 mod tightening;
 mod time_base;
 mod units;
@@ -30,7 +31,7 @@ pub use conditions::Conditions;
 pub use diagnosis::{
     AddedEffect, ChangePoint, CorrectedEffect, Detectability, Diagnosis, Doubt, EffectParameter,
     Experiment, GroupSize, GroupSizes, InSomeGroups, NegativeControl, NoiseStatement, RankedEffect,
-    Removal, Rung, Showcase, SizeComparison, UnlistedTerm, Verdict, WorkDone, sharing,
+    Removal, SizeComparison, UnlistedTerm, Verdict, WorkDone, sharing,
 };
 pub use diagnosis_summary::DiagnosisSummary;
 pub use estimate::{Estimate, FitStatus, Identifiability, Interval, NORMAL_95, ParameterEstimate};
@@ -43,6 +44,7 @@ pub use noise::{NoiseFloor, NoiseSource};
 pub use parameter::{Parameter, ParameterSource};
 pub use recording::{Motion, Recording, Segment};
 pub use rig::{Intersample, Quantity, Rig};
+pub use rung::{Became, Rung};
 pub use tightening::{
     Correction, FitMeasures, Rejection, Selection, Tightening, TighteningId, TighteningResult,
     Traces,

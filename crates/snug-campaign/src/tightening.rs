@@ -220,6 +220,9 @@ pub struct Traces {
     pub measured: Motion,
     /// Simulated motion.
     pub simulated: Motion,
+    /// Motion simulated with the model that a diagnosis began with; empty where the model is that one still.
+    #[serde(default)]
+    pub before: Motion,
     /// Displacement by the explicit Euler method \[rad\].
     pub euler_displacement_rad: Vec<f64>,
     /// F1 = l (c ω + k θ) with simulated ω, θ \[N\].
@@ -237,6 +240,9 @@ pub struct Traces {
 pub struct TighteningResult {
     /// Which one.
     pub id: TighteningId,
+    /// When its segment began, on the clock of its file's events \[s\]; `None` where the file has none.
+    #[serde(default)]
+    pub started_at_s: Option<f64>,
     /// Its conditions.
     pub conditions: Conditions,
     /// The rig's constants for it.

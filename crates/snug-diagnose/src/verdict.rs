@@ -9,6 +9,7 @@ pub(crate) mod floor;
 mod in_some_groups;
 pub(crate) mod ladder;
 pub(crate) mod preparation;
+mod ranking_told;
 pub(crate) mod reasons;
 pub(crate) mod thresholds;
 pub(crate) mod tightening_fits;

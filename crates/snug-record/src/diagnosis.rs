@@ -2,8 +2,9 @@
 
 use crate::schema::{Field, Message, count, flag, group, list, number, pure_number, text};
 use serde::Serialize;
+use snug_campaign::words::effect_name::rung_names;
 use snug_campaign::words::remark::Remark;
-use snug_campaign::{Diagnosis, DiagnosisSummary, Misfit};
+use snug_campaign::{Became, Diagnosis, DiagnosisSummary, Misfit, RankedEffect};
 
 /// The message of `/verdict`: the diagnosis without ladder and ranking, which have topics of their own, and without maps
 /// and signals.
@@ -28,12 +29,84 @@ pub(crate) fn verdict(diagnosis: &Diagnosis) -> VerdictMessage<'_> {
     }
 }
 
-/// A rung or a candidate with its place, counted from 1.
+/// A rung with its place, counted from 1. Its ranking has a topic of its own.
 #[derive(Serialize)]
-pub(crate) struct Placed<'a, T> {
-    pub(crate) place: usize,
+pub(crate) struct PlacedRung<'a> {
+    place: usize,
+    step: String,
+    effects: &'a [String],
+    error_over_noise: Option<f64>,
+    heldout_error_over_noise: Option<f64>,
+    heldout_target_error_over_noise: Option<f64>,
+    heldout_participant_error_over_noise: Option<f64>,
+    rms_fitted_output: f64,
+    rms_displacement_rad: Option<f64>,
+    fit_percent_median: Option<f64>,
+    selected_fraction: f64,
+}
+
+/// Every rung of the ladder.
+pub(crate) fn rungs(diagnosis: &Diagnosis) -> impl Iterator<Item = PlacedRung<'_>> {
+    let rungs = diagnosis.ladder.iter().zip(rung_names(diagnosis));
+    rungs.zip(1..).map(|((rung, step), place)| PlacedRung {
+        place,
+        step,
+        effects: &rung.effects,
+        error_over_noise: rung.error_over_noise,
+        heldout_error_over_noise: rung.heldout_error_over_noise,
+        heldout_target_error_over_noise: rung.heldout_target_error_over_noise,
+        heldout_participant_error_over_noise: rung.heldout_participant_error_over_noise,
+        rms_fitted_output: rung.rms_fitted_output,
+        rms_displacement_rad: rung.rms_displacement_rad,
+        fit_percent_median: rung.fit_percent_median,
+        selected_fraction: rung.selected_fraction,
+    })
+}
+
+/// A candidate with its place in the ranking beside the model of a rung, both counted from 1, and what became of it.
+#[derive(Serialize)]
+pub(crate) struct PlacedCandidate<'a> {
+    rung: usize,
+    place: usize,
+    added_next: bool,
+    gain_beside_next: Option<f64>,
+    supported_beside_next: Option<bool>,
     #[serde(flatten)]
-    pub(crate) entry: &'a T,
+    entry: &'a RankedEffect,
+}
+
+/// The candidates of every rung, those of the last model at the end.
+pub(crate) fn candidates(diagnosis: &Diagnosis) -> Vec<PlacedCandidate<'_>> {
+    let last = diagnosis.ladder.len().saturating_sub(1);
+    let earlier = diagnosis.ladder.iter().map(|rung| &rung.ranking);
+    let rankings = (0..).zip(earlier).chain([(last, &diagnosis.ranking)]);
+    rankings
+        .flat_map(|(rung, ranking)| {
+            let entries = ranking.iter().zip(1..);
+            entries.map(move |(entry, place)| placed(diagnosis, rung, place, entry))
+        })
+        .collect()
+}
+
+fn placed<'a>(
+    diagnosis: &Diagnosis,
+    rung: usize,
+    place: usize,
+    entry: &'a RankedEffect,
+) -> PlacedCandidate<'a> {
+    let became = diagnosis.became(rung, &entry.effect);
+    let (gain, supported) = match became {
+        Became::Ranked { share, supported } => (Some(share), Some(supported)),
+        Became::Added | Became::NotRanked => (None, None),
+    };
+    PlacedCandidate {
+        rung: rung + 1,
+        place,
+        added_next: became == Became::Added,
+        gain_beside_next: gain,
+        supported_beside_next: supported,
+        entry,
+    }
 }
 
 /// The table of `/ladder`.
@@ -42,6 +115,7 @@ pub(crate) const LADDER: Message = Message {
     about: "One model of the error ladder and what it leaves",
     fields: &[
         count("place", "Place on the ladder, the study's own model 1"),
+        text("step", "What this model has that the one before has not"),
         list(text("effects", "Effects in the model")),
         pure_number(
             "error_over_noise",
@@ -97,7 +171,17 @@ pub(crate) const RANKING: Message = Message {
     name: "snug.RankedEffect",
     about: "One candidate for what the model lacks",
     fields: &[
+        count(
+            "rung",
+            "Rung of the ladder beside whose model it was tried, the study's own 1",
+        ),
         count("place", "Place in the ranking, the best 1"),
+        flag("added_next", "It is in the model of the next ranking"),
+        pure_number(
+            "gain_beside_next",
+            "Share of the same misfit that it removes once the next effects are in the model",
+        ),
+        flag("supported_beside_next", "The data support it then"),
         text("effect", "Effect"),
         text("kind", "Kind of the effect"),
         flag("unlisted", "In no catalogue"),

@@ -4,6 +4,7 @@ use crate::topic;
 use serde_json::{Map, Value, json};
 
 const RED: &str = "#c0392b";
+const ORANGE: &str = "#e69138";
 const BLUE: &str = "#1f77b4";
 const GREEN: &str = "#2ca02c";
 const GREY: &str = "#7f7f7f";
@@ -71,6 +72,7 @@ fn motion_plots() -> [Part; 3] {
     let motion = |quantity: &str| {
         vec![
             signal(&format!("measured.{quantity}"), "measured", BLUE),
+            signal(&format!("before.{quantity}"), "before", ORANGE),
             signal(&format!("simulated.{quantity}"), "simulated", RED),
         ]
     };
@@ -178,6 +180,7 @@ fn diagnosis_tab() -> Part {
     ];
     let messages = [
         raw("verdict", "Verdict", topic::VERDICT),
+        raw("rung", "Rung", topic::LADDER),
         raw("candidate", "Candidate", topic::RANKING),
     ];
     split("row", column(plots), column(messages), 55.0)

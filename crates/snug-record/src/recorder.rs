@@ -214,7 +214,7 @@ impl<'w> Recorder<'w> {
         self.known(topic::TESTS, &statistics::TESTS, &tests)
     }
 
-    /// Writes what is missing in the model: the verdict, then every rung of the ladder and every candidate of the ranking.
+    /// Writes what is missing in the model: the verdict, then every rung of the ladder and every candidate of every rung's ranking.
     ///
     /// Rungs follow one another on the time axis by a tenth of a second, and so do candidates, so that plots show them
     /// side by side.
@@ -225,14 +225,12 @@ impl<'w> Recorder<'w> {
         let verdict = diagnosis::verdict(found);
         self.json(topic::VERDICT, "snug.Verdict", &verdict)?;
         let start_ns = self.cursor_ns;
-        for (place, entry) in (1..).zip(&found.ladder) {
-            let rung = diagnosis::Placed { place, entry };
+        for rung in diagnosis::rungs(found) {
             self.known(topic::LADDER, &diagnosis::LADDER, &rung)?;
             self.cursor_ns = self.cursor_ns.saturating_add(PLACE_NS);
         }
         let ladder_end_ns = std::mem::replace(&mut self.cursor_ns, start_ns);
-        for (place, entry) in (1..).zip(&found.ranking) {
-            let candidate = diagnosis::Placed { place, entry };
+        for candidate in diagnosis::candidates(found) {
             self.known(topic::RANKING, &diagnosis::RANKING, &candidate)?;
             self.cursor_ns = self.cursor_ns.saturating_add(PLACE_NS);
         }
@@ -381,6 +379,7 @@ fn window(
         tightening,
         file: result.id.file.clone(),
         number: result.id.number,
+        started_at_s: result.started_at_s,
         conditions: result.conditions.clone(),
         rig: result.rig,
         peak_torque_nm: result.peak_torque_nm,

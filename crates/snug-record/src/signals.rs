@@ -34,6 +34,16 @@ const SIMULATED: &[Field] = &[
     ),
 ];
 
+const BEFORE: &[Field] = &[
+    single("displacement_rad", "rad", "Simulated angle of the tool"),
+    single("velocity_rad_per_s", "rad/s", "Simulated angular velocity"),
+    single(
+        "acceleration_rad_per_s2",
+        "rad/s^2",
+        "Simulated angular acceleration",
+    ),
+];
+
 const RESIDUAL: &[Field] = &[
     single("displacement_rad", "rad", "Measured minus simulated angle"),
     single(
@@ -74,6 +84,11 @@ pub(crate) const SIGNALS: Message = Message {
         group("simulated", SIMULATED, "Simulated signals"),
         group("residual", RESIDUAL, "Measured minus simulated"),
         group("forces", FORCES, "Force between tool and hand"),
+        group(
+            "before",
+            BEFORE,
+            "Simulated with the model that the diagnosis began with, where that is another",
+        ),
     ],
 };
 
@@ -86,6 +101,7 @@ pub(crate) struct Columns<'a> {
     euler_displacement_rad: Option<&'a [f64]>,
     forces_n: [Option<&'a [f64]>; 3],
     grip_force_n: Option<&'a [f64]>,
+    before: [Option<&'a [f64]>; 3],
     group: Vec<u8>,
 }
 
@@ -132,6 +148,7 @@ impl<'a> Columns<'a> {
                 optional("force_f3_n", &traces.force_f3_n)?,
             ],
             grip_force_n: check("grip_force_n", traces.grip_force_n.as_deref())?,
+            before: motion("before", &traces.before)?,
             group: Vec::new(),
         })
     }
@@ -173,6 +190,13 @@ impl<'a> Columns<'a> {
         }
         put_double(group, 4, at(self.grip_force_n));
         put_bytes(out, 7, group);
+        if self.before.iter().any(Option::is_some) {
+            group.clear();
+            for (number, column) in (1..).zip(self.before) {
+                put_single(group, number, at(column) as f32);
+            }
+            put_bytes(out, 8, group);
+        }
     }
 }
 

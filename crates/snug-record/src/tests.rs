@@ -46,6 +46,10 @@ fn traces(seed: u64, length: usize, force: bool) -> Traces {
             velocity_rad_per_s: Some(column(4)),
             acceleration_rad_per_s2: Some(column(5)),
         },
+        before: Motion {
+            acceleration_rad_per_s2: Some(column(10)),
+            ..Motion::default()
+        },
         euler_displacement_rad: column(6),
         force_f1_n: column(7),
         force_f2_n: Vec::new(),
@@ -56,6 +60,7 @@ fn traces(seed: u64, length: usize, force: bool) -> Traces {
 
 fn result(file: &str, number: u32, estimate: Option<Estimate>) -> TighteningResult {
     TighteningResult {
+        started_at_s: None,
         id: TighteningId {
             file: file.into(),
             number,

@@ -14,6 +14,9 @@ pub struct Window {
     pub file: String,
     /// 1-based number within the file.
     pub number: u32,
+    /// When its segment began, on the clock of its file's events \[s\]: the recording's own time axis leaves the pauses out.
+    #[serde(default)]
+    pub started_at_s: Option<f64>,
     /// Its conditions.
     pub conditions: Conditions,
     /// The rig's constants for it.
@@ -127,6 +130,11 @@ pub(crate) const WINDOW: Message = Message {
         count("tightening", "Running number within the recording"),
         text("file", "Measurement file"),
         count("number", "Number within the file"),
+        number(
+            "started_at_s",
+            "s",
+            "When the segment began, on the clock of its file's events",
+        ),
         group("conditions", CONDITIONS, "Conditions"),
         group("rig", RIG, "Known constants of the rig"),
         number("peak_torque_nm", "N m", "Largest torque"),

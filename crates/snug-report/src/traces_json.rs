@@ -9,6 +9,8 @@ use snug_campaign::{CampaignResult, Quantity, SignalUnits, Traces};
 
 /// Points over all examples together: keeps the page small, and a lone example fine enough to zoom into.
 const POINTS_IN_ALL: usize = 24_000;
+/// The same of those that show before and after, whose measurements are drawn twice.
+const POINTS_BEFORE_AND_AFTER: usize = 9_600;
 const POINTS_PER_EXAMPLE: std::ops::RangeInclusive<usize> = 240..=4000;
 /// A panel whose curves are signals of the examples.
 pub type Panel = curves::Panel<Source>;
@@ -57,6 +59,47 @@ pub fn panels(result: &CampaignResult) -> Vec<Panel> {
     }
     panels.retain(|panel| !panel.series.is_empty());
     panels
+}
+
+/// A motion as measured, before and after, and what either model leaves; `None` where the example lacks one of them.
+pub fn before_after_panels(units: &SignalUnits, quantity: Quantity, has_noise: bool) -> [Panel; 2] {
+    let [measured, simulated, before] = match quantity {
+        Quantity::Displacement => ["xm", "xs", "xb"],
+        Quantity::Velocity => ["vm", "vs", "vb"],
+        Quantity::Acceleration => ["am", "as", "ab"],
+    };
+    let broad = match quantity {
+        Quantity::Displacement => "c-measured broad",
+        _ => "c-measured",
+    };
+    let left = |model, label, class| Series {
+        label,
+        class,
+        source: Source {
+            key: measured,
+            minus: Some(model),
+        },
+    };
+    let name = crate::quantity::capitalised(quantity.name());
+    let motion = panel(
+        &format!("{name}: model and measurement"),
+        motion_axis(units, quantity),
+        vec![
+            series(measured, "measured", broad),
+            series(before, "before", "c-rejected"),
+            series(simulated, "after", "c-simulated"),
+        ],
+    );
+    let rest = Panel {
+        title: format!("{name}: what is left over"),
+        axis: format!("measured − simulated [{}]", units.motion(quantity)),
+        series: vec![
+            left(before, "before".into(), "c-rejected"),
+            left(simulated, "after".into(), "c-simulated"),
+        ],
+        residual: has_noise,
+    };
+    [motion, rest]
 }
 
 fn motion_panels(units: &SignalUnits) -> Vec<Panel> {
@@ -151,6 +194,9 @@ fn samples<'a>(traces: &'a Traces, key: &str) -> Option<&'a [f64]> {
         "xs" => traces.simulated.get(Quantity::Displacement),
         "vs" => traces.simulated.get(Quantity::Velocity),
         "as" => traces.simulated.get(Quantity::Acceleration),
+        "xb" => traces.before.get(Quantity::Displacement),
+        "vb" => traces.before.get(Quantity::Velocity),
+        "ab" => traces.before.get(Quantity::Acceleration),
         "xe" => Some(traces.euler_displacement_rad.as_slice()),
         "f1" => Some(traces.force_f1_n.as_slice()),
         "f2" => Some(traces.force_f2_n.as_slice()),
@@ -174,7 +220,11 @@ pub struct Example<'a> {
 
 /// The examples whose tightening exists, each decimated to its share of the points.
 pub fn examples(result: &CampaignResult) -> Vec<Example<'_>> {
-    let share = POINTS_IN_ALL / result.examples.len().max(1);
+    examples_of(result, POINTS_IN_ALL)
+}
+
+fn examples_of(result: &CampaignResult, points_in_all: usize) -> Vec<Example<'_>> {
+    let share = points_in_all / result.examples.len().max(1);
     let points = share.clamp(*POINTS_PER_EXAMPLE.start(), *POINTS_PER_EXAMPLE.end());
     result
         .examples
@@ -182,6 +232,18 @@ pub fn examples(result: &CampaignResult) -> Vec<Example<'_>> {
         .filter(|(tightening, _)| *tightening < result.tightenings.len())
         .map(|(tightening, traces)| Example::new(*tightening, traces, points, &result.units))
         .collect()
+}
+
+/// Those of them that were simulated with the model before, too.
+pub fn before_and_after(result: &CampaignResult) -> Vec<Example<'_>> {
+    let mut examples = examples_of(result, POINTS_BEFORE_AND_AFTER);
+    examples.retain(|one| {
+        let before = &one.traces.before;
+        Quantity::ALL
+            .iter()
+            .any(|quantity| before.get(*quantity).is_some())
+    });
+    examples
 }
 
 impl<'a> Example<'a> {
@@ -196,7 +258,9 @@ impl<'a> Example<'a> {
             keys.iter().filter_map(|key| samples(traces, key)).collect()
         };
         let leading = *all(&["am", "vm", "xm", "tq"]).first().unwrap_or(&&[][..]);
-        let others = all(&["xm", "xs", "xe", "as", "fo", "f1", "f2", "f3", "tq"]);
+        let others = all(&[
+            "xm", "xs", "xb", "xe", "as", "ab", "fo", "f1", "f2", "f3", "tq",
+        ]);
         Self {
             tightening,
             traces,

@@ -126,17 +126,19 @@ fn without_noise_the_ladder_is_in_the_output_s_unit() {
 fn before_and_after_hold_the_measured_and_both_simulated_samples() {
     let result = diagnosed::improve();
     let page = html(&result);
-    let showcase = result
-        .diagnosis
-        .as_ref()
-        .unwrap()
-        .showcase
-        .as_ref()
+    let worst = &result.diagnosis.as_ref().unwrap().comparison.tightenings[0];
+    let mut examples = result.examples.iter();
+    let (_, traces) = examples
+        .find(|(index, _)| result.tightenings[*index].id == worst.id)
         .unwrap();
     has(
         &page,
         "before-after",
-        &[&showcase.id.to_string(), "measured − simulated [rad/s²]"],
+        &[
+            &worst.id.to_string(),
+            "24 of 24 tightenings",
+            "measured − simulated [rad/s²]",
+        ],
     );
     let start = page.find("id=\"showcase-data\">").unwrap() + "id=\"showcase-data\">".len();
     let end = start + page[start..].find("</script>").unwrap();
@@ -153,9 +155,9 @@ fn before_and_after_hold_the_measured_and_both_simulated_samples() {
     for (point, step) in example["steps"].as_array().unwrap().iter().enumerate() {
         sample += step.as_u64().unwrap() as usize;
         for (line, motion) in [
-            (0, &showcase.after.measured),
-            (1, &showcase.before.simulated),
-            (2, &showcase.after.simulated),
+            (0, &traces.measured),
+            (1, &traces.before),
+            (2, &traces.simulated),
         ] {
             let truth = motion.acceleration_rad_per_s2.as_ref().unwrap()[sample];
             let drawn = read(line)[point].as_f64().unwrap();
@@ -191,7 +193,7 @@ fn errors_stand_by_tightening() {
 
 #[test]
 fn absent_parts_leave_their_sections_out() {
-    let result = with(|diagnosis| {
+    let mut result = with(|diagnosis| {
         diagnosis.ladder.clear();
         diagnosis.ranking.clear();
         diagnosis.added.clear();
@@ -204,10 +206,12 @@ fn absent_parts_leave_their_sections_out() {
         diagnosis.location = Location::default();
         diagnosis.final_location = None;
         diagnosis.control = None;
-        diagnosis.showcase = None;
         diagnosis.work = WorkDone::default();
         diagnosis.stopped = None;
     });
+    for (_, traces) in &mut result.examples {
+        traces.before = snug_campaign::Motion::default();
+    }
     let page = html(&result);
     markup::start_tags(&page).unwrap();
     assert_eq!(found(&page), ["verdict"]);
@@ -215,7 +219,7 @@ fn absent_parts_leave_their_sections_out() {
 
 #[test]
 fn what_is_not_finite_never_reaches_the_reader() {
-    let result = with(|diagnosis| {
+    let mut result = with(|diagnosis| {
         for rung in &mut diagnosis.ladder {
             rung.error_over_noise = Some(f64::NAN);
             rung.rms_fitted_output = f64::INFINITY;
@@ -246,22 +250,12 @@ fn what_is_not_finite_never_reaches_the_reader() {
         diagnosis.drift[0].change_percent = f64::NAN;
         diagnosis.comparison.pooled[0].rms = f64::NAN;
         diagnosis.detectability[0].smallest_detectable = Some(f64::INFINITY);
-        let showcase = diagnosis.showcase.as_mut().unwrap();
-        showcase
-            .after
-            .simulated
-            .acceleration_rad_per_s2
-            .as_mut()
-            .unwrap()
-            .truncate(7);
-        showcase
-            .before
-            .simulated
-            .displacement_rad
-            .as_mut()
-            .unwrap()
-            .fill(f64::NAN);
     });
+    let (_, traces) = &mut result.examples[0];
+    let simulated = &mut traces.simulated.acceleration_rad_per_s2;
+    simulated.as_mut().unwrap().truncate(7);
+    let before = &mut traces.before.displacement_rad;
+    before.as_mut().unwrap().fill(f64::NAN);
     let page = html(&result);
     markup::assert_finite_attributes(&page);
     for anchor in found(&page) {

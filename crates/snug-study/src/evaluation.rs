@@ -120,6 +120,7 @@ pub fn without_estimate(study: &Study, recording: &Recording, segment: &Segment)
     let peak_torque_nm = finite.reduce(f64::max).unwrap_or(f64::NAN);
     Evaluated {
         result: TighteningResult {
+            started_at_s: None,
             id: TighteningId {
                 file: recording.file.clone(),
                 number: segment.number,
@@ -256,6 +257,7 @@ fn simulated(
     };
     Ok(Evaluated {
         result: TighteningResult {
+            started_at_s: None,
             id: tightening.id.clone(),
             conditions: tightening.conditions.clone(),
             rig: tightening.rig,
@@ -295,6 +297,7 @@ fn traces(
         tightening.time_base.interval_s,
     )?;
     Ok(Traces {
+        before: Motion::default(),
         time_base: tightening.time_base,
         torque_nm: tightening.torque_nm.clone(),
         measured: tightening.motion.clone(),

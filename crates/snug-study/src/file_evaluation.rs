@@ -2,7 +2,7 @@
 
 use crate::evaluation::{Evaluated, fitted, validated, without_estimate};
 use crate::prepared_file::PreparedFile;
-use crate::rungs::{Ladder, RungShare};
+use crate::rungs::{Ladder, RungShare, Simulated};
 use crate::validation::mean_estimate;
 use crate::{Study, StudyError};
 use snug_campaign::{Estimate, Finding, Recording, Rejection, Severity, TighteningId};
@@ -67,11 +67,16 @@ pub fn evaluate_file(
         Purpose::Validate(_) => &[],
     };
     for (recording, prepared) in file.recordings {
+        let mut before = None;
         for (rung, share) in rungs_before.iter().zip(&mut whole.rungs) {
             let (evaluated, _) = evaluate(rung, &recording, &prepared, purpose)?;
-            share.add(RungShare::of(&evaluated, ladder.and_then(Ladder::shown)));
+            share.add(RungShare::of(&evaluated));
+            before.get_or_insert_with(|| Simulated::of(evaluated));
         }
-        let (evaluated, findings) = evaluate(study, &recording, &prepared, purpose)?;
+        let (mut evaluated, findings) = evaluate(study, &recording, &prepared, purpose)?;
+        if let Some(before) = before {
+            before.stand_beside(&mut evaluated);
+        }
         whole.findings.extend(prepared.findings);
         whole.findings.extend(findings);
         if let (Some(other), Some(there)) = (&other, &mut whole.other_preset) {
@@ -83,8 +88,8 @@ pub fn evaluate_file(
                 whole.findings.extend(seen.map(as_note));
             }
         }
-        if let (Some(ladder), Some(last)) = (ladder, whole.rungs.last_mut()) {
-            last.add(RungShare::of(&evaluated, ladder.shown()));
+        if let Some(last) = whole.rungs.last_mut() {
+            last.add(RungShare::of(&evaluated));
         }
         whole.recordings.push(recording);
         whole.evaluated.extend(evaluated);
@@ -207,6 +212,12 @@ fn evaluate(
             }
             evaluated.push(without);
         }
+    }
+    for one in &mut evaluated {
+        let mut segments = prepared.segments.iter();
+        let own = segments.find(|segment| segment.number == one.result.id.number);
+        let times_s = own.and_then(|segment| segment.event_times_s);
+        one.result.started_at_s = times_s.map(|[start_s, ..]| start_s);
     }
     evaluated.sort_by_key(|one| one.result.id.number);
     Ok((evaluated, findings))

@@ -236,7 +236,11 @@ struct Run<'a> {
 impl Run<'_> {
     fn carry_out(mut self, listing: Listing, mut output: Output) -> Result<Outcome, StudyError> {
         let progress = self.progress;
-        let mut collected = Collected::default();
+        let asked_for = self.task.ladder.as_ref().and_then(Ladder::shown);
+        let mut collected = Collected {
+            examples: Examples::with(asked_for.cloned()),
+            ..Collected::default()
+        };
         collected.note(listing.findings, &mut output)?;
         collected.note(std::mem::take(&mut self.task.notes), &mut output)?;
         let left = self.evaluate(&listing.files, &mut collected, &mut output)?;
@@ -384,7 +388,8 @@ impl Collected {
         {
             if let Some(traces) = traces {
                 output.record(|recorder| recorder.tightening(&result, &traces, onset))?;
-                self.examples.offer(self.tightenings.len(), traces);
+                let index = self.tightenings.len();
+                self.examples.offer(index, &result.id, traces);
             }
             self.tightenings.push(result);
         }

@@ -3,7 +3,7 @@
 use crate::Study;
 use crate::evaluation::Evaluated;
 use snug_campaign::words::headline::Headline;
-use snug_campaign::{Diagnosis, Rejection, Rung, Showcase, TighteningId, Traces, Verdict};
+use snug_campaign::{Diagnosis, Motion, Rejection, Rung, TighteningId, Verdict};
 use snug_statistics::descriptive::median;
 
 /// What a diagnosis found out, with the models whose evaluation completes it.
@@ -14,16 +14,14 @@ pub(crate) struct Ladder {
 }
 
 impl Ladder {
-    /// The tightening whose signals are shown before and after.
+    /// The tightening whose signals are shown whichever others are.
     pub fn shown(&self) -> Option<&TighteningId> {
         (self.diagnosis.comparison.tightenings.first()).map(|worst| &worst.id)
     }
 
     /// The diagnosis with what the evaluation of all files says of every rung.
     pub fn completed(self, shares: Vec<RungShare>) -> Diagnosis {
-        let shown = self.shown().cloned();
         let mut diagnosis = self.diagnosis;
-        let mut ends = (None, None);
         let last = shares.len().saturating_sub(1);
         for (number, (rung, share)) in diagnosis.ladder.iter_mut().zip(shares).enumerate() {
             share.complete(rung);
@@ -31,14 +29,6 @@ impl Ladder {
                 (diagnosis.verdict, diagnosis.headline) =
                     with_nothing_usable(diagnosis.verdict, diagnosis.headline);
             }
-            match number {
-                0 => ends.0 = share.traces,
-                number if number == last => ends.1 = share.traces,
-                _ => {}
-            }
-        }
-        if let (Some(id), (Some(before), Some(after))) = (shown, ends) {
-            diagnosis.showcase = Some(Showcase { id, before, after });
         }
         diagnosis
     }
@@ -64,6 +54,31 @@ fn with_nothing_usable(verdict: Verdict, headline: Headline) -> (Verdict, Headli
     }
 }
 
+/// The motions that a model simulates, by the number of the tightening within its file.
+pub(crate) struct Simulated(Vec<(u32, Motion)>);
+
+impl Simulated {
+    /// Of tightenings of one file.
+    pub fn of(evaluated: Vec<Evaluated>) -> Self {
+        let motions = evaluated.into_iter().filter_map(|one| {
+            let traces = one.traces?;
+            Some((one.result.id.number, traces.simulated))
+        });
+        Self(motions.collect())
+    }
+
+    /// Puts them beside what the last model simulates, as what was before.
+    pub fn stand_beside(self, evaluated: &mut [Evaluated]) {
+        for (number, motion) in self.0 {
+            let mut all = evaluated.iter_mut();
+            let same = all.find(|one| one.result.id.number == number);
+            if let Some(traces) = same.and_then(|one| one.traces.as_mut()) {
+                traces.before = motion;
+            }
+        }
+    }
+}
+
 /// What evaluated tightenings say of a rung.
 #[derive(Default)]
 pub(crate) struct RungShare {
@@ -72,15 +87,13 @@ pub(crate) struct RungShare {
     fits_percent: Vec<f64>,
     selected: usize,
     count: usize,
-    /// Signals of the tightening that is shown.
-    traces: Option<Traces>,
 }
 
 impl RungShare {
     /// Of tightenings of one file; those kept for validation say nothing.
-    pub fn of(evaluated: &[Evaluated], shown: Option<&TighteningId>) -> Self {
+    pub fn of(evaluated: &[Evaluated]) -> Self {
         let mut share = Self::default();
-        for Evaluated { result, traces, .. } in evaluated {
+        for Evaluated { result, .. } in evaluated {
             if result.selection.rejections.contains(&Rejection::Validation) {
                 continue;
             }
@@ -89,9 +102,6 @@ impl RungShare {
             let rms = result.measures.rms_displacement_rad;
             share.squares_rad2.extend(rms.map(|rms| rms * rms));
             share.fits_percent.extend(result.measures.fit_percent);
-            if Some(&result.id) == shown && share.traces.is_none() {
-                share.traces.clone_from(traces);
-            }
         }
         share
     }
@@ -102,7 +112,6 @@ impl RungShare {
         self.fits_percent.extend(next.fits_percent);
         self.selected += next.selected;
         self.count += next.count;
-        self.traces = self.traces.take().or(next.traces);
     }
 
     fn complete(&self, rung: &mut Rung) {

@@ -148,6 +148,7 @@ fn result(case: &FitTask<'_>) -> (TighteningResult, Traces) {
         snug_model::inverse_dynamics_force(&tightening.rig, &tightening.torque_nm, acceleration)
     };
     let traces = Traces {
+        before: snug_campaign::Motion::default(),
         time_base: tightening.time_base,
         torque_nm: tightening.torque_nm.clone(),
         measured: tightening.motion.clone(),
@@ -160,6 +161,7 @@ fn result(case: &FitTask<'_>) -> (TighteningResult, Traces) {
         simulated,
     };
     let result = TighteningResult {
+        started_at_s: None,
         id: tightening.id.clone(),
         conditions: tightening.conditions.clone(),
         rig: tightening.rig,

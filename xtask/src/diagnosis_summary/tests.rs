@@ -62,6 +62,7 @@ fn rung(effects: &[&str], error: Option<f64>, selected: f64) -> Rung {
         rms_displacement_rad: None,
         fit_percent_median: None,
         selected_fraction: selected,
+        ranking: vec![],
     }
 }
 
@@ -147,7 +148,6 @@ fn missing() -> Diagnosis {
         }),
         unlisted: None,
         experiment: None,
-        showcase: None,
         work: WorkDone::default(),
     }
 }

@@ -43,6 +43,28 @@ pub fn names_in(diagnosis: &Diagnosis, effects: &[String]) -> String {
     names.collect::<Vec<_>>().join(", ")
 }
 
+/// What each rung changes against the one before.
+pub fn rung_names(diagnosis: &Diagnosis) -> Vec<String> {
+    let known = |effect: &String| called_in(diagnosis, effect);
+    let mut before: &[String] = &[];
+    let mut names = Vec::new();
+    for (place, rung) in diagnosis.ladder.iter().enumerate() {
+        let gained = rung.effects.iter().filter(|e| !before.contains(e));
+        let lost = before.iter().filter(|e| !rung.effects.contains(e));
+        let steps: Vec<String> = gained
+            .map(|effect| format!("+ {}", known(effect)))
+            .chain(lost.map(|effect| format!("− {}", known(effect))))
+            .collect();
+        names.push(match (steps.is_empty(), place) {
+            (true, 0) => "mass, damper, spring".into(),
+            (true, _) => "the same model".into(),
+            (false, _) => steps.join(" "),
+        });
+        before = &rung.effects;
+    }
+    names
+}
+
 /// An effect as a sentence names it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Named {

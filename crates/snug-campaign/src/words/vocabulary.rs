@@ -162,7 +162,8 @@ impl Vocabulary {
                 *size = axis.size(size);
             }
         };
-        for one in &mut told.ranking {
+        let earlier = told.ladder.iter_mut().flat_map(|rung| &mut rung.ranking);
+        for one in earlier.chain(&mut told.ranking) {
             all(&mut one.parameters);
         }
         for one in &mut told.added {

@@ -102,6 +102,12 @@ mod tests {
             !path.ranking.candidates.is_empty(),
             "what is left was ranked"
         );
+        let [Some(first)] = &path.ranked[..] else {
+            panic!("what was ranked beside the first model is kept")
+        };
+        assert!(first.beside.effects.is_empty());
+        let mut tried = first.ranking.candidates.iter();
+        assert!(tried.any(|one| one.effect == CubicStiffness));
         assert!(matches!(
             path.stopped,
             Some(Stop::NothingSupported { .. } | Stop::TooSmall { .. })

@@ -87,7 +87,9 @@ impl ModelSelection<'_> {
             let index = ranking.candidates.iter().position(|c| c.effect == effect);
             let Some(index) = index else { continue };
             let (addition, fitted) = self.step(&ranking, index, path.last());
-            path.add(addition, self.settled(&fitted)?);
+            let settled = self.settled(&fitted)?;
+            path.ranking = ranking;
+            path.add(addition, settled);
         }
         self.rank_last(path)?;
         let next = justified(&path.ranking, path.last(), &path.rungs[0], self.settings);

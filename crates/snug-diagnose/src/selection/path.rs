@@ -36,10 +36,20 @@ pub(crate) struct Attempt {
     pub growth: f64,
 }
 
+/// What was ranked beside a model before another was taken.
+pub(crate) struct Ranked {
+    /// The model as it was fitted then.
+    pub beside: Fitted,
+    /// Without what only the last ranking is asked for.
+    pub ranking: Ranking,
+}
+
 /// How far the selection went.
 pub(crate) struct SelectionPath {
     /// The models in order, the study's own first.
     pub rungs: Vec<Fitted>,
+    /// Of each but the last what was ranked beside it; `None` where nothing was.
+    pub ranked: Vec<Option<Ranked>>,
     pub additions: Vec<Addition>,
     pub attempts: Vec<Attempt>,
     /// The ranking against the last model; empty where nothing was ranked against it.
@@ -55,6 +65,7 @@ impl SelectionPath {
     pub fn only(fitted: Fitted) -> Self {
         Self {
             rungs: vec![fitted],
+            ranked: Vec::new(),
             additions: Vec::new(),
             attempts: Vec::new(),
             ranking: Ranking::default(),
@@ -76,13 +87,24 @@ impl SelectionPath {
     /// The last model as it fits from another place, against which nothing is ranked yet.
     pub fn replace_last(&mut self, fitted: Fitted) {
         self.rungs.pop();
-        self.stand_on(fitted);
+        self.rungs.push(fitted);
+        self.ranking = Ranking::default();
     }
 
     /// Another last model, against which nothing is ranked yet.
     pub fn stand_on(&mut self, fitted: Fitted) {
+        let ranking = std::mem::take(&mut self.ranking);
+        let were_ranked = !ranking.candidates.is_empty();
+        let ranked = were_ranked.then(|| Ranked {
+            beside: self.last().clone(),
+            ranking: Ranking {
+                columns: Vec::new(),
+                pairs: Vec::new(),
+                ..ranking
+            },
+        });
+        self.ranked.push(ranked);
         self.rungs.push(fitted);
-        self.ranking = Ranking::default();
     }
 
     /// What was reached by `ended`, the end of the way; also where whoever watches ended it.

@@ -9,12 +9,13 @@ use crate::pooled::fitted::Fitted;
 use crate::pooled::sizes::parameters;
 use crate::pooled::thresholds::AT_FLOOR;
 use crate::question::{Goal, Question};
-use crate::ranking::rank::{Candidate, Ranking};
-use crate::selection::path::{Addition, SelectionPath, misfits, twins};
+use crate::ranking::rank::Ranking;
+use crate::selection::path::{Addition, SelectionPath, twins};
 use crate::settings::DiagnoseSettings;
 use crate::verdict::comparisons::compare_sizes;
 use crate::verdict::earned::{self, leaves_a_motion};
 use crate::verdict::experiment::separating_experiment;
+use crate::verdict::ranking_told::RankingTold;
 use crate::verdict::reasons::{
     Held, Situation, explanation, headline, paste, reasons, removal, stopped,
 };
@@ -125,7 +126,9 @@ impl Examination<'_> {
             compared_output: cases[0].quantity().name().to_owned(),
             added,
             corrected,
-            ladder: rungs.clone().map(|one| ladder::rung(cases, one)).collect(),
+            ladder: (rungs.clone().enumerate())
+                .map(|(place, one)| ladder::rung(cases, one, self.ranked_beside(place)))
+                .collect(),
             ranking,
             removals: self.path.attempts.iter().map(removal).collect(),
             comparison: places.comparison,
@@ -141,7 +144,6 @@ impl Examination<'_> {
             control: self.control(),
             unlisted: self.unlisted(),
             experiment,
-            showcase: None,
             work: self.cases.tally().done(),
         };
         Ok(Answer {
@@ -329,57 +331,35 @@ impl Examination<'_> {
 
     /// The candidates, the chosen one first, and behind them the trends.
     fn ranking(&self, drift: &[Drift]) -> Vec<RankedEffect> {
-        let ranking = &self.path.ranking;
-        let mut order: Vec<usize> = (0..ranking.candidates.len()).collect();
-        if let Some(chosen) = self.path.chosen {
-            order.retain(|&index| index != chosen);
-            order.insert(0, chosen);
+        let mut ranked = self.told(self.path.last(), &self.path.ranking, self.path.chosen);
+        if !ranked.is_empty() {
+            let (cases, level) = (self.question.cases, self.settings.level);
+            ranked.extend(trends(drift, cases, level));
         }
-        let Some(&first) = order.first() else {
-            return Vec::new();
-        };
-        let first = &ranking.candidates[first];
-        let ranked = order
-            .iter()
-            .map(|&index| self.ranked(ranking, index, first));
         ranked
-            .chain(trends(drift, self.question.cases, self.settings.level))
-            .collect()
     }
 
-    fn ranked(&self, ranking: &Ranking, index: usize, first: &Candidate) -> RankedEffect {
-        let candidate = &ranking.candidates[index];
-        let sizes = parameters(self.question.cases, &candidate.fitted, candidate.effect);
-        let supported = candidate.is_supported(self.settings);
-        let twins = match supported {
-            true => twins(ranking, index, &Clusters::of(self.question.cases)),
-            false => Vec::new(),
+    /// What was ranked beside the model of a rung before the next was taken, what was taken first.
+    fn ranked_beside(&self, rung: usize) -> Vec<RankedEffect> {
+        let Some(Some(ranked)) = self.path.ranked.get(rung) else {
+            return Vec::new();
         };
-        RankedEffect {
-            effect: candidate.effect.name().to_owned(),
-            kind: candidate.effect.description().kind.name().to_owned(),
-            unlisted: is_unlisted(candidate.effect),
-            expression: declaration(candidate.effect).map(|term| term.expression),
-            score: candidate.score,
-            p_family: candidate.p_family,
-            heldout_gain: candidate.share_beside(self.path.last()),
-            heldout_gain_error: candidate.share_error(&misfits(self.path.last())),
-            error_over_noise: candidate
-                .fitted
-                .is_weighted
-                .then(|| candidate.fitted.error()),
-            behind_first: first.ahead_of(candidate),
-            supported,
-            twins: twins.iter().map(|twin| twin.name().to_owned()).collect(),
-            plausible: candidate.fitted.converged
-                && sizes.iter().all(EffectParameter::is_plausible),
-            explanation: explanation(
-                candidate.effect,
-                &candidate.fitted,
-                Held::of(self.question.cases),
-            ),
-            parameters: sizes,
+        let (before, after) = (&self.path.rungs[rung], &self.path.rungs[rung + 1]);
+        let is_taken =
+            |effect: Effect| after.effects.contains(&effect) && !before.effects.contains(&effect);
+        let mut all = ranked.ranking.candidates.iter();
+        let taken = all.position(|one| is_taken(one.effect));
+        self.told(&ranked.beside, &ranked.ranking, taken)
+    }
+
+    fn told(&self, beside: &Fitted, ranking: &Ranking, chosen: Option<usize>) -> Vec<RankedEffect> {
+        RankingTold {
+            cases: self.question.cases,
+            settings: self.settings,
+            beside,
+            ranking,
         }
+        .all(chosen)
     }
 
     fn added(&self) -> Vec<AddedEffect> {

@@ -2,12 +2,12 @@
 
 use crate::pooled::fitted::Fitted;
 use crate::pooled::sizes::held;
-use snug_campaign::Rung;
+use snug_campaign::{RankedEffect, Rung};
 use snug_identify::FitTask;
 use std::collections::BTreeSet;
 
-/// All of a rung but what only an evaluation of the whole study can tell.
-pub(crate) fn rung(cases: &[FitTask<'_>], fitted: &Fitted) -> Rung {
+/// All of a rung but what only an evaluation of the whole study can tell; `ranking` is what was ranked beside it.
+pub(crate) fn rung(cases: &[FitTask<'_>], fitted: &Fitted, ranking: Vec<RankedEffect>) -> Rung {
     let squares = fitted.squares();
     let target = |cluster: usize| {
         let target = cases[fitted.members[cluster]].tightening.target_torque_nm;
@@ -50,6 +50,7 @@ pub(crate) fn rung(cases: &[FitTask<'_>], fitted: &Fitted) -> Rung {
         rms_displacement_rad: None,
         fit_percent_median: None,
         selected_fraction: f64::NAN,
+        ranking,
     }
 }
 

@@ -24,6 +24,7 @@ fn rung(effects: &[&str], error: Option<f64>, target: Option<f64>) -> Rung {
         rms_displacement_rad: Some(1.0 / 3.0),
         fit_percent_median: Some(f64::NAN),
         selected_fraction: 0.96,
+        ranking: vec![],
     }
 }
 
@@ -98,7 +99,6 @@ fn diagnosis() -> Diagnosis {
         control: None,
         unlisted: None,
         experiment: None,
-        showcase: None,
         work: WorkDone::default(),
     }
 }
@@ -155,6 +155,50 @@ fn the_verdict_the_ladder_and_the_ranking_come_back() {
     assert_eq!(ranking[0].0["twins"][0], "quadratic_stiffness");
     assert_eq!(ranking[1].0["heldout_gain"], -0.1);
     assert!(ladder[0].2 < ladder[1].2 && ranking[0].2 < ranking[1].2);
+    assert_eq!(ladder[0].0["step"], "mass, damper, spring");
+    assert_eq!(ladder[2].0["step"], "+ torque delay");
+}
+
+/// Friction beside the first model, then beside the last: √(6.42² − 1) and the root mean square of the last, whose noise is not known.
+#[test]
+fn every_rung_keeps_its_candidates_with_what_became_of_them() {
+    let mut found = diagnosis();
+    found.ladder[0].ranking = vec![
+        candidate("cubic_stiffness", 0.9),
+        candidate("coulomb_friction", 0.3),
+    ];
+    found.ladder[1].ranking = vec![
+        candidate("torque_delay", 0.5),
+        candidate("coulomb_friction", 0.2),
+    ];
+    let mut bytes = Vec::new();
+    let mut recorder = Recorder::new(&mut bytes, small_chunks()).unwrap();
+    recorder.diagnosis(&found).unwrap();
+    recorder.finish().unwrap();
+    let ranking = messages(&bytes, topic::RANKING);
+    let places: Vec<(u64, u64)> = (ranking.iter())
+        .map(|(one, ..)| {
+            (
+                one["rung"].as_u64().unwrap(),
+                one["place"].as_u64().unwrap(),
+            )
+        })
+        .collect();
+    assert_eq!(places, [(1, 1), (1, 2), (2, 1), (2, 2), (3, 1), (3, 2)]);
+    assert_eq!(ranking[0].0["added_next"], true);
+    let left = ranking[1].0["gain_beside_next"].as_f64().unwrap();
+    let expected = 0.2 * (1.38_f64.powi(2) - 1.0) / (6.42_f64.powi(2) - 1.0);
+    assert!((left / expected - 1.0).abs() < 1e-9, "{left} {expected}");
+    assert!(
+        ranking[5].0.get("gain_beside_next").is_none(),
+        "nothing is ranked any more"
+    );
+    assert!(
+        messages(&bytes, topic::LADDER)[0]
+            .0
+            .get("ranking")
+            .is_none()
+    );
 }
 
 #[test]

@@ -99,6 +99,10 @@ fn viewers_find_every_signal() {
         ("forces.grip_force_n", first.grip_force_n.clone().unwrap()),
         ("measured.displacement_rad", motion(&first.measured)),
         (
+            "before.acceleration_rad_per_s2",
+            single(first.before.acceleration_rad_per_s2.as_ref().unwrap()),
+        ),
+        (
             "residual.displacement_rad",
             motion(&first.measured)
                 .iter()

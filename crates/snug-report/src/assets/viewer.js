@@ -32,6 +32,7 @@ class Viewer {
   describe(example) {
     this.choice.value = String(this.number);
     this.root.querySelector('[data-current]').textContent = example.heading;
+    if (!example.facts) return;
     this.root.querySelector('[data-note]').textContent = example.note;
     this.root.querySelector('[data-facts]').replaceChildren(...example.facts.map(texts => {
       const row = document.createElement('tr');
@@ -103,7 +104,7 @@ class Viewer {
 document.documentElement.classList.add('script');
 const viewers = [...document.querySelectorAll('[data-viewer]')].map(root =>
   new Viewer(root, JSON.parse(document.getElementById(root.dataset.viewer || 'viewer-data').textContent)));
-const chooser = viewers.find(viewer => viewer.choice);
+const chooser = viewers.find(viewer => viewer.choice && !viewer.name);
 document.querySelectorAll('[data-example]').forEach(link =>
   link.addEventListener('click', () => chooser.choose(Number(link.dataset.example))));
 // A printed page shows the panels at the paper's width.

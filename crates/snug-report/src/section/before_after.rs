@@ -1,180 +1,133 @@
-//! What the final model gained on one tightening: curves to zoom into, or still ones where no script runs.
+//! What the final model gained, tightening by tightening: curves to zoom into, or still ones where no script runs.
 
+use super::tightening_figures::noise_band;
 use super::{Render, Section};
-use crate::curves::{
-    self, Curves, DIGITS, STILL_POINTS, Series, Values, embedded, steps, time_unit,
-};
-use crate::decimation;
-use crate::number::{drawn, significant};
+use crate::curves::{Curves, STILL_POINTS, embedded};
+use crate::number::significant;
+use crate::traces_json::{Example, Panel, before_after_panels, before_and_after};
 use maud::{Markup, PreEscaped, html};
-use serde_json::json;
-use snug_campaign::{CampaignResult, Diagnosis, NORMAL_95, Quantity, Showcase};
+use serde_json::{Value, json};
+use snug_campaign::{CampaignResult, Diagnosis, Quantity, TighteningId};
 
-/// One tightening with the study's own model and with the final one.
+/// Tightenings with the study's own model and with the final one.
 pub const SECTION: Section = Section {
     anchor: "before-after",
     short_title: "Before and after",
-    title: "Before and after",
+    title: "What the final model gains, tightening by tightening",
     render: Render::Diagnosed(render),
 };
 
-/// Points of a line in the interactive picture.
-const POINTS: usize = 1200;
-
-/// A panel whose curves hold all their samples.
-type Panel = curves::Panel<Vec<f64>>;
-
-fn line(label: &'static str, class: &'static str, values: &[f64]) -> Series<Vec<f64>> {
-    Series {
-        label: label.into(),
-        class,
-        source: values.to_vec(),
-    }
-}
-
-fn render(diagnosis: &Diagnosis, _: &CampaignResult) -> Option<Markup> {
-    let showcase = diagnosis.showcase.as_ref()?;
-    let panels = panels(diagnosis, showcase);
-    if panels.is_empty() {
-        return None;
-    }
-    let interval_s = showcase.after.time_base.interval_s;
-    let length = showcase.after.torque_nm.len();
-    let (unit, per_second) = time_unit(length as f64 * interval_s);
-    let kept_samples = kept(&panels, POINTS);
-    let noise = noise(diagnosis);
+fn render(diagnosis: &Diagnosis, result: &CampaignResult) -> Option<Markup> {
+    let mut examples = before_and_after(result);
+    let place = |example: &Example| place(diagnosis, &result.tightenings[example.tightening].id);
+    examples.sort_by_key(place);
+    let panels = panels(diagnosis, result, &examples);
+    let first = examples.first().filter(|_| !panels.is_empty())?;
+    let title = |example: &Example| title(diagnosis, result, example.tightening);
     let data = json!({
         "panels": panels.iter().map(Panel::json).collect::<Vec<_>>(),
-        "examples": [{
-            "step": interval_s * per_second,
-            "unit": unit,
-            "steps": steps(&kept_samples),
-            "signals": panels.iter().map(|panel| signals(panel, &kept_samples)).collect::<Vec<_>>(),
-            "noise": noise.filter(|_| panels.iter().any(|panel| panel.residual)),
-        }],
+        "examples": examples.iter().map(|one| example_json(one, &panels, result, title(one))).collect::<Vec<_>>(),
     });
-    let still_kept = kept(&panels, STILL_POINTS);
     Some(html! {
-        p { "The tightening that the study's own model misses most, " strong { (showcase.id) }
-            ": the same measurement with the model before (" em { "study's own" } ") and after (" em { "final model" } ")." }
-        p.help.scripted { "Point at a curve to read values; drag across to zoom, double-click to see all again." }
+        p { "The same measurement with the model before (" em { "study's own" } ") and after (" em { "final model" } "), "
+            (examples.len()) " of " (result.tightenings.len()) " tightenings, first the one that the study's own model misses most." }
+        p.help.scripted { "Choose a tightening; point at a curve to read values; drag across to zoom, double-click to see all again; n and p \
+            step through the tightenings." }
         div.viewer data-viewer="showcase-data" {
+            div.chooser.scripted {
+                button type="button" data-step="-1" aria-label="previous tightening, before and after" { "‹" }
+                label { span.hidden { "tightening, before and after" }
+                    select data-choice="" {
+                        @for (number, example) in examples.iter().enumerate() {
+                            option value=(number) { (title(example)) }
+                        }
+                    }
+                }
+                button type="button" data-step="1" aria-label="next tightening, before and after" { "›" }
+            }
+            p.current data-current="" aria-live="polite" { (title(first)) }
             div.figures {
-                @for panel in &panels { (still(panel, &still_kept, interval_s * per_second, unit, noise)) }
+                @for panel in &panels { (still(panel, first, result)) }
             }
         }
         script type="application/json" id="showcase-data" { (PreEscaped(embedded(&data))) }
     })
 }
 
-fn panels(diagnosis: &Diagnosis, showcase: &Showcase) -> Vec<Panel> {
+/// Where it stands in the comparison, worst first.
+fn place(diagnosis: &Diagnosis, id: &TighteningId) -> usize {
+    let mut compared = diagnosis.comparison.tightenings.iter();
+    compared.position(|one| one.id == *id).unwrap_or(usize::MAX)
+}
+
+/// Which one, and what became of its error.
+fn title(diagnosis: &Diagnosis, result: &CampaignResult, tightening: usize) -> String {
+    let tightening = &result.tightenings[tightening];
+    let mut compared = diagnosis.comparison.tightenings.iter();
+    let before = compared
+        .find(|one| one.id == tightening.id)
+        .and_then(|one| one.misfits.iter().find_map(|misfit| misfit.over_noise));
+    match (before, tightening.measures.error_over_noise) {
+        (Some(before), Some(after)) if before.is_finite() && after.is_finite() => format!(
+            "{} · error {} → {} × noise",
+            tightening.id,
+            significant(before, 3),
+            significant(after, 3)
+        ),
+        _ => tightening.id.to_string(),
+    }
+}
+
+fn panels(diagnosis: &Diagnosis, result: &CampaignResult, examples: &[Example]) -> Vec<Panel> {
+    let is_compared = |quantity: &Quantity| diagnosis.compared_output.contains(quantity.name());
+    let is_noise_of = |quantity: Quantity| {
+        let mut noises = result
+            .tightenings
+            .iter()
+            .filter_map(|one| one.noise.as_ref());
+        noises.any(|noise| noise.quantity == quantity)
+    };
     Quantity::ALL
         .into_iter()
+        // Velocity is drawn only where it is what is compared.
+        .filter(|quantity| *quantity != Quantity::Velocity || is_compared(quantity))
         .flat_map(|quantity| {
-            let compared = diagnosis.compared_output.contains(quantity.name());
-            // Velocity is drawn only where it is what is compared.
-            if quantity == Quantity::Velocity && !compared {
-                return vec![];
-            }
-            of_quantity(diagnosis, showcase, quantity).unwrap_or_default()
+            let has_noise = is_compared(&quantity) && is_noise_of(quantity);
+            before_after_panels(&result.units, quantity, has_noise)
+        })
+        .filter(|panel| {
+            examples
+                .iter()
+                .any(|one| one.signals(panel).iter().all(Option::is_some))
         })
         .collect()
 }
 
-fn of_quantity(
-    diagnosis: &Diagnosis,
-    showcase: &Showcase,
-    quantity: Quantity,
-) -> Option<Vec<Panel>> {
-    let measured = showcase.after.measured.get(quantity)?;
-    let before = showcase.before.simulated.get(quantity)?;
-    let after = showcase.after.simulated.get(quantity)?;
-    let (symbol, unit) = match quantity {
-        Quantity::Displacement => ("angle θ", "rad"),
-        Quantity::Velocity => ("velocity ω", "rad/s"),
-        Quantity::Acceleration => ("acceleration α", "rad/s²"),
-    };
-    let residual = |simulated: &[f64]| -> Vec<f64> {
-        measured.iter().zip(simulated).map(|(y, s)| y - s).collect()
-    };
-    let name = crate::quantity::capitalised(quantity.name());
-    Some(vec![
-        Panel {
-            title: format!("{name}: model and measurement"),
-            axis: format!("{symbol} [{unit}]"),
-            series: vec![
-                line(
-                    "measured",
-                    if quantity == Quantity::Displacement {
-                        "c-measured broad"
-                    } else {
-                        "c-measured"
-                    },
-                    measured,
-                ),
-                line("before", "c-rejected", before),
-                line("after", "c-simulated", after),
-            ],
-            residual: false,
-        },
-        Panel {
-            title: format!("{name}: what is left over"),
-            axis: format!("measured − simulated [{unit}]"),
-            series: vec![
-                line("before", "c-rejected", &residual(before)),
-                line("after", "c-simulated", &residual(after)),
-            ],
-            residual: quantity == Quantity::Acceleration && noise(diagnosis).is_some(),
-        },
-    ])
+fn example_json(
+    example: &Example,
+    panels: &[Panel],
+    result: &CampaignResult,
+    title: String,
+) -> Value {
+    let mut value = example.json(panels);
+    value["heading"] = json!(title);
+    value["noise"] = json!(noise_band(&result.tightenings[example.tightening], result));
+    value
 }
 
-/// 95 % of the noise of the acceleration to either side, where it is known.
-fn noise(diagnosis: &Diagnosis) -> Option<f64> {
-    let noise = diagnosis.noise.acceleration_rad_per_s2;
-    noise
-        .filter(|noise| noise.is_finite())
-        .map(|noise| NORMAL_95 * noise)
-}
-
-/// Samples that keep the shape of every line.
-fn kept(panels: &[Panel], points: usize) -> Vec<usize> {
-    let lines: Vec<&[f64]> = panels
-        .iter()
-        .flat_map(|panel| panel.series.iter().map(|line| line.source.as_slice()))
-        .collect();
-    // The last panel's first line is the noisiest: a residual.
-    let leading = panels
-        .last()
-        .and_then(|panel| panel.series.first())
-        .map_or(&[][..], |line| line.source.as_slice());
-    decimation::indices(leading, &lines, points)
-}
-
-fn signals(panel: &Panel, kept: &[usize]) -> Vec<Option<Values>> {
-    let values = |line: &Series<Vec<f64>>| {
-        let kept = kept.iter().map(|index| line.source.get(*index));
-        kept.map(|value| drawn(*value?, DIGITS)).collect()
-    };
-    panel.series.iter().map(|line| Some(values(line))).collect()
-}
-
-/// A panel without JavaScript.
-fn still(
-    panel: &Panel,
-    kept: &[usize],
-    step: f64,
-    time_unit: &'static str,
-    noise: Option<f64>,
-) -> Markup {
+/// A panel without JavaScript: the first example.
+fn still(panel: &Panel, example: &Example, result: &CampaignResult) -> Markup {
+    let example = example.coarser(STILL_POINTS);
+    let tightening = &result.tightenings[example.tightening];
+    let noise = noise_band(tightening, result);
     panel.still(Curves {
-        description: panel.title.clone(),
-        times: kept.iter().map(|index| *index as f64 * step).collect(),
-        time_unit,
-        values: signals(panel, kept),
+        description: format!("{} of {}", panel.title, tightening.id),
+        times: example.times().collect(),
+        time_unit: example.time_unit().0,
+        values: example.signals(panel),
         noise,
         noise_title: noise.map_or_else(String::new, |noise| {
-            format!("95 % of the noise: ±{} rad/s²", significant(noise, 2))
+            format!("95 % of the noise: ±{}", significant(noise, 2))
         }),
     })
 }

@@ -4,7 +4,7 @@ use super::{Render, Section};
 use crate::figure::{Axis, Bar, Dot, Figure, Mark, captioned, legend};
 use crate::number::{percent, plain, significant};
 use maud::{Markup, html};
-use snug_campaign::words::effect_name::{called_in, unit_text};
+use snug_campaign::words::effect_name::{called_in, rung_names, unit_text};
 use snug_campaign::{CampaignResult, Diagnosis, Rung, Verdict};
 
 /// How the error falls, effect by effect.
@@ -51,7 +51,7 @@ fn render(diagnosis: &Diagnosis, _: &CampaignResult) -> Option<Markup> {
     if rungs.is_empty() {
         return None;
     }
-    let names = names(diagnosis);
+    let names = rung_names(diagnosis);
     let known = rungs.iter().any(|rung| rung.error_over_noise.is_some());
     let unit = output_unit(diagnosis);
     let error = if known {
@@ -100,28 +100,6 @@ fn output_unit(diagnosis: &Diagnosis) -> String {
         .iter()
         .find(compared)
         .map_or_else(|| "output's unit".into(), |misfit| unit_text(&misfit.unit))
-}
-
-/// What each rung changes against the one before.
-fn names(diagnosis: &Diagnosis) -> Vec<String> {
-    let known = |effect: &String| called_in(diagnosis, effect);
-    let mut before: &[String] = &[];
-    let mut names = Vec::new();
-    for (place, rung) in diagnosis.ladder.iter().enumerate() {
-        let gained = rung.effects.iter().filter(|e| !before.contains(e));
-        let lost = before.iter().filter(|e| !rung.effects.contains(e));
-        let steps: Vec<String> = gained
-            .map(|effect| format!("+ {}", known(effect)))
-            .chain(lost.map(|effect| format!("− {}", known(effect))))
-            .collect();
-        names.push(match (steps.is_empty(), place) {
-            (true, 0) => "mass, damper, spring".into(),
-            (true, _) => "the same model".into(),
-            (false, _) => steps.join(" "),
-        });
-        before = &rung.effects;
-    }
-    names
 }
 
 fn rows(names: &[String]) -> Axis {

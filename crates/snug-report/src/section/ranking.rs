@@ -1,5 +1,7 @@
 //! Every candidate with size, gain and chance; terms in no catalogue are folded away unless they lead or are chosen.
 
+mod earlier;
+
 use super::{Render, Section};
 use crate::effect_words::{parameter_name, sentence, sizes};
 use crate::figure::{Axis, Bar, Figure, Mark, Segment, captioned, legend};
@@ -23,22 +25,23 @@ const ALWAYS: usize = 3;
 const MOST: usize = 10;
 
 fn render(diagnosis: &Diagnosis, result: &CampaignResult) -> Option<Markup> {
+    let earlier = earlier::render(diagnosis, result);
     if diagnosis.ranking.is_empty() {
-        return None;
+        return earlier;
     }
-    let (shown, rest) = parted(diagnosis);
-    let unlisted = rest.iter().filter(|candidate| candidate.unlisted).count();
-    // Twins are a question of the first only.
-    let twins = |place| match place {
-        0 => names_in(diagnosis, &shown[0].twins),
-        _ => String::new(),
-    };
+    let (shown, rest) = parted(&diagnosis.ranking, |candidate| {
+        is_chosen(diagnosis, candidate)
+    });
     let model = if diagnosis.added.is_empty() {
         "the model"
     } else {
         "the model with the effects above"
     };
     Some(html! {
+        @if let Some(earlier) = earlier {
+            (earlier)
+            h3 { "Beside the final model" }
+        }
         p { "Every candidate was added to " (model) " in turn and judged on data that its size was not fitted to. \
             The bar is the share of the misfit that it takes away there; the thin line is one standard error to either side. \
             Below zero, it does harm." }
@@ -52,8 +55,27 @@ fn render(diagnosis: &Diagnosis, result: &CampaignResult) -> Option<Markup> {
         (figure(&shown))
         p { "A candidate is believed when chance alone would do as well in fewer than " (short(100.0 * diagnosis.level))
             " of 100 cases (p below " (diagnosis.level) "); that already allows for the number of candidates. Open a row for what it is, how it shows and what to check." }
+        (entries(&shown, &rest, diagnosis, result, |_| None))
+    })
+}
+
+/// The rows of the candidates, the rest folded away; `became` says of one what became of it, where that is known.
+fn entries(
+    shown: &[&RankedEffect],
+    rest: &[&RankedEffect],
+    diagnosis: &Diagnosis,
+    result: &CampaignResult,
+    became: impl Fn(&RankedEffect) -> Option<String>,
+) -> Markup {
+    let unlisted = rest.iter().filter(|candidate| candidate.unlisted).count();
+    // Twins are a question of the first only.
+    let twins = |place| match place {
+        0 => names_in(diagnosis, &shown[0].twins),
+        _ => String::new(),
+    };
+    html! {
         div.candidates { @for (place, candidate) in shown.iter().enumerate() {
-            (entry(candidate, &twins(place), result))
+            (entry(candidate, &twins(place), became(candidate), result))
         } }
         @if !rest.is_empty() {
             details {
@@ -61,23 +83,28 @@ fn render(diagnosis: &Diagnosis, result: &CampaignResult) -> Option<Markup> {
                     (rest.len()) " more were tried"
                     @if unlisted > 0 { "; terms that are in no catalogue among them: " (unlisted) }
                 }
-                div.candidates { @for candidate in &rest { (entry(candidate, "", result)) } }
+                div.candidates { @for candidate in rest { (entry(candidate, "", became(candidate), result)) } }
             }
         }
-    })
+    }
+}
+
+/// Whether it is the unlisted term that the verdict names.
+fn is_chosen(diagnosis: &Diagnosis, candidate: &RankedEffect) -> bool {
+    let named = format!("\"{}\"", candidate.effect);
+    let term = diagnosis.unlisted.as_ref();
+    candidate.unlisted && term.is_some_and(|term| term.ron.contains(&named))
 }
 
 /// The candidates worth a look, and the rest: an unlisted term is shown only among the very first or when it is chosen.
-fn parted(diagnosis: &Diagnosis) -> (Vec<&RankedEffect>, Vec<&RankedEffect>) {
-    let chosen = |candidate: &RankedEffect| {
-        let named = format!("\"{}\"", candidate.effect);
-        let term = diagnosis.unlisted.as_ref();
-        candidate.unlisted && term.is_some_and(|term| term.ron.contains(&named))
-    };
+fn parted(
+    ranking: &[RankedEffect],
+    is_chosen: impl Fn(&RankedEffect) -> bool,
+) -> (Vec<&RankedEffect>, Vec<&RankedEffect>) {
     let (mut shown, mut rest) = (Vec::new(), Vec::new());
-    for (place, candidate) in diagnosis.ranking.iter().enumerate() {
+    for (place, candidate) in ranking.iter().enumerate() {
         let worth = !candidate.unlisted && candidate.supported && shown.len() < MOST;
-        if place < ALWAYS || worth || chosen(candidate) {
+        if place < ALWAYS || worth || is_chosen(candidate) {
             shown.push(candidate);
         } else {
             rest.push(candidate);
@@ -191,8 +218,13 @@ fn against(candidate: &RankedEffect) -> Option<&'static str> {
     })
 }
 
-/// A row of the candidates, with what these data cannot tell from it.
-fn entry(candidate: &RankedEffect, twins: &str, result: &CampaignResult) -> Markup {
+/// A row of the candidates, with what these data cannot tell from it and what became of it.
+fn entry(
+    candidate: &RankedEffect,
+    twins: &str,
+    became: Option<String>,
+    result: &CampaignResult,
+) -> Markup {
     html! {
         details.candidate {
             summary {
@@ -201,6 +233,7 @@ fn entry(candidate: &RankedEffect, twins: &str, result: &CampaignResult) -> Mark
                 " " span.chance { "p " (p_value(Some(candidate.p_family))) }
                 " " span.sizes { (sizes(&candidate.parameters, result)) }
                 @if !twins.is_empty() { " " span.tag.twins { "not to be told from " (twins) } }
+                @if let Some(became) = &became { " " span.tag.became { (became) } }
                 @if candidate.unlisted { " " span.tag.unlisted { "in no catalogue" } }
                 @if let Some(against) = against(candidate) { " " span.tag.implausible { (against) } }
             }

@@ -30,7 +30,8 @@ fn render(result: &CampaignResult) -> Markup {
     });
     html! {
         @if examples.len() < result.tightenings.len() {
-            p { "Signals of " (examples.len()) " of " (result.tightenings.len()) " tightenings are kept here; the recording holds all." }
+            p { "Signals of " (examples.len()) " of " (result.tightenings.len()) " tightenings are kept here, evenly spread; the recording \
+                holds every tightening, as many samples of it as the study's " code { "record" } " says." }
         }
         p.help.scripted {
             "Choose a tightening; point at a curve to read values; drag across to zoom, double-click to see all again. Keys in a \
@@ -109,7 +110,7 @@ fn example_json(example: &Example, panels: &[Panel], result: &CampaignResult) ->
 }
 
 /// 1.96 standard deviations of the noise of the quantity whose residual is drawn; `None` when it is not known.
-fn noise_band(tightening: &TighteningResult, result: &CampaignResult) -> Option<f64> {
+pub(super) fn noise_band(tightening: &TighteningResult, result: &CampaignResult) -> Option<f64> {
     tightening
         .noise
         .as_ref()

@@ -67,6 +67,15 @@ pub fn ranked(name: &str, kind: &str, behind: f64, gain: f64, error: f64, p: f64
     }
 }
 
+/// What could be missing beside a hardening spring.
+pub fn beside_the_spring() -> Vec<RankedEffect> {
+    vec![
+        ranked("torque_delay", "measurement", 0.0, 0.47, 0.05, 0.002),
+        ranked("co_contraction", "muscular", 4.0, 0.06, 0.05, 0.31),
+        ranked("quadratic_stiffness", "mechanical", 5.0, 0.01, 0.03, 0.72),
+    ]
+}
+
 /// What could be missing in the study's own model.
 pub fn candidates() -> Vec<RankedEffect> {
     let mut list = vec![

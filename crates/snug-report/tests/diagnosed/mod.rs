@@ -11,7 +11,7 @@ use snug_campaign::words::reason::{Cluster, Reason};
 use snug_campaign::words::stopped::Stopped;
 use snug_campaign::{
     AddedEffect, CampaignResult, CorrectedEffect, Diagnosis, Experiment, NoiseStatement, Removal,
-    Rung, Showcase, Traces, UnlistedTerm, Verdict, WorkDone,
+    Rung, Traces, UnlistedTerm, Verdict, WorkDone,
 };
 
 /// An effect of the catalogue.
@@ -30,7 +30,7 @@ fn fall(before: f64, after: f64) -> Fall {
 /// `improve` on 24 tightenings: two effects added, nothing left.
 pub fn improve() -> CampaignResult {
     let mut result = specimen::campaign(24);
-    let showcase = showcase(&result);
+    with_before(&mut result);
     result.diagnosis = Some(Diagnosis {
         verb: "improve".into(),
         verdict: Verdict::Adequate,
@@ -51,7 +51,7 @@ pub fn improve() -> CampaignResult {
             level: 0.05,
         }),
         added: added(),
-        ladder: ladder(),
+        ladder: climbed(),
         ranking: evidence::leftovers(),
         removals: vec![Removal {
             effect: "torque_delay".into(),
@@ -60,7 +60,6 @@ pub fn improve() -> CampaignResult {
                 "Without torque_delay the error over noise rises from 1.018 to 1.38, so it stays."
                     .into(),
         }],
-        showcase: Some(showcase),
         work: WorkDone {
             rankings: 3,
             signatures: 4_512,
@@ -159,7 +158,6 @@ fn diagnosis(result: &CampaignResult) -> Diagnosis {
                 "9 tightenings on the soft joint with targets 15 and 40 Nm would tell them apart."
                     .into(),
         }),
-        showcase: None,
         work: WorkDone::default(),
     }
 }
@@ -186,6 +184,14 @@ fn added() -> Vec<AddedEffect> {
     vec![cubic, delay]
 }
 
+/// The ladder with what was ranked beside its models.
+fn climbed() -> Vec<Rung> {
+    let mut ladder = ladder();
+    ladder[0].ranking = evidence::candidates();
+    ladder[1].ranking = evidence::beside_the_spring();
+    ladder
+}
+
 fn ladder() -> Vec<Rung> {
     let rung =
         |effects: &[&str], errors: [f64; 4], rms: f64, displacement: f64, fit, selected| Rung {
@@ -198,6 +204,7 @@ fn ladder() -> Vec<Rung> {
             rms_displacement_rad: Some(displacement),
             fit_percent_median: Some(fit),
             selected_fraction: selected,
+            ranking: vec![],
         };
     vec![
         rung(&[], [6.42, 6.51, 7.93, 6.64], 5.778, 3.1e-3, 91.2, 0.4167),
@@ -220,14 +227,12 @@ fn ladder() -> Vec<Rung> {
     ]
 }
 
-fn showcase(result: &CampaignResult) -> Showcase {
-    let (index, after) = result.examples[0].clone();
-    let mut before = after.clone();
-    spoil(&mut before);
-    Showcase {
-        id: result.tightenings[index].id.clone(),
-        before,
-        after,
+/// What the study's own model simulated of every example.
+fn with_before(result: &mut CampaignResult) {
+    for (_, traces) in &mut result.examples {
+        let mut before = traces.clone();
+        spoil(&mut before);
+        traces.before = before.simulated;
     }
 }
 

@@ -101,6 +101,7 @@ fn tightening(index: usize, noise: &mut Noise) -> (TighteningResult, Traces) {
     };
     let traces = oscillator.traces(noise, if rejections.is_empty() { 0.0 } else { 6.0 });
     let result = TighteningResult {
+        started_at_s: None,
         id: TighteningId {
             file,
             number: (index % 2 + index / 24 * 2) as u32 + 1,

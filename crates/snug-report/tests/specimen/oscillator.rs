@@ -108,6 +108,7 @@ fn motion([angle, velocity, acceleration]: [Vec<f64>; 3]) -> Motion {
 
 fn blank() -> Traces {
     Traces {
+        before: Motion::default(),
         time_base: TimeBase {
             start_s: 1.48,
             interval_s: STEP_S,
