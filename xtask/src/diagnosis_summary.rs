@@ -5,6 +5,7 @@ mod ranking;
 #[cfg(test)]
 mod tests;
 
+use crate::terminal;
 use ladder::ladder;
 use ranking::ranking;
 use snug_campaign::words::chance::by_chance;
@@ -13,9 +14,8 @@ use snug_campaign::words::size::sizes;
 use snug_campaign::words::vocabulary::Vocabulary;
 use snug_campaign::{Diagnosis, Location, RankedEffect, Verdict};
 use std::fmt::Write as _;
-use std::io::IsTerminal as _;
 
-/// Columns that a line may have.
+/// Columns that a line may have; fewer on a terminal that has fewer.
 const WIDTH: usize = 108;
 /// What the proposed commands need to know.
 pub struct Following<'a> {
@@ -27,20 +27,20 @@ pub struct Following<'a> {
 
 /// A diagnosis as it is printed on standard output.
 pub fn of(diagnosis: &Diagnosis, following: &Following<'_>, vocabulary: Vocabulary) -> String {
-    let terminal = std::io::stdout().is_terminal();
-    text(diagnosis, following, vocabulary, terminal)
+    text(diagnosis, following, vocabulary, terminal::columns())
 }
 
-/// The text; `terminal` allows block characters and bold type.
+/// The text; a terminal, of so many columns, allows block characters and bold type.
 fn text(
     diagnosis: &Diagnosis,
     following: &Following<'_>,
     vocabulary: Vocabulary,
-    terminal: bool,
+    terminal: Option<usize>,
 ) -> String {
     let mut page = Page {
         text: String::new(),
-        terminal,
+        terminal: terminal.is_some(),
+        width: terminal.map_or(WIDTH, |columns| columns.min(WIDTH)),
         vocabulary,
     };
     verdict(&mut page, diagnosis);
@@ -57,6 +57,7 @@ fn text(
 struct Page {
     text: String,
     terminal: bool,
+    width: usize,
     vocabulary: Vocabulary,
 }
 
@@ -83,7 +84,7 @@ impl Page {
         let words = self.vocabulary.says(words).replace(" %", "\u{a0}%");
         for word in words.split([' ', '\n']).filter(|word| !word.is_empty()) {
             let used = line.chars().count();
-            if used > indent.len() && used + 1 + word.chars().count() > WIDTH {
+            if used > indent.len() && used + 1 + word.chars().count() > self.width {
                 self.line(&line);
                 line.clone_from(&indent);
             }

@@ -21,6 +21,12 @@ pub fn of_run(outcome: &Outcome) -> String {
     let result = &outcome.result;
     let mut text = format!("\n{}\n", result.title);
     headline(&mut text, outcome);
+    line(
+        &mut text,
+        format_args!(
+            "  selected: fits well enough to be counted below; each preset asks it in its own way"
+        ),
+    );
     for preset in &result.presets {
         selection(&mut text, preset);
     }

@@ -3,19 +3,30 @@
 //! Neither a reader that has gone away nor a full disk behind a redirection may end a run that has done its work.
 
 use crate::exit;
+use console::Term;
 use std::io::{ErrorKind, Write};
 use std::process::ExitCode;
 
 /// Characters of one complaint: what is longer quotes a stranger's file at length.
 const LONGEST_COMPLAINT: usize = 4000;
 
-/// Prints to standard output; the exit code is `done`, or that of a failure where the text could not be printed.
+/// Columns of the terminal that standard output is; `None` where it is none.
+pub fn columns() -> Option<usize> {
+    let (_, columns) = Term::stdout().size_checked()?;
+    Some(usize::from(columns)).filter(|columns| *columns > 0)
+}
+
+/// Prints to standard output, on a terminal no wider than that; the exit code is `done`, or that of a failure where the text could not be printed.
 ///
 /// A reader that has read enough and gone, as `head` does, is no failure.
 pub fn say(text: &str, done: ExitCode) -> ExitCode {
+    let text = match columns() {
+        Some(columns) => wrapped(&printable(text), columns),
+        None => printable(text),
+    };
     let mut output = std::io::stdout().lock();
     let said = output
-        .write_all(printable(text).as_bytes())
+        .write_all(text.as_bytes())
         .and_then(|()| output.flush());
     match said {
         Ok(()) => done,
@@ -77,9 +88,92 @@ fn printable(text: &str) -> String {
     shown
 }
 
+/// Share of the columns within which what goes on stands below the last column of a table \[–\]. Chosen.
+const TABLE: f64 = 0.6;
+/// Columns by which what goes on is moved in elsewhere.
+const HANGING: usize = 4;
+
+/// The text with every line that is longer than `columns` broken between words. Commands stay whole, to be copied.
+pub fn wrapped(text: &str, columns: usize) -> String {
+    let lines = text.split('\n').map(|line| {
+        let is_command = line.trim_start().starts_with("cargo ");
+        match visible(line) <= columns || is_command {
+            true => line.to_owned(),
+            false => broken(line, columns),
+        }
+    });
+    lines.collect::<Vec<_>>().join("\n")
+}
+
+/// Characters that take room on a terminal.
+pub fn visible(text: &str) -> usize {
+    let bold = ALLOWED
+        .iter()
+        .map(|code| text.matches(code).count() * code.len());
+    text.chars().count() - bold.sum::<usize>()
+}
+
+fn broken(line: &str, columns: usize) -> String {
+    let margin = line.len() - line.trim_start().len();
+    let table = line[margin..]
+        .rfind("  ")
+        .map(|gap| visible(&line[..margin + gap]) + 2);
+    let indent = table
+        .filter(|column| *column as f64 <= TABLE * columns as f64)
+        .unwrap_or(margin + HANGING);
+    let mut text = String::new();
+    let (mut rest, mut moved_in) = (line, 0);
+    while visible(rest) + moved_in > columns {
+        let words_begin = rest.len() - rest.trim_start().len();
+        let gaps = rest[words_begin..]
+            .match_indices(' ')
+            .map(|(at, _)| words_begin + at)
+            // A number and its percent sign stay on one line.
+            .filter(|at| !rest[*at..].starts_with(" %"));
+        let fits = |at: &usize| visible(&rest[..*at]) + moved_in <= columns;
+        let Some(at) = gaps.clone().take_while(fits).last().or(gaps.clone().next()) else {
+            break;
+        };
+        text += rest[..at].trim_end();
+        text += "\n";
+        text += &" ".repeat(indent);
+        (rest, moved_in) = (rest[at..].trim_start(), indent);
+    }
+    text + rest
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn no_line_is_wider_than_the_terminal() {
+        let text = "\u{1b}[1mHow far the model misses the measurement\u{1b}[0m\n  preset snug    selects 46 of 48 (96 %); rejected: 2 data quality\n    cargo xtask run --study a/very/long/path/to/study.ron\n  short\n";
+        let narrow = wrapped(text, 40);
+        let lines: Vec<&str> = narrow.lines().collect();
+        let expected = [
+            "\u{1b}[1mHow far the model misses the measurement\u{1b}[0m",
+            "  preset snug    selects 46 of 48",
+            "                 (96 %); rejected: 2",
+            "                 data quality",
+            "    cargo xtask run --study a/very/long/path/to/study.ron",
+            "  short",
+        ];
+        assert_eq!(lines, expected);
+        assert_eq!(wrapped(text, 200), text);
+    }
+
+    #[test]
+    fn a_word_that_is_wider_than_the_terminal_stays_whole() {
+        assert_eq!(
+            broken("  /a/path/that/has/no/gap", 10),
+            "  /a/path/that/has/no/gap"
+        );
+        assert_eq!(
+            broken("ab /a/path/that/has/no/gap", 10),
+            "ab\n    /a/path/that/has/no/gap"
+        );
+    }
 
     #[test]
     fn names_of_files_do_not_steer_the_terminal() {

@@ -7,6 +7,8 @@ use snug_campaign::{Diagnosis, Rung};
 
 /// Columns of the longest bar.
 const BAR: usize = 36;
+/// Columns of a line beside the model's name, a short bar among them.
+const BESIDE: usize = 44;
 
 /// Each model with its error, and a bar.
 pub fn ladder(page: &mut Page, diagnosis: &Diagnosis) {
@@ -25,9 +27,20 @@ pub fn ladder(page: &mut Page, diagnosis: &Diagnosis) {
             diagnosis.compared_output
         ));
     }
+    let words = match known {
+        true => {
+            "error: of all tightenings; unseen: of such as the sizes were not fitted to; selected: share of tightenings that fit well \
+             enough to be used. Bars begin at the noise and are logarithmic."
+        }
+        false => {
+            "error: of all tightenings; selected: share of tightenings that fit well enough to be used."
+        }
+    };
+    page.paragraph("  ", words);
     let unseen = if known { "unseen" } else { "" };
+    let names = page.width.saturating_sub(BESIDE).clamp(12, 32);
     page.line(&format!(
-        "  {:<32} {:>9} {unseen:>9} {:>9}",
+        "  {:<names$} {:>9} {unseen:>9} {:>9}",
         "model", "error", "selected"
     ));
     let errors: Vec<Option<f64>> = diagnosis
@@ -53,25 +66,21 @@ pub fn ladder(page: &mut Page, diagnosis: &Diagnosis) {
             String::new()
         };
         let line = format!(
-            "  {:<32} {:>9} {unseen:>9} {:>7.0} %  {}",
-            shortened(&step(before, rung, diagnosis), 32),
+            "  {:<names$} {:>9} {unseen:>9} {:>7.0} %  {}",
+            shortened(&step(before, rung, diagnosis), names),
             number(*error),
             100.0 * rung.selected_fraction,
-            bar(*error, &errors, floor, page.terminal)
+            bar(
+                *error,
+                &errors,
+                floor,
+                page.width.saturating_sub(names + BESIDE - 8).min(BAR),
+                page.terminal
+            )
         );
         page.line(&line);
         before = rung;
     }
-    let bars = match known {
-        true => {
-            "Bars begin at the noise and are logarithmic; unseen: error in data that the sizes were not fitted to; "
-        }
-        false => "",
-    };
-    page.paragraph(
-        "  ",
-        &format!("{bars}selected: share of tightenings that fit well enough to be used."),
-    );
     if let Some(stopped) = &diagnosis.stopped {
         page.paragraph("  Stopped: ", &stopped.to_string());
     }
@@ -100,7 +109,13 @@ fn step(before: &Rung, rung: &Rung, diagnosis: &Diagnosis) -> String {
 }
 
 /// A bar from the floor to the error: over noise logarithmic, else straight.
-fn bar(error: Option<f64>, errors: &[Option<f64>], floor: f64, terminal: bool) -> String {
+fn bar(
+    error: Option<f64>,
+    errors: &[Option<f64>],
+    floor: f64,
+    longest_columns: usize,
+    terminal: bool,
+) -> String {
     let length = |error: f64| {
         if floor > 0.0 {
             (error / floor).ln().max(0.0)
@@ -120,6 +135,6 @@ fn bar(error: Option<f64>, errors: &[Option<f64>], floor: f64, terminal: bool) -
     if !share.is_finite() {
         return "|".into();
     }
-    let blocks = (share * BAR as f64).round() as usize;
+    let blocks = (share * longest_columns as f64).round() as usize;
     format!("|{}", if terminal { "█" } else { "#" }.repeat(blocks))
 }

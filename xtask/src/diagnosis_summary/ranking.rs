@@ -45,9 +45,21 @@ pub fn ranking(page: &mut Page, diagnosis: &Diagnosis) {
             "Nothing more is justified: shares of the little that is left, and does not repeat, say little.",
         );
     }
+    page.paragraph(
+        "  ",
+        "removes: share of the misfit that it takes away in data its size was not fitted to; \
+         chance: how often (1 = always) chance alone would put something so strong at the top.",
+    );
     page.line(&format!(
         "  {:<27} {:>12} {:>8}  {}",
-        "effect", "removes", "chance", "size [95 % interval]"
+        "effect",
+        "removes",
+        "chance",
+        if is_wide(page) {
+            "size [95 % interval]"
+        } else {
+            ""
+        }
     ));
     for (place, candidate) in candidates {
         row(page, candidate);
@@ -67,11 +79,13 @@ pub fn ranking(page: &mut Page, diagnosis: &Diagnosis) {
             &format!("{unlisted} of the candidates are simple forces that are in no catalogue (named by their formula); report.html has them all."),
         );
     }
-    page.paragraph(
-        "  ",
-        "removes: share of the misfit that it takes away in data its size was not fitted to; \
-         chance: how often (1 = always) chance alone would put something so strong at the top.",
-    );
+}
+
+/// Columns from which on sizes stand beside the chance; below it on a line of their own.
+const WIDE: usize = 90;
+
+fn is_wide(page: &Page) -> bool {
+    page.width >= WIDE
 }
 
 fn row(page: &mut Page, candidate: &RankedEffect) {
@@ -90,5 +104,9 @@ fn row(page: &mut Page, candidate: &RankedEffect) {
     if candidate.doubt() == Some(Doubt::NotSettled) {
         sizes.push("the fit did not settle".into());
     }
-    page.paragraph(&lead, &sizes.join("; "));
+    if is_wide(page) {
+        return page.paragraph(&lead, &sizes.join("; "));
+    }
+    page.line(&lead);
+    page.paragraph("      ", &sizes.join("; "));
 }

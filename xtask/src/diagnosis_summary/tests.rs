@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use super::{Following, WIDTH, text};
+use crate::terminal;
 use snug_campaign::words::effect_name::Named;
 use snug_campaign::words::headline::{Fall, Headline, Left};
 use snug_campaign::words::reason::Reason;
@@ -159,7 +160,7 @@ fn blocks(text: &str, line: &str) -> usize {
 
 #[test]
 fn the_verdict_leads_and_the_next_command_closes() {
-    let text = text(&missing(), &FOLLOWING, Vocabulary::Hand, false);
+    let text = text(&missing(), &FOLLOWING, Vocabulary::Hand, None);
     let first = text.trim_start().lines().next().unwrap();
     assert_eq!(first, "Verdict: an effect is missing");
     assert!(text.contains("    cargo xtask add effect_0 --study rig.ron\n"));
@@ -171,18 +172,43 @@ fn the_verdict_leads_and_the_next_command_closes() {
 }
 
 #[test]
+fn on_a_narrow_terminal_no_line_is_wider_and_no_bar_is_broken() {
+    let told = text(&missing(), &FOLLOWING, Vocabulary::Hand, Some(80));
+    let shown = terminal::wrapped(&told, 80);
+    for line in shown.lines() {
+        let is_command = line.trim_start().starts_with("cargo ");
+        assert!(is_command || terminal::visible(line) <= 80, "{line}");
+    }
+    let bars = |text: &str| text.lines().filter(|line| line.contains("%  |")).count();
+    assert_eq!(bars(&shown), missing().ladder.len());
+}
+
+#[test]
+fn columns_are_explained_before_they_are_used() {
+    let told = text(&missing(), &FOLLOWING, Vocabulary::Hand, None);
+    for (explained, used) in [
+        ("unseen: ", " unseen "),
+        ("selected: ", " selected\n"),
+        ("chance: ", " chance "),
+    ] {
+        let first = |words: &str| told.find(words).unwrap();
+        assert!(first(explained) < first(used), "{used}: {told}");
+    }
+}
+
+#[test]
 fn lines_keep_their_width_and_plain_text_has_no_colours() {
-    let plain = text(&missing(), &FOLLOWING, Vocabulary::Hand, false);
+    let plain = text(&missing(), &FOLLOWING, Vocabulary::Hand, None);
     for line in plain.lines() {
         assert!(line.chars().count() <= WIDTH + 2, "{line}");
     }
     assert!(!plain.contains('\u{1b}') && !plain.contains('█'));
-    assert!(text(&missing(), &FOLLOWING, Vocabulary::Hand, true).contains('\u{1b}'));
+    assert!(text(&missing(), &FOLLOWING, Vocabulary::Hand, Some(200)).contains('\u{1b}'));
 }
 
 #[test]
 fn sizes_stand_with_unit_and_interval() {
-    let text = text(&missing(), &FOLLOWING, Vocabulary::Hand, false);
+    let text = text(&missing(), &FOLLOWING, Vocabulary::Hand, None);
     assert!(text.contains("cubic stiffness 9.90 × 10⁵ [9.61, 10.19] × 10⁵ N/m³"));
     assert!(text.contains("83 ± 4 %"));
     assert!(text.contains("< 0.001"));
@@ -196,7 +222,7 @@ fn what_is_missing_is_explained() {
     let mut diagnosis = missing();
     diagnosis.ranking[0].explanation = vec!["The hand's spring becomes stiffer.".into()];
     diagnosis.ranking[0].heldout_gain = 1.73;
-    let text = text(&diagnosis, &FOLLOWING, Vocabulary::Hand, false);
+    let text = text(&diagnosis, &FOLLOWING, Vocabulary::Hand, None);
     assert!(text.contains("What effect 0 is\n  - The hand's spring becomes stiffer.\n"));
     assert_eq!(text.matches("cannot be told from").count(), 1);
     assert!(text.contains("100 ± 4 %") && !text.contains("173"));
@@ -228,7 +254,7 @@ fn terms_in_no_catalogue_stand_only_among_the_first_and_unsure_shares_are_no_per
     }
     diagnosis.ranking[0].heldout_gain = 0.72;
     diagnosis.ranking[0].heldout_gain_error = 6.17;
-    let text = text(&diagnosis, &FOLLOWING, Vocabulary::Hand, false);
+    let text = text(&diagnosis, &FOLLOWING, Vocabulary::Hand, None);
     assert!(text.contains("  force p*x^1 "));
     assert!(!text.contains("p*x^4") && !text.contains("p*x^6"));
     assert!(text.contains("3 of the candidates are simple forces"));
@@ -237,7 +263,7 @@ fn terms_in_no_catalogue_stand_only_among_the_first_and_unsure_shares_are_no_per
 
 #[test]
 fn bars_shrink_to_nothing_at_the_floor() {
-    let text = text(&missing(), &FOLLOWING, Vocabulary::Hand, false);
+    let text = text(&missing(), &FOLLOWING, Vocabulary::Hand, None);
     let base = blocks(&text, "base model");
     let middle = blocks(&text, "+ cubic_stiffness");
     assert_eq!(base, 36);
@@ -250,7 +276,7 @@ fn bars_shrink_to_nothing_at_the_floor() {
 fn without_noise_the_error_has_the_output_s_name() {
     let mut diagnosis = missing();
     diagnosis.ladder = vec![rung(&[], None, 1.0), rung(&["sin"], None, 0.5)];
-    let text = text(&diagnosis, &FOLLOWING, Vocabulary::Hand, false);
+    let text = text(&diagnosis, &FOLLOWING, Vocabulary::Hand, None);
     assert!(text.contains("residual of the acceleration"));
     assert_eq!(blocks(&text, "base model"), 36);
     assert_eq!(blocks(&text, "+ sin"), 18);
@@ -270,34 +296,33 @@ fn every_verdict_says_what_to_do() {
     let mut diagnosis = missing();
     diagnosis.verb = "compare".into();
     assert!(
-        text(&diagnosis, &FOLLOWING, Vocabulary::Hand, false)
+        text(&diagnosis, &FOLLOWING, Vocabulary::Hand, None)
             .trim_end()
             .ends_with("cargo xtask diagnose --study rig.ron")
     );
     diagnosis.verdict = Verdict::Undecided;
-    let compared = text(&diagnosis, &FOLLOWING, Vocabulary::Hand, false);
+    let compared = text(&diagnosis, &FOLLOWING, Vocabulary::Hand, None);
     assert!(compared.contains("Verdict: the model leaves more than the noise"));
     assert!(!compared.contains("too little data"));
     diagnosis.verb = "improve".into();
     diagnosis.verdict = Verdict::Adequate;
     assert!(
-        text(&diagnosis, &FOLLOWING, Vocabulary::Hand, false).contains("Nothing needs to be added")
+        text(&diagnosis, &FOLLOWING, Vocabulary::Hand, None).contains("Nothing needs to be added")
     );
     diagnosis.verdict = Verdict::Undecided;
     assert!(
-        text(&diagnosis, &FOLLOWING, Vocabulary::Hand, false)
-            .contains("how much more would decide")
+        text(&diagnosis, &FOLLOWING, Vocabulary::Hand, None).contains("how much more would decide")
     );
     diagnosis.verdict = Verdict::UnlistedEffect;
     diagnosis.unlisted = Some(damping_with_x2());
-    let found = text(&diagnosis, &FOLLOWING, Vocabulary::Hand, false);
+    let found = text(&diagnosis, &FOLLOWING, Vocabulary::Hand, None);
     assert!(found.contains("    (name: \"x2v\")\n"));
     assert!(
         !found.contains("cargo xtask improve"),
         "it was already asked to"
     );
     diagnosis.verb = "diagnose".into();
-    let found = text(&diagnosis, &FOLLOWING, Vocabulary::Hand, false);
+    let found = text(&diagnosis, &FOLLOWING, Vocabulary::Hand, None);
     let last = "cargo xtask improve --study rig.ron";
     assert!(found.trim_end().ends_with(last));
 }
@@ -310,11 +335,11 @@ fn only_a_law_that_is_still_missing_is_explained() {
     diagnosis.unlisted = Some(damping_with_x2());
     diagnosis.ranking[0].unlisted = true;
     diagnosis.ranking[0].expression = Some("p*v^3".into());
-    let added = text(&diagnosis, &FOLLOWING, Vocabulary::Hand, false);
+    let added = text(&diagnosis, &FOLLOWING, Vocabulary::Hand, None);
     assert!(!added.contains("What force") && added.contains("What else was tried"));
     diagnosis.ranking[2].unlisted = true;
     diagnosis.ranking[2].expression = Some("p*x^2*v".into());
-    let named = text(&diagnosis, &FOLLOWING, Vocabulary::Hand, false);
+    let named = text(&diagnosis, &FOLLOWING, Vocabulary::Hand, None);
     assert!(named.contains("What force p*x^2*v is") && !named.contains("What force p*v^3 is"));
     assert!(!named.contains("What else was tried"));
 }
@@ -326,7 +351,7 @@ fn a_climb_that_was_stopped_says_so_and_how_to_go_on() {
     diagnosis.verb = "improve".into();
     diagnosis.verdict = Verdict::Undecided;
     diagnosis.interrupted = true;
-    let text = text(&diagnosis, &FOLLOWING, Vocabulary::Hand, false);
+    let text = text(&diagnosis, &FOLLOWING, Vocabulary::Hand, None);
     assert!(
         text.contains("Verdict: stopped before there was a verdict"),
         "{text}"
@@ -343,7 +368,7 @@ fn every_verdict_word_for_word() {
     let told = |change: fn(&mut Diagnosis)| {
         let mut diagnosis = missing();
         change(&mut diagnosis);
-        text(&diagnosis, &FOLLOWING, Vocabulary::Hand, false)
+        text(&diagnosis, &FOLLOWING, Vocabulary::Hand, None)
     };
     insta::assert_snapshot!("missing", told(|_| ()));
     insta::assert_snapshot!(

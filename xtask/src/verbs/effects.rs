@@ -133,28 +133,36 @@ fn in_full(description: &Description) -> String {
         &mut text,
         format_args!("  Source      {}\n", description.source),
     );
-    line(
-        &mut text,
-        format_args!(
-            "  {:<30} {:<14} {:>12} {:>12} {:>12}  What it is",
-            "Parameter", "Unit", "start", "from", "to"
-        ),
-    );
-    for parameter in description.parameters {
+    parameters(&mut text, description);
+    text
+}
+
+/// A table of its parameters, no column wider than what stands in it.
+fn parameters(text: &mut String, description: &Description) {
+    let headings = ["Parameter", "Unit", "start", "from", "to"].map(str::to_owned);
+    let of_parameters = description.parameters.iter().map(|parameter| {
+        let numbers = [parameter.starts[0], parameter.minimum, parameter.maximum];
+        let [start, from, to] = numbers.map(|number| number.to_string());
+        let names = [parameter.name, parameter.unit].map(str::to_owned);
+        let [name, unit] = names;
+        ([name, unit, start, from, to], parameter.meaning)
+    });
+    let rows: Vec<([String; 5], &str)> = std::iter::once((headings, "What it is"))
+        .chain(of_parameters)
+        .collect();
+    let width = |column: usize| {
+        let cells = rows.iter().map(|(cells, _)| cells[column].chars().count());
+        cells.max().unwrap_or(0)
+    };
+    let [of_name, of_unit, of_start, of_from, of_to] = [0, 1, 2, 3, 4].map(width);
+    for ([name, unit, start, from, to], meaning) in &rows {
         line(
-            &mut text,
+            text,
             format_args!(
-                "  {:<30} {:<14} {:>12} {:>12} {:>12}  {}",
-                parameter.name,
-                parameter.unit,
-                parameter.starts[0],
-                parameter.minimum,
-                parameter.maximum,
-                parameter.meaning
+                "  {name:<of_name$}  {unit:<of_unit$}  {start:>of_start$}  {from:>of_from$}  {to:>of_to$}  {meaning}"
             ),
         );
     }
-    text
 }
 
 fn line(text: &mut String, arguments: std::fmt::Arguments<'_>) {

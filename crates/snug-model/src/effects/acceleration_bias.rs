@@ -50,7 +50,7 @@ impl Law for AccelerationBias {
                 check: "Read the accelerometer with the rig at rest, cold and warm: it must show zero; if not, record a quiet part before each start.",
             }),
             valid_for: "a zero that does not drift from the beginning of the integration to the end of the window",
-            source: "sensor zero offset",
+            source: "IEEE Std 1293-1998, Test Procedure for Linear, Single-Axis, Nongyroscopic Accelerometers: bias",
         }
     }
 

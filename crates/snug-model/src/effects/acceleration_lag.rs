@@ -51,7 +51,7 @@ impl Law for AccelerationLag {
                 check: "Look up the filter of the speed or angle signal and the time constant of the drive's current loop.",
             }),
             valid_for: "filters of first order, one for all channels of the motion, rest before the first sample; any amplitude",
-            source: "low-pass filter of the sensor, current loop of a drive",
+            source: "Ljung 1999, System Identification: Theory for the User, Prentice Hall",
         }
     }
 

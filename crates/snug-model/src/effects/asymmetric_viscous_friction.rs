@@ -45,7 +45,7 @@ impl Law for AsymmetricViscousFriction {
             check: "Let the drive run at the same speed one way and the other and compare the torque it takes: worm gears, seals and brushes can differ by direction.",
             on_machine: None,
             valid_for: "abs(d) <= c and motion both ways; it has no time scale",
-            source: "identification of drives with a coefficient per direction (Armstrong 1991, Kozlowski 1998)",
+            source: "Armstrong-Hélouvry 1991, Control of Machines with Friction, Kluwer; Kozłowski 1998, Modelling and Identification in Robotics, Springer",
         }
     }
 

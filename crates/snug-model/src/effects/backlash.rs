@@ -57,7 +57,7 @@ impl Law for Backlash {
                 check: "With the power off, rock the moving part and feel for free play in gears, couplings, keys and mounting.",
             }),
             valid_for: "play of the same size to both sides of rest, gaps far above 1 um, records at some 10 kHz",
-            source: "dead zone with contact damping",
+            source: "Nordin and Gutman 2002, Controlling mechanical systems with backlash – a survey, Automatica 38",
         }
     }
 

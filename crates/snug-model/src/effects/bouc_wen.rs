@@ -69,7 +69,7 @@ impl Law for BoucWen {
                 check: "Push slowly to and fro over a short way with the power off and draw force over way: what gives way leaves a loop at every reversal (cables, seals, belts, rubber).",
             }),
             valid_for: "travel from about z_max on, for less it is a spring k_h; the loop does not depend on speed",
-            source: "Bouc 1967, Wen 1976",
+            source: "Bouc 1967, Forced vibration of mechanical systems with hysteresis, 4th Conference on Nonlinear Oscillations, Prague; Wen 1976, Method for random vibration of hysteretic systems, Journal of the Engineering Mechanics Division ASCE 102",
         }
     }
 

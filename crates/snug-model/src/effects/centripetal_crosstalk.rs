@@ -50,7 +50,7 @@ impl Law for CentripetalCrosstalk {
                 check: "Check that the accelerometer's axis lies along the circle on which it moves: turned towards the axis of rotation, it feels the rotation itself.",
             }),
             valid_for: "a sensor fixed to the tool, velocity and displacement integrated from this very acceleration",
-            source: "transverse sensitivity of the accelerometer",
+            source: "ISO 16063-31:2009, Calibration of vibration and shock transducers: testing of transverse vibration sensitivity",
         }
     }
 

@@ -50,7 +50,7 @@ impl Law for CoContraction {
             check: "Ask the operator to grip as firmly before the pulse as during it (watch the grip force): the stiffening should go away.",
             on_machine: None,
             valid_for: "one rise per tightening, r > -1, while the hand is still displaced after t_on; any amplitude",
-            source: "Hogan 1984, antagonist co-activation",
+            source: "Hogan 1984, Adaptive control of mechanical impedance by coactivation of antagonist muscles, IEEE Transactions on Automatic Control 29",
         }
     }
 

@@ -51,7 +51,7 @@ impl Law for CoulombFriction {
                 check: "Move the rig slowly with the power off and feel or measure whether it needs a small force to move at all: look for rubbing seals, bearings, guides and cables.",
             }),
             valid_for: "speeds far above 0.01 m/s; below, it is a damper and nothing sticks",
-            source: "Coulomb friction, smoothed",
+            source: "Armstrong-Hélouvry, Dupont and Canudas de Wit 1994, A survey of models, analysis tools and compensation methods for the control of machines with friction, Automatica 30",
         }
     }
 

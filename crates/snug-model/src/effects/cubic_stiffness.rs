@@ -52,7 +52,7 @@ impl Law for CubicStiffness {
                 check: "Drive the rig at a small, a middle and a large amplitude: a spring that hardens gives a fitted stiffness that rises with the amplitude.",
             }),
             valid_for: "displacements well below sqrt(k / (3 abs(k3))) when it softens, where its force is largest; it has no time scale",
-            source: "Duffing oscillator",
+            source: "Duffing 1918, Erzwungene Schwingungen bei veränderlicher Eigenfrequenz, Vieweg",
         }
     }
 

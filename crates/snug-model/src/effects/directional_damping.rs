@@ -46,7 +46,7 @@ impl Law for DirectionalDamping {
             check: "Watch the handle come back after shut-off, on a film or in the recorded velocity: the hand brakes the return differently from the push.",
             on_machine: None,
             valid_for: "pulses that push to positive x, with c + c_r >= 0; it has no time scale",
-            source: "Hill, force-velocity relation of muscle",
+            source: "Hill 1938, The heat of shortening and the dynamic constants of muscle, Proceedings of the Royal Society B 126",
         }
     }
 

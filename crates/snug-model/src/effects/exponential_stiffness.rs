@@ -70,7 +70,7 @@ impl Law for ExponentialStiffness {
                 check: "Drive the rig at several amplitudes up to the largest: the fitted stiffness rises ever faster, not in proportion to the square of the displacement.",
             }),
             valid_for: "travel from about x0 to 10 x0, for less it is a spring f0 / x0; it has no time scale",
-            source: "Fung 1967, soft tissue in elongation",
+            source: "Fung 1967, Elasticity of soft tissues in simple elongation, American Journal of Physiology 213",
         }
     }
 

@@ -51,5 +51,5 @@ pub const DESCRIPTION: Description = Description {
         check: "Repeat the first recordings after a pause: values that come back to where they began show warming, values that stay show wear or a changed setup.",
     }),
     valid_for: "tightenings in a row by the same person, few enough that the trend stays straight and 1 + s n positive",
-    source: "muscle fatigue; the pace of work and learning look alike",
+    source: "Enoka and Duchateau 2008, Muscle fatigue: what, why and how it influences muscle function, Journal of Physiology 586",
 };

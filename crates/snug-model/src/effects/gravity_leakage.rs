@@ -50,7 +50,7 @@ impl Law for GravityLeakage {
                 check: "Turn the rig slowly with the power off and watch the acceleration: a reading that follows the angle is gravity, so look at how the sensor is mounted.",
             }),
             valid_for: "any angle, counted from where gravity adds nothing to the reading: what it adds at rest is a bias",
-            source: "static sensitivity of accelerometers",
+            source: "IEEE Std 1293-1998, Test Procedure for Linear, Single-Axis, Nongyroscopic Accelerometers: tests in the field of gravity",
         }
     }
 

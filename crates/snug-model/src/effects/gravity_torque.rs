@@ -59,7 +59,7 @@ impl Law for GravityTorque {
             check: "Let go of the arm with the power off: a weight makes it swing to one place and stay there. Balance it, or turn the axis upright, and repeat.",
             on_machine: None,
             valid_for: "an axis that is not vertical and no more than a few turns; for small angles it is a stiffness and an offset of the torque",
-            source: "the physical pendulum",
+            source: "Huygens 1673, Horologium Oscillatorium",
         }
     }
 

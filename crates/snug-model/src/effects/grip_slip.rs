@@ -45,7 +45,7 @@ impl Law for GripSlip {
             check: "Mark handle and glove with a line and look after a high-torque tightening whether it has moved; repeat with a firmer grip.",
             on_machine: None,
             valid_for: "forces around F_max; it has no memory: the grip holds again at once, where it was before",
-            source: "limit of friction, smoothed",
+            source: "Johansson and Westling 1984, Roles of glabrous skin receptors and sensorimotor memory in automatic control of precision grip, Experimental Brain Research 56",
         }
     }
 

@@ -62,7 +62,7 @@ impl Law for InitialMotion {
                 check: "Keep the rig still for a second before each start, and check that the recording begins before the input does.",
             }),
             valid_for: "free motion before the window, without torque that the window does not hold",
-            source: "initial conditions",
+            source: "Ljung 1999, System Identification: Theory for the User, Prentice Hall",
         }
     }
 

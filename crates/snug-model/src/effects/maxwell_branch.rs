@@ -64,7 +64,7 @@ impl Law for MaxwellBranch {
                 check: "Repeat without, or with other, rubber mounts, belts and couplings: a soft layer in between changes the misfit.",
             }),
             valid_for: "motion that changes over times around tau: for slower it is a damper k_m tau, for quicker a spring k_m; any amplitude",
-            source: "Zener, standard linear solid",
+            source: "Zener 1948, Elasticity and Anelasticity of Metals, University of Chicago Press",
         }
     }
 

@@ -49,7 +49,7 @@ impl Law for OutputOffset {
                 check: "Read the fitted channel with the rig at rest: it must show zero.",
             }),
             valid_for: "a zero of the fitted channel that does not drift within a tightening",
-            source: "sensor zero offset",
+            source: "JCGM 200:2012, International Vocabulary of Metrology: zero error",
         }
     }
 

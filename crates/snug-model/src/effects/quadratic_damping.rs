@@ -49,7 +49,7 @@ impl Law for QuadraticDamping {
                 check: "Drive the rig slowly and fast with the same force: damping of this kind grows with the speed, as air and oil resist; friction does not.",
             }),
             valid_for: "speeds around and above c / c2; slower motion does not show it; it has no time scale",
-            source: "velocity-squared damping",
+            source: "Nayfeh and Mook 1979, Nonlinear Oscillations, Wiley",
         }
     }
 

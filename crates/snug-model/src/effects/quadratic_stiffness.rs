@@ -49,7 +49,7 @@ impl Law for QuadraticStiffness {
                 check: "Pull the rig the same way to either side with a spring scale: an uneven spring is stiffer one way than the other.",
             }),
             valid_for: "displacements below k / (2 abs(k2)), where on the soft side its force is largest; it has no time scale",
-            source: "asymmetric spring (Nayfeh and Mook 1979)",
+            source: "Nayfeh and Mook 1979, Nonlinear Oscillations, Wiley",
         }
     }
 

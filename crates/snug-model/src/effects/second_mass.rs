@@ -80,7 +80,7 @@ impl Law for SecondMass {
                 check: "Tap the rig and its base and compare the ringing; clamp the base more firmly and repeat: ringing that changes comes from there.",
             }),
             valid_for: "pulses short enough to reach the second resonance, sqrt(k2 / m2); to slower motion only k and c seem other; any amplitude",
-            source: "two-degree-of-freedom hand-arm models (ISO 10068)",
+            source: "ISO 10068:2012, Mechanical impedance of the human hand-arm system at the driving point",
         }
     }
 

@@ -77,7 +77,7 @@ impl Law for SecondMode {
             check: "Tap the rig beside the sensor and at the drive and compare the ringing; clamp the sensor nearer to the drive and repeat.",
             on_machine: None,
             valid_for: "small bending and one further mode; torque and sensor at the same places throughout; any amplitude",
-            source: "modal superposition with residues of either sign (Ewins, Modal Testing)",
+            source: "Ewins 2000, Modal Testing: Theory, Practice and Application, Research Studies Press",
         }
     }
 

@@ -59,7 +59,7 @@ impl Law for StretchReflex {
             check: "Ask the operator to stay relaxed, then to resist: a reflex begins the same short time after the pulse and changes in size only.",
             on_machine: None,
             valid_for: "pulses shorter than tau in windows much longer; for slower motion it is a spring; any amplitude, a fixed delay",
-            source: "stretch reflex latencies of the arm",
+            source: "Marsden, Merton and Morton 1972, Servo action in human voluntary movement, Nature 238",
         }
     }
 

@@ -79,7 +79,7 @@ impl Law for StribeckFriction {
                 check: "Pull the moving part with a spring scale with the power off, first very slowly, then faster: friction that sticks pulls hardest when slow; grease and seals change it.",
             }),
             valid_for: "v_s well above 0.01 m/s, below which it is a damper and nothing sticks",
-            source: "Stribeck 1902; Armstrong-Helouvry, Dupont & Canudas de Wit 1994",
+            source: "Stribeck 1902, Die wesentlichen Eigenschaften der Gleit- und Rollenlager, Zeitschrift des VDI 46; Armstrong-Hélouvry, Dupont and Canudas de Wit 1994, A survey of models, analysis tools and compensation methods for the control of machines with friction, Automatica 30",
         }
     }
 

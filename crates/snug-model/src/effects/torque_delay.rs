@@ -45,7 +45,7 @@ impl Law for TorqueDelay {
             check: "Feed one pulse to both channels and compare their edges; look for different filters or acquisition cards.",
             on_machine: None,
             valid_for: "a delay that is the same at all frequencies, torque sampled finely enough to be known between samples; any amplitude",
-            source: "channel timing",
+            source: "Ljung 1999, System Identification: Theory for the User, Prentice Hall",
         }
     }
 

@@ -50,7 +50,7 @@ impl Law for TorqueDependentStiffness {
                 check: "Deflect the rig by the same way at a small and a large input and compare the fitted stiffness: gears and couplings that are wound up stiffen.",
             }),
             valid_for: "kappa abs(T) > -1; the hand follows the torque at once, without a reaction time",
-            source: "grip force rises with load",
+            source: "Westling and Johansson 1984, Factors influencing the force control during precision grip, Experimental Brain Research 53",
         }
     }
 

@@ -45,7 +45,7 @@ impl Law for TorqueLag {
             check: "Look up the low-pass filter of the torque channel, and compare its step response with the acceleration channel's.",
             on_machine: None,
             valid_for: "filters of first order, torque that changes over more than a few samples; any amplitude",
-            source: "low-pass filter of the torque channel",
+            source: "Ljung 1999, System Identification: Theory for the User, Prentice Hall",
         }
     }
 

@@ -44,7 +44,7 @@ impl Law for TorqueOffset {
             check: "Read the torque sensor with no load, before and after the run: it must show zero.",
             on_machine: None,
             valid_for: "a zero that does not drift within a tightening",
-            source: "sensor zero offset",
+            source: "JCGM 200:2012, International Vocabulary of Metrology: zero error",
         }
     }
 

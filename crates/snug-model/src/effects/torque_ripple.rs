@@ -82,7 +82,7 @@ impl Law for TorqueRipple {
                 check: "Turn the rig slowly with the power off and feel for notches; count the teeth, slots or balls that pass in one turn.",
             }),
             valid_for: "travel of a wavelength or two at least, over less it is a curved spring; four samples per wavelength passed",
-            source: "cogging and ripple torque of drives, transmission error of gears",
+            source: "Jahns and Soong 1996, Pulsating torque minimization techniques for permanent magnet AC motor drives – a review, IEEE Transactions on Industrial Electronics 43",
         }
     }
 

@@ -49,7 +49,7 @@ impl Law for VoluntaryPush {
             check: "Let somebody else start the tool so that the operator does not know when: a push on purpose then comes later or not at all.",
             on_machine: None,
             valid_for: "one push per tightening that then stays, in windows that last beyond t_on; whatever the motion",
-            source: "voluntary reaction times",
+            source: "Hammond 1956, The influence of prior instruction to the subject on an apparently involuntary neuro-muscular response, Journal of Physiology 132",
         }
     }
 

@@ -6,14 +6,22 @@ mod mark;
 pub use axis::{Axis, linear_range, round_step};
 pub use mark::{Bar, Dot, Mark, Segment};
 
+use axis::Tick;
 use maud::{Markup, PreEscaped, html};
 
 /// Height of the text below the plot: tick labels and the axis label.
 const BELOW: f64 = 40.0;
 const ABOVE: f64 = 10.0;
 const RIGHT: f64 = 20.0;
+/// Width of a drawing on a screen as narrow as a telephone's; one that is wider is drawn a second time with this width, so that
+/// its text stays as large \[px\].
+const NARROW: f64 = 300.0;
 /// A drawing is not shrunk below this share of its size, so that its text stays legible; it scrolls instead.
-const SMALLEST: f64 = 0.62;
+const SMALLEST: f64 = 0.97;
+/// Nor enlarged beyond this one.
+const LARGEST: f64 = 1.15;
+/// Least distance of neighbouring tick labels \[px\].
+const BETWEEN: f64 = 8.0;
 /// Width of one character of a tick label.
 const CHARACTER: f64 = 6.4;
 
@@ -37,11 +45,12 @@ pub struct Figure {
 struct Frame<'a> {
     figure: &'a Figure,
     left: f64,
+    width: f64,
 }
 
 impl Frame<'_> {
     fn x(&self, value: f64) -> f64 {
-        let width = self.figure.width - self.left - RIGHT;
+        let width = self.width - self.left - RIGHT;
         self.left + self.figure.x.position(value) * width
     }
 
@@ -51,26 +60,52 @@ impl Frame<'_> {
     }
 
     fn right(&self) -> f64 {
-        self.figure.width - RIGHT
+        self.width - RIGHT
     }
 
     fn bottom(&self) -> f64 {
         self.figure.height - BELOW
     }
+
+    /// The ticks of the horizontal axis that have room beside each other.
+    fn columns(&self) -> impl Iterator<Item = &Tick> {
+        let ticks = self.figure.x.ticks();
+        let room = CHARACTER * self.figure.x.widest_tick() as f64 + BETWEEN;
+        let most = ((self.right() - self.left) / room).floor().max(2.0);
+        let every = (ticks.len() as f64 / most).ceil().max(1.0) as usize;
+        ticks.iter().step_by(every)
+    }
 }
 
 impl Figure {
-    /// The drawing as an `svg` element that scales with its surroundings.
+    /// The drawing as an `svg` element that scales with its surroundings; a wide one twice, of which the page's style shows the one
+    /// for the screen.
     pub fn svg(&self) -> Markup {
+        html! {
+            @if self.width > LARGEST * NARROW {
+                (self.drawn(self.width, "figure broad"))
+                (self.drawn(NARROW, "figure narrow"))
+            } @else {
+                (self.drawn(self.width, "figure"))
+            }
+        }
+    }
+
+    fn drawn(&self, width: f64, class: &str) -> Markup {
         let label_room = if self.y.label.is_empty() { 10.0 } else { 30.0 };
         let frame = Frame {
             figure: self,
             left: label_room + CHARACTER * self.y.widest_tick() as f64,
+            width,
         };
-        let view_box = format!("0 0 {} {}", self.width, self.height);
+        let view_box = format!("0 0 {width} {}", self.height);
+        let style = format!(
+            "min-width:{:.0}px;max-width:{:.0}px",
+            SMALLEST * width.min(NARROW),
+            LARGEST * width
+        );
         html! {
-            svg.figure viewBox=(view_box) role="img" aria-label=(self.description)
-                style=(format!("min-width:{:.0}px;max-width:{}px", SMALLEST * self.width, self.width)) {
+            svg class=(class) viewBox=(view_box) role="img" aria-label=(self.description) style=(style) {
                 title { (self.description) }
                 (self.grid(&frame))
                 @for mark in &self.marks { (mark.svg(&frame)) }
@@ -81,7 +116,7 @@ impl Figure {
 
     fn grid(&self, frame: &Frame) -> Markup {
         let mut lines = String::new();
-        for tick in self.x.ticks() {
+        for tick in frame.columns() {
             let x = pixel(frame.x(tick.at));
             lines += &format!("M{x} {}V{}", pixel(ABOVE), pixel(frame.bottom()));
         }
@@ -93,11 +128,14 @@ impl Figure {
     }
 
     fn labels(&self, frame: &Frame) -> Markup {
-        let middle_x = 0.5 * (frame.left + frame.right());
+        // Below the plot's middle, as far as the drawing has room for the words.
+        let half = 0.5 * CHARACTER * self.x.label.chars().count() as f64;
+        let middle_x = (0.5 * (frame.left + frame.right())).min(frame.width - half);
+        let middle_x = middle_x.max(half.min(0.5 * frame.width));
         let middle_y = 0.5 * (ABOVE + frame.bottom());
         let turned = format!("rotate(-90 12 {})", pixel(middle_y));
         html! {
-            @for tick in self.x.ticks() {
+            @for tick in frame.columns() {
                 text.tick x=(pixel(frame.x(tick.at))) y=(pixel(frame.bottom() + 15.0)) text-anchor="middle" { (tick.text) }
             }
             @for tick in self.y.ticks() {

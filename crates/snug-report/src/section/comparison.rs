@@ -34,7 +34,7 @@ fn render(diagnosis: &Diagnosis, _: &CampaignResult) -> Option<Markup> {
 
 fn pooled(comparison: &Comparison) -> Markup {
     html! {
-        div.scroll { table {
+        div.scroll tabindex="0" role="region" aria-label="All tightenings together" { table {
             caption { "All tightenings together" }
             (headings(&["quantity", "rms error", "largest error", "error [% of the signal]", "fit [%]", "error over noise [×]"]))
             tbody { @for misfit in &comparison.pooled { tr {
@@ -70,7 +70,7 @@ fn each(comparison: &Comparison) -> Markup {
                 "Each tightening, worst first"
                 @if count > MOST_ROWS { " (the worst " (MOST_ROWS) " of " (count) "; verdict.json holds all)" }
             }
-            div.scroll.tall tabindex="0" { table.sortable data-sortable="" {
+            div.scroll.tall tabindex="0" role="region" aria-label="Each tightening, worst first" { table.sortable data-sortable="" {
                 thead { tr {
                     th.words scope="col" { "tightening" }
                     @for column in columns {

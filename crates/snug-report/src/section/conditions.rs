@@ -78,7 +78,7 @@ fn moments<'a>(summary: &'a ConditionSummary, column: &str, side: Side) -> Optio
 
 fn table(caption: &str, columns: &[&str], result: &CampaignResult, side: Side) -> Markup {
     html! {
-        div.scroll { table.conditions {
+        div.scroll tabindex="0" role="region" aria-label="Means and spreads per condition" { table.conditions {
             caption { (caption) }
             thead { tr {
                 th scope="col" { "condition" }
@@ -157,7 +157,7 @@ fn drawing(column: &str, result: &CampaignResult) -> Markup {
             "Mean {} per condition with 95 % intervals",
             name.with_unit()
         ),
-        width: 380.0,
+        width: 300.0,
         height: 56.0 + 17.0 * rows.len() as f64,
         x: Axis::linear(name.with_unit(), low, high, 5),
         y: Axis::rows(&rows),

@@ -35,7 +35,7 @@ fn render(result: &CampaignResult) -> Markup {
             "The quiet part before each pulse shows what the sensors say when nothing moves. What was measured there was taken \
             out before the fit, significant or not. Significant means larger than chance would make it under the measured noise."
         }
-        div.scroll { table {
+        div.scroll tabindex="0" role="region" aria-label="What was corrected before the fit" { table {
             caption { "Corrections over all tightenings" }
             (headings(&["sensor error", "significant in", "typical size (median of |size|)", "from", "to",
                 "standard error (median)", "unit"]))
@@ -96,8 +96,8 @@ fn drawing((effect, all): &Corrected, result: &CampaignResult) -> Markup {
     let name = effect.replace('_', " ");
     let figure = Figure {
         description: format!("{name} of every tightening with its 95 % interval"),
-        width: 440.0,
-        height: 230.0,
+        width: 300.0,
+        height: 190.0,
         x: Axis::linear("tightening, in campaign order", 0.0, last, 6),
         y: Axis::linear(format!("{name} [{}]", unit(all)), low, high, 5),
         marks,

@@ -48,7 +48,7 @@ fn absent(list: &[Detectability], result: &CampaignResult) -> Markup {
         h3 { "What was not found is absent or smaller than this" }
         p { "Each effect was put into these data to see from which size on it would be found 95 times in 100. Beside it stands the \
             largest size that is physically plausible: where the first is much smaller, the effect can be ruled out for practical purposes." }
-        div.scroll { table {
+        div.scroll tabindex="0" role="region" aria-label="What would have been found" { table {
             (headings(&["effect", "absent or smaller than", "largest plausible"]))
             tbody { @for row in list { tr {
                 th scope="row" { (effect_name(&row.effect)) " " span.interval { (parameter_name(&row.meaning, &row.parameter, result)) } }

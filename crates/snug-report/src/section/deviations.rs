@@ -88,7 +88,7 @@ fn render(result: &CampaignResult) -> Markup {
     }
     html! {
         p { "The preset " strong { "thesis" } " follows the original program even where it errs, so that old and new results can be compared." }
-        div.scroll { table.prose {
+        div.scroll tabindex="0" role="region" aria-label="What the thesis preset does differently" { table.prose {
             thead { tr { th scope="col" { "step" } th.words scope="col" { "thesis" } th.words scope="col" { "snug" } } }
             tbody { @for (step, thesis, snug) in DEVIATIONS {
                 tr { th scope="row" { (step) } td.words { (thesis) } td.words { (snug) } }

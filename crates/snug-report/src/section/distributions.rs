@@ -94,8 +94,8 @@ fn histogram(column: &str, result: &CampaignResult) -> Option<Markup> {
             selected.len(),
             rejected.len()
         ),
-        width: 380.0,
-        height: 230.0,
+        width: 300.0,
+        height: 190.0,
         x: Axis::linear(name.with_unit(), edges.low, edges.high(), 5),
         y: Axis::counts("tightenings", deepest, tallest),
         marks: vec![

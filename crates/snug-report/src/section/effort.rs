@@ -34,8 +34,8 @@ fn render(diagnosis: &Diagnosis, _result: &CampaignResult) -> Option<Markup> {
     Some(html! {
         p { "Counts, not times: the same data and study give the same counts on every run and for any number of threads. \
             More of them after an update means that something has become slower." }
-        table {
+        div.scroll tabindex="0" role="region" aria-label="Counts of work" { table {
             tbody { @for (what, count) in rows { tr { th scope="row" { (what) } td { (count) } } } }
-        }
+        } }
     })
 }

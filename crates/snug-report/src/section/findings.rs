@@ -53,7 +53,7 @@ fn kinds(result: &CampaignResult) -> Vec<((Severity, &str), Vec<&Finding>)> {
 
 fn listing(findings: &[&Finding]) -> Markup {
     html! {
-        div.scroll { table {
+        div.scroll tabindex="0" role="region" aria-label=(findings.first().map_or("Findings", |one| one.code.as_str())) { table {
             thead { tr {
                 th scope="col" { "file" } th scope="col" { "tightening" } th.words scope="col" { "channel" } th.words scope="col" { "what was found and done" }
             } }

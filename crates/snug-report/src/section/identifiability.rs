@@ -43,7 +43,7 @@ fn render(result: &CampaignResult) -> Markup {
 }
 
 fn statuses(estimates: &[&Estimate]) -> Markup {
-    html! { div.scroll { table {
+    html! { div.scroll tabindex="0" role="region" aria-label="How identifications ended" { table {
         caption { "How identifications ended" }
         thead { tr { th scope="col" { "status" } th scope="col" { "tightenings" } th.words scope="col" { "meaning" } } }
         tbody { @for status in STATUSES {
@@ -69,7 +69,7 @@ fn constraints(estimates: &[&Estimate]) -> Markup {
         @if active.is_empty() {
             p { "No constraint is active: every estimate is the data's free choice." }
         } @else {
-            div.scroll { table {
+            div.scroll tabindex="0" role="region" aria-label="Active constraints" { table {
                 caption { "Constraints that decided instead of the data" }
                 (headings(&["active constraint", "tightenings"]))
                 tbody { @for (name, count) in active { tr {
@@ -89,7 +89,7 @@ fn certainty(estimates: &[&Estimate], result: &CampaignResult) -> Markup {
             |interval: Interval| 50.0 * (interval.high - interval.low) / parameter.value.abs();
         (parameter.name.as_str(), parameter.interval.map(width))
     }));
-    html! { div.scroll { table {
+    html! { div.scroll tabindex="0" role="region" aria-label="Widths of the intervals" { table {
         caption { "Half the 95 % interval in percent of the value" }
         (headings(&["parameter", "tightenings with interval", "median [%]", "middle half [%]", "widest [%]"]))
         tbody { @for (name, values) in &widths {
@@ -119,7 +119,7 @@ fn correlations(estimates: &[&Estimate], result: &CampaignResult) -> Markup {
         pairs.entry((first, second)).or_default().push(*correlation);
     }
     html! { @if !pairs.is_empty() {
-        div.scroll { table {
+        div.scroll tabindex="0" role="region" aria-label="Most correlated parameters" { table {
             caption { "The most correlated pair of parameters: near ±1 the data cannot tell the two apart" }
             (headings(&["pair", "tightenings", "correlation, median", "from", "to"]))
             tbody { @for ((first, second), values) in &pairs {

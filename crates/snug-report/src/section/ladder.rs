@@ -241,7 +241,7 @@ fn table(rungs: &[Rung], names: &[String], unit: &str) -> Markup {
     let unknown = "the noise is not known";
     let apart = "fewer than two groups to hold out, or the noise is not known";
     html! {
-        div.scroll { table.rungs {
+        div.scroll tabindex="0" role="region" aria-label="The ladder in numbers" { table.rungs {
             caption { "The ladder in numbers. Error over noise has no unit: it is a multiple of the measurement noise." }
             thead {
                 tr {

@@ -96,7 +96,7 @@ fn drifting(row: &Drift) -> bool {
 
 fn drift_table(drifts: &[Drift], result: &CampaignResult) -> Markup {
     html! {
-        div.scroll { table {
+        div.scroll tabindex="0" role="region" aria-label="Fitted values that drift" { table {
             thead { tr {
                 @for heading in ["fitted value", "changes with"] { th.words scope="col" { (heading) } }
                 th scope="col" { "by [%], 95 % interval" }

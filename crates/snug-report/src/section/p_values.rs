@@ -91,7 +91,7 @@ fn side_by_side(result: &CampaignResult, methods: &[(&str, bool)]) -> Markup {
             .collect()
     };
     html! {
-        div.scroll.wide { table.tests {
+        div.scroll.wide tabindex="0" role="region" aria-label="p-values" { table.tests {
             caption { "p (adjusted p) and effect size per method" }
             thead { tr {
                 th scope="col" { "factor" }
@@ -150,7 +150,7 @@ fn effect_size(effect: &EffectSize) -> Markup {
 
 fn in_full(result: &CampaignResult) -> Markup {
     html! {
-        div.scroll { table {
+        div.scroll tabindex="0" role="region" aria-label="Every test in full" { table {
             (headings(&["quantity", "factor", "method", "statistic", "degrees of freedom", "p", "adjusted p", "effect size", "note"]))
             tbody { @for row in &result.tests { (full_row(row, result)) } }
         } }

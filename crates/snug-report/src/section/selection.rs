@@ -42,7 +42,7 @@ fn counts(presets: &[PresetSummary]) -> Markup {
         .filter(|reason| presets.iter().any(|preset| count(preset, *reason) > 0))
         .collect();
     html! {
-        div.scroll {
+        div.scroll tabindex="0" role="region" aria-label="Selected tightenings per preset" {
             table.counts {
                 caption { "Tightenings per outcome; one tightening may have several reasons" }
                 thead { tr {
@@ -115,7 +115,7 @@ fn agreement(first: &PresetSummary, second: &PresetSummary) -> Markup {
         @if !differing.is_empty() {
             details {
                 summary { "The " (differing.len()) " tightenings on which the presets differ" }
-                div.scroll { table {
+                div.scroll tabindex="0" role="region" aria-label="Tightenings on which the presets differ" { table {
                     thead { tr {
                         th scope="col" { "tightening" }
                         th.words scope="col" { (first.preset) }
@@ -153,7 +153,7 @@ fn outcomes(presets: &[PresetSummary]) -> Markup {
                 span.key { span.outcome.yes { "1" } " selected" }
                 span.key { span.outcome.no { "1" } " rejected (point at it for the reason)" }
             }
-            div.scroll { table.outcomes {
+            div.scroll tabindex="0" role="region" aria-label="Outcome of every tightening" { table.outcomes {
                 thead { tr {
                     th scope="col" { "file" }
                     @for preset in presets { th scope="col" { "preset " (preset.preset) } }

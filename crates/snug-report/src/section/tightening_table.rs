@@ -44,7 +44,7 @@ fn render(result: &CampaignResult) -> Markup {
             }
             span.note data-shown="" aria-live="polite" {}
         }
-        div.scroll.wide.tall tabindex="0" { table.sortable data-sortable="" {
+        div.scroll.wide.tall tabindex="0" role="region" aria-label="Every tightening" { table.sortable data-sortable="" {
             thead { tr {
                 @for heading in ["tightening", "outcome", "participant", "strategy", "joint"] { th.words scope="col" { (heading) } }
                 th scope="col" { "pace [1/min]" }

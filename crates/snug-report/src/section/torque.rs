@@ -54,7 +54,7 @@ fn render(result: &CampaignResult) -> Markup {
         @if !borderline.is_empty() {
             details {
                 summary { "The " (counted(borderline.len(), "borderline tightening")) }
-                div.scroll { table {
+                div.scroll tabindex="0" role="region" aria-label="Rounded and actual torque" { table {
                     (headings(&["tightening", "peak torque [Nm]", "rounded [Nm]", "difference [Nm]"]))
                     tbody { @for tightening in borderline.iter().take(LISTED) { tr {
                         th scope="row" { (tightening.id) }

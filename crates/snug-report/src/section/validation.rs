@@ -27,7 +27,7 @@ fn render(result: &CampaignResult) -> Option<Markup> {
         p { "These took no part in the fit: the " (result.fitted_output) " was simulated with the parameters of the others. A free run, \
             from the first sample to the last, accumulates every error; restarted from the measured motion every so often, the model is \
             judged by what it predicts over that time. The residual is its root mean square." }
-        div.scroll { table {
+        div.scroll tabindex="0" role="region" aria-label="Predictions of what took no part in the fit" { table {
             (headings(&["kept for validation", "free run: fit [%]", &residual, "restarted: fit [%]", &residual, "every [s]"]))
             tbody { @for (id, one) in &kept { tr {
                 th scope="row" { (id) }

@@ -159,7 +159,7 @@ fn unlisted(diagnosis: &Diagnosis) -> Markup {
             h3 { "The simplest term that describes what no effect of the catalogue explains" }
             p { (sentence(&term.statement)) }
             p { "To try it, paste this into the list " code { "model.custom" } " of the study file:" }
-            pre { code { (term.ron) } }
+            pre tabindex="0" { code { (term.ron) } }
         }
     }
 }

@@ -14,25 +14,30 @@ pub fn figures(aspects: &[Aspect]) -> Markup {
     if aspects.iter().all(|aspect| aspect.parts.is_empty()) {
         return html! {};
     }
-    let largest = aspects
-        .iter()
-        .flat_map(|aspect| &aspect.parts)
-        .flat_map(|part| [Some(part.error_over_noise), part.interval.map(|i| i.high)])
-        .flatten()
-        .filter(|error| error.is_finite())
-        .fold(1.2, f64::max);
     html! {
         p { "How far the model misses the measurement in each part of the data, as a multiple of the noise there, with 95 % \
-            intervals; the green line at 1 is nothing but noise. The percentage beside a part is its share of everything \
+            intervals; the green line at 1 is nothing but noise. Every picture ends where its data end. The percentage beside a part is its share of everything \
             beyond the noise." }
         div.figures.small {
-            @for aspect in aspects.iter().filter(|aspect| !aspect.parts.is_empty()) { (picture(aspect, largest)) }
+            @for aspect in aspects.iter().filter(|aspect| !aspect.parts.is_empty()) { (picture(aspect)) }
         }
         details {
             summary { "The same in numbers" }
             (table(aspects))
         }
     }
+}
+
+/// The largest error that a picture of its parts shows, ends of intervals among them: its axis ends there.
+fn largest(aspect: &Aspect) -> f64 {
+    let errors = aspect.parts.iter().flat_map(|part| {
+        [
+            Some(part.error_over_noise),
+            part.interval.map(|one| one.high),
+        ]
+    });
+    let finite = errors.flatten().filter(|error| error.is_finite());
+    finite.fold(1.2, f64::max)
 }
 
 /// What an aspect is called, and the factor and unit that its edges are shown in.
@@ -51,7 +56,8 @@ fn heading(aspect: &str) -> (String, f64, &'static str) {
     }
 }
 
-fn picture(aspect: &Aspect, largest: f64) -> Markup {
+fn picture(aspect: &Aspect) -> Markup {
+    let largest = largest(aspect);
     let (title, factor, unit) = heading(&aspect.aspect);
     let ranged = aspect
         .parts
@@ -123,7 +129,7 @@ fn in_rows(aspect: &Aspect, largest: f64, factor: f64, unit: &str) -> Markup {
     });
     Figure {
         description: format!("Error over noise by {}", aspect.aspect.replace('_', " ")),
-        width: 380.0,
+        width: 300.0,
         height: 60.0 + 22.0 * count.max(3) as f64,
         x: Axis::logarithmic("error over noise [×]", 0.85, 1.08 * largest),
         y: Axis::rows(&rows),
@@ -162,8 +168,8 @@ fn along(aspect: &Aspect, largest: f64, factor: f64, unit: &str) -> Markup {
     let floor = Mark::rule("c-floor", (start, end), (1.0, 1.0));
     Figure {
         description: format!("Error over noise by {}", aspect.aspect.replace('_', " ")),
-        width: 380.0,
-        height: 60.0 + 22.0 * 7.0,
+        width: 300.0,
+        height: 60.0 + 22.0 * 5.0,
         x: Axis::linear(
             format!("{} [{unit}]", heading(&aspect.aspect).0.to_lowercase()),
             start,
@@ -186,7 +192,7 @@ fn marks(whiskers: Vec<Segment>, dots: Vec<Dot>, floor: Mark) -> Vec<Mark> {
 
 fn table(aspects: &[Aspect]) -> Markup {
     html! {
-        div.scroll { table {
+        div.scroll tabindex="0" role="region" aria-label="Where the model fails, in numbers" { table {
             (headings(&["part", "error over noise [×], 95 % interval", "share of the excess", "samples"]))
             @for aspect in aspects {
                 @let (title, factor, unit) = heading(&aspect.aspect);
