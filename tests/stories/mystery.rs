@@ -1,7 +1,7 @@
 //! The mystery that ships with Snug, solved as the README does: compare, diagnose, add, improve.
 
 use crate::campaign::{diagnose_study, run_study};
-use snug_campaign::{Diagnosis, Verdict};
+use snug_campaign::{Became, Diagnosis, Motion, Verdict};
 use snug_study::{Outcome, Study, Verb};
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
@@ -109,6 +109,54 @@ fn improving_finds_it_unasked_and_stops() {
     assert_eq!(file["verdict"], "adequate");
     let last = file["ladder"].as_array().unwrap().last().unwrap();
     assert!(last["selected_fraction"].as_f64().unwrap() > 0.95);
+    assert_eq!(
+        file["ladder"][0]["ranking"][0]["effect"],
+        effect.as_str(),
+        "why it was taken is kept"
+    );
+    let recording = std::fs::read(out.path().join("recording.mcap")).unwrap();
+    let channels = snug_record::read::numeric_channels(&recording).unwrap();
+    let before = channels.channel("/tightening/signals", "before.acceleration_rad_per_s2");
+    assert!(before.unwrap().values.iter().all(|value| value.is_finite()));
+    let began = channels.channel("/tightening/window", "started_at_s");
+    assert!(began.unwrap().values.iter().any(|time_s| *time_s > 0.0));
+}
+
+/// Beside the base model many seem to help; beside what was hidden none does.
+#[test]
+fn what_no_longer_holds_is_told_and_every_tightening_shows_what_was_gained() {
+    let (effect, _) = truth();
+    let (outcome, _out) = asked(&Verb::Add(vec![effect.clone()]));
+    let diagnosis = diagnosis(&outcome);
+    assert_eq!(diagnosis.became(0, &effect), Became::Added);
+    let first = diagnosis.ladder[0].ranking.iter();
+    let helped: Vec<_> = first
+        .filter(|one| one.supported && one.effect != effect)
+        .collect();
+    assert!(helped.len() > 3, "{}", helped.len());
+    for one in helped {
+        let Became::Ranked { share, supported } = diagnosis.became(0, &one.effect) else {
+            continue;
+        };
+        assert!(!supported && share < 0.05, "{}: {share}", one.effect);
+    }
+    let left = |measured: &Motion, model: &Motion| -> f64 {
+        let [measured, model] =
+            [measured, model].map(|motion| motion.acceleration_rad_per_s2.as_ref().unwrap());
+        let pairs = measured.iter().zip(model);
+        pairs
+            .map(|(measured, model)| (measured - model).powi(2))
+            .sum()
+    };
+    let examples = &outcome.result.examples;
+    assert_eq!(examples.len(), 24);
+    for (_, traces) in examples {
+        let (before, after) = (
+            left(&traces.measured, &traces.before),
+            left(&traces.measured, &traces.simulated),
+        );
+        assert!(before > after, "{before} {after}");
+    }
 }
 
 /// The README's example of a law of one's own is an effect like any other; it is not what the mystery hides.
