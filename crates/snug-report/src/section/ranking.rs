@@ -133,7 +133,7 @@ const LAYERS: [(&str, &str); 3] = [
 ];
 
 fn figure(ranking: &[&RankedEffect]) -> Markup {
-    let (low, high) = scale(ranking);
+    let (low, high) = scale(ranking.iter().flat_map(|candidate| ends(candidate)));
     let placed = || ranking.iter().enumerate();
     let of_layer = |layer: &str| -> Vec<Bar> {
         placed()
@@ -179,10 +179,10 @@ fn ends(candidate: &RankedEffect) -> [f64; 2] {
     [-1.0, 1.0].map(|side| 100.0 * (candidate.heldout_gain + side * candidate.heldout_gain_error))
 }
 
-/// Both ends of the scale \[%\]. What goes beyond is cut off, so that it does not press the rest together.
-fn scale(ranking: &[&RankedEffect]) -> (f64, f64) {
-    let ends = ranking.iter().flat_map(|candidate| ends(candidate));
-    ends.filter(|end| end.is_finite())
+/// Both ends of the scale of these values \[%\]. What goes beyond is cut off, so that it does not press the rest together.
+fn scale(values: impl Iterator<Item = f64>) -> (f64, f64) {
+    values
+        .filter(|end| end.is_finite())
         .fold((0.0_f64, 5.0_f64), |(low, high), end| {
             (low.min(end.max(-50.0)), high.max(end.min(110.0)))
         })

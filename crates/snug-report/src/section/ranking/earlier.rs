@@ -61,7 +61,7 @@ impl Earlier<'_> {
     }
 
     fn figure(&self, ranking: &[&RankedEffect]) -> Markup {
-        let (low, high) = scale(ranking);
+        let (low, high) = self.scale(ranking);
         let placed = || ranking.iter().enumerate();
         let then = |layer: &str| -> Vec<Bar> {
             placed()
@@ -99,6 +99,18 @@ impl Earlier<'_> {
             html! { (figure.svg()) (legend(&used)) },
             None,
         )
+    }
+
+    /// Both ends of the scale \[%\]: those of the bars.
+    fn scale(&self, ranking: &[&RankedEffect]) -> (f64, f64) {
+        let shares = ranking.iter().flat_map(|candidate| {
+            let still = match self.diagnosis.became(self.rung, &candidate.effect) {
+                Became::Ranked { share, .. } => share,
+                Became::Added | Became::NotRanked => 0.0,
+            };
+            [candidate.heldout_gain, still]
+        });
+        scale(shares.map(|share| 100.0 * share))
     }
 
     fn class(&self, candidate: &RankedEffect) -> &'static str {
