@@ -69,6 +69,11 @@ impl Closer {
         *self == Self::default()
     }
 
+    /// Whether it is a look at a part of the time.
+    pub fn is_of_a_stretch(&self) -> bool {
+        self.from_s.is_some()
+    }
+
     /// Which tightenings and samples that are.
     pub fn focus(&self, campaign: &Campaign) -> Result<Focus, WorkbenchError> {
         let tasks = campaign.prepared.live.tasks();

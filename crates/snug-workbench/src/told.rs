@@ -161,11 +161,18 @@ pub(crate) fn closer(campaign: &Campaign, closer: &Closer, base: &LiveFit, now: 
             campaign.shown(now.error())
         ),
     };
+    let worth = match closer.is_of_a_stretch() {
+        true => {
+            "Promises count there, with every tightening's own mass, damping and stiffness free to follow it alone: a short stretch \
+                 tells little."
+        }
+        false => "Promises count there.",
+    };
     let sentence = format!(
-        "A closer look at {says}: error {errors} {}. Promises count there.",
+        "A closer look at {says}: error {errors} {}. {worth}",
         campaign.error_unit
     );
-    json!({ "kind": "closer", "sentence": sentence })
+    json!({ "kind": "closer", "sentence": campaign.says(&sentence) })
 }
 
 /// How many tightenings would be selected with the model to begin with, and with the present one.

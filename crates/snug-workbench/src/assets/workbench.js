@@ -212,30 +212,43 @@ const force = async () => {
   } catch { /* That the workbench is gone is said where its events end. */ }
 };
 
-// Sliders: a number of the present model each.
+// Sliders: a number of the present model each. They stay where the same numbers are told anew, and with them the focus.
+let rows = [];
 const sliders = numbers => {
   one('as-fitted').disabled = one('from-here').disabled = true;
-  one('sliders').replaceChildren(...numbers.map(({ name, unit, factor, value, low, high, interval }, i) => {
-    const row = element('label', '', 'slider'), range = document.createElement('input'), output = element('output', '');
-    const width = high - low || 1, percent = at => 100 * Math.min(1, Math.max(0, (at - low) / width)) + '%';
-    const say = at => { output.textContent = `${shown(factor * at)} ${unit}`; range.setAttribute('aria-valuetext', output.textContent); };
+  if (rows.map(row => row.name).join() !== numbers.map(number => number.name).join()) {
+    rows = numbers.map(({ name }, i) => slider(name, i));
+    one('sliders').replaceChildren(...rows.map(row => row.place));
+  }
+  numbers.forEach((number, i) => rows[i].tell(number));
+};
+const slider = (name, i) => {
+  const place = element('label', '', 'slider'), range = document.createElement('input'), output = element('output', '');
+  const rail = element('span', '', 'rail'), track = element('span', '', 'interval'), mark = element('span', '', 'mark');
+  const row = { name, place };
+  const say = () => {
+    output.textContent = `${shown(row.factor * Number(range.value))} ${row.unit}`;
+    range.setAttribute('aria-valuetext', output.textContent);
+  };
+  row.tell = ({ unit, factor, value, low, high, interval }) => {
+    const share = at => Math.min(1, Math.max(0, (at - low) / (high - low || 1)));
+    Object.assign(row, { unit, factor, value });
     Object.assign(range, { type: 'range', min: low, max: high, step: 'any', value });
-    const track = element('span', '', 'interval'), mark = element('span', '', 'mark');
-    if (interval) Object.assign(track.style, { left: percent(interval[0]), width: `calc(${percent(interval[1])} - ${percent(interval[0])})` });
-    mark.style.left = percent(value);
-    const rail = element('span', '', 'rail');
-    rail.append(...(interval ? [track] : []), mark);
-    range.addEventListener('input', () => {
-      state.values ??= numbers.map(number => number.value);
-      state.values[i] = Number(range.value);
-      say(state.values[i]);
-      one('as-fitted').disabled = one('from-here').disabled = false;
-      follow();
-    });
-    say(value);
-    row.append(element('span', name, 'name'), output, range, rail);
-    return row;
-  }));
+    track.hidden = !interval;
+    if (interval) Object.assign(track.style, { left: 100 * share(interval[0]) + '%', width: 100 * (share(interval[1]) - share(interval[0])) + '%' });
+    mark.style.left = 100 * share(value) + '%';
+    say();
+  };
+  range.addEventListener('input', () => {
+    state.values ??= rows.map(row => row.value);
+    state.values[i] = Number(range.value);
+    say();
+    one('as-fitted').disabled = one('from-here').disabled = false;
+    follow();
+  });
+  rail.append(track, mark);
+  place.append(element('span', name, 'name'), output, range, rail);
+  return row;
 };
 
 // The rival: another model, drawn and told beside the present one.

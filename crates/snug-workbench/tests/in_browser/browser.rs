@@ -39,14 +39,22 @@ pub fn installed() -> Option<PathBuf> {
     found
 }
 
+/// Longest that is waited for a page to say that it has loaded, which it may never. Chosen.
+pub const LOADING: Duration = Duration::from_secs(5);
+
+/// One browser at a time: what is timed in it has the machine for itself.
+static ALONE: tokio::sync::Mutex<()> = tokio::sync::Mutex::const_new(());
+
 /// A browser without a window, for as long as the value lives.
 pub struct Headless {
+    _alone: tokio::sync::MutexGuard<'static, ()>,
     browser: Browser,
     _profile: TempDir,
 }
 
 impl Headless {
     pub async fn launch(program: PathBuf) -> Self {
+        let alone = ALONE.lock().await;
         let profile = TempDir::new().unwrap();
         let config = BrowserConfig::builder()
             .chrome_executable(program)
@@ -54,11 +62,13 @@ impl Headless {
             .new_headless_mode()
             .no_sandbox()
             .launch_timeout(PATIENCE)
+            .request_timeout(PATIENCE)
             .build()
             .unwrap();
         let (browser, mut handler) = Browser::launch(config).await.unwrap();
         tokio::spawn(async move { while handler.next().await.is_some() {} });
         Self {
+            _alone: alone,
             browser,
             _profile: profile,
         }
@@ -78,7 +88,8 @@ impl Headless {
             page,
         };
         tab.listen().await;
-        tab.page.goto(address).await.unwrap();
+        // The page that waits for the tightenings reloads itself: that it has loaded is no end to wait for.
+        (tokio::time::timeout(LOADING, tab.page.goto(address)).await).ok();
         tab
     }
 
@@ -137,12 +148,11 @@ impl Tab {
         });
     }
 
-    /// What an expression of the page comes to.
+    /// What an expression of the page comes to; nothing while another page is being loaded.
     pub async fn value(&self, expression: &str) -> Value {
         let told = self.page.evaluate_expression(expression).await;
-        told.unwrap_or_else(|error| panic!("{expression}: {error}"))
-            .value()
-            .cloned()
+        told.ok()
+            .and_then(|told| told.value().cloned())
             .unwrap_or(Value::Null)
     }
 
@@ -153,7 +163,7 @@ impl Tab {
                 "document.querySelector('[data-{name}]')?.textContent ?? ''"
             ))
             .await;
-        text.as_str().unwrap().replace('\u{a0}', " ")
+        text.as_str().unwrap_or("").replace('\u{a0}', " ")
     }
 
     /// Waits until an expression is true.
@@ -167,6 +177,7 @@ impl Tab {
 
     /// Clicks where a person would: in the middle of what is on screen.
     pub async fn click(&self, selector: &str) {
+        self.page.bring_to_front().await.unwrap();
         let element = self.page.find_element(selector).await;
         let element = element.unwrap_or_else(|error| panic!("{selector}: {error}"));
         element.click().await.unwrap();

@@ -1,6 +1,6 @@
 //! The mystery solved with a mouse: the error falls on screen, and what is saved can be run.
 
-use crate::browser::{Headless, installed};
+use crate::browser::{Headless, LOADING, installed};
 use crate::server::{Server, study_in};
 use serde_json::Value;
 use snug_study::{RunSettings, Study, run};
@@ -53,6 +53,8 @@ async fn the_mystery_is_solved_by_clicking() {
     tab.value(WATCH).await;
     tab.click("[data-effect=stretch_reflex] .switch").await;
     tab.until("document.querySelector('[data-error]').textContent === '1.007'")
+        .await;
+    tab.until("!document.body.classList.contains('fitting')")
         .await;
     let fallen = tab.value("fallen").await;
     let fallen: Vec<(f64, f64)> = (fallen.as_array().unwrap().iter())
@@ -118,7 +120,7 @@ async fn the_mystery_is_solved_by_clicking() {
     reproduces(&folder.path().join("mystery.workbench.ron"));
 
     // A reload shows the same.
-    tab.page.reload().await.unwrap();
+    (tokio::time::timeout(LOADING, tab.page.reload()).await).ok();
     tab.until("document.querySelector('[data-error]')?.textContent === '1.007'")
         .await;
     assert_eq!(switched_on(&tab.value(ON).await), ["stretch_reflex"]);
@@ -167,6 +169,8 @@ async fn a_server_that_goes_and_comes_back_loses_nothing() {
             .await;
         tab.click(&format!("[data-effect={effect}] .switch")).await;
         tab.until("document.querySelector('[data-error]').textContent < '1.541'")
+            .await;
+        tab.until("!document.body.classList.contains('fitting')")
             .await;
     }
     server.end();

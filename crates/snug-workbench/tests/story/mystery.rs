@@ -89,6 +89,108 @@ fn the_effect_that_promises_most_brings_the_error_to_the_noise() {
     assert_eq!(other.until("fitted").last().unwrap()["shown"], "1.007");
 }
 
+/// What nobody clicked in this tab is fitted when it is looked at: a link to it shows it.
+#[test]
+fn a_look_holds_models_numbers_and_signatures_against_each_other() {
+    let port = workbench();
+    let look = |more: &str| -> Value {
+        let (status, told) = get(port, &format!("/api/tightening?number=17&{more}"));
+        assert_eq!(status, 200, "{told}");
+        serde_json::from_str(&told).unwrap()
+    };
+    let seen = look("effects=stretch_reflex&rival=cubic_stiffness&signature=coulomb_friction");
+    let series = |panel: usize| -> Vec<&str> {
+        let all = seen["panels"][panel]["series"].as_array().unwrap();
+        all.iter()
+            .map(|one| one["label"].as_str().unwrap())
+            .collect()
+    };
+    let models = ["model to begin with", "rival", "now"];
+    assert_eq!(series(0)[1..], models);
+    assert_eq!(series(1)[..3], models);
+    assert_eq!(series(1)[3], "coulomb friction would leave");
+    let told = &seen["told"];
+    let number = |text: &Value| text.as_str().unwrap().parse::<f64>().unwrap();
+    assert!(number(&told["rival"]["error"]) > 1.1);
+    let numbers = told["numbers"].as_array().unwrap();
+    assert_eq!(numbers.len(), 5);
+    let mut values: Vec<String> = numbers.iter().map(|one| one["value"].to_string()).collect();
+    let by_hand = |values: &[String]| {
+        let seen = look(&format!(
+            "effects=stretch_reflex&values={}",
+            values.join(",")
+        ));
+        number(&seen["told"]["by_hand"])
+    };
+    assert_eq!(by_hand(&values), number(&told["error"]));
+    values[2] = (1.2 * values[2].parse::<f64>().unwrap()).to_string();
+    assert!(by_hand(&values) > 1.5);
+
+    let (status, force) = get(port, "/api/force?effects=stretch_reflex");
+    assert!(
+        status == 200 && force.contains("missing force [N]"),
+        "{force}"
+    );
+    let body = json!({ "session": "one", "effects": "stretch_reflex" });
+    let (status, made) = post(port, "/api/results", &body);
+    assert_eq!(status, 200, "{made}");
+    let made: Value = serde_json::from_str(&made).unwrap();
+    let (status, report) = get(port, made["links"][0].as_str().unwrap());
+    assert!(status == 200 && report.contains("stretch reflex"));
+    assert_eq!(get(port, "/results/1/../../../etc/passwd").0, 404);
+    assert_eq!(get(port, "/results/1/study.ron").0, 404);
+}
+
+/// Directional damping explains much; the test says that the reflex, which nobody clicked, takes plainly more.
+#[test]
+fn what_was_added_is_tested_and_a_better_one_named() {
+    let port = workbench();
+    let mut page = Events::listen(port, "/api/events?session=one&effects=directional_damping");
+    let heard = loop {
+        let told = page.until("tested").pop().unwrap();
+        if told["state"] != "testing" {
+            break told;
+        }
+    };
+    assert_eq!(
+        (&heard["state"], &heard["is_last"]),
+        (&json!("unsure"), &json!(true))
+    );
+    let sentence = heard["sentence"].as_str().unwrap();
+    assert!(
+        sentence.contains("stretch reflex takes plainly more"),
+        "{sentence}"
+    );
+    assert!(
+        heard["evidence"]
+            .as_str()
+            .unwrap()
+            .contains("tightenings it was not fitted to")
+    );
+}
+
+#[test]
+fn a_closer_look_counts_where_it_looks() {
+    let port = workbench();
+    let mut page = Events::listen(
+        port,
+        "/api/events?session=one&effects=&group=joint:Soft&from_s=0.05&to_s=0.25",
+    );
+    let closer = page.until("closer").pop().unwrap();
+    let sentence = closer["sentence"].as_str().unwrap();
+    assert!(
+        sentence.contains("joint Soft, from 0.0500 to 0.250 s"),
+        "{sentence}"
+    );
+    let ranked = page.until("ranked");
+    let promised = |effect: &str| {
+        let shares = (ranked.iter()).filter_map(|event| event["shares"].as_array());
+        let own = shares.flatten().find(|share| share["effect"] == effect);
+        own.unwrap()["share"].as_f64().unwrap()
+    };
+    assert!(promised("stretch_reflex") > 0.5 && promised("torque_offset") < 0.2);
+}
+
 #[test]
 fn a_newer_click_ends_the_fit_before() {
     let port = workbench();
@@ -125,6 +227,18 @@ fn what_is_not_there_is_said_in_a_sentence() {
     assert!(unknown.contains("stretch_reflex"), "{unknown}");
     let none = sentence(get(port, "/api/tightening?number=25"), 404);
     assert_eq!(none, "there is no tightening 25; there are 1 to 24");
-    let fresh = sentence(get(port, "/api/tightening?number=1&effects=backlash"), 404);
-    assert!(fresh.contains("not fitted yet"), "{fresh}");
+    let stranger = sentence(
+        get(port, "/api/events?session=one&group=participant:TP9"),
+        400,
+    );
+    assert!(stranger.contains("participant:TP2"), "{stranger}");
+    let never = sentence(
+        get(port, "/api/events?session=one&from_s=0.2&to_s=0.1"),
+        400,
+    );
+    assert!(never.contains("the first below the second"), "{never}");
+    let few = sentence(get(port, "/api/tightening?number=1&values=1,2"), 400);
+    assert!(few.contains("3 numbers"), "{few}");
+    let gone = sentence(get(port, "/results/1/report.html"), 404);
+    assert!(gone.contains("once more"), "{gone}");
 }
