@@ -2,7 +2,6 @@
 
 use crate::browser::{Headless, Tab, installed};
 use crate::server::{Server, study_in};
-use serde_json::Value;
 use tempfile::TempDir;
 
 /// Faults that axe-core calls serious or critical; `SNUG_AXE` names its script, which then must be there.
@@ -69,7 +68,7 @@ async fn a_keyboard_is_enough() {
         .await;
     let at = "document.activeElement.closest('li')?.dataset.effect ?? ''";
     let mut presses = 0;
-    while tab.value(at).await != Value::from("stretch_reflex") {
+    while tab.value(at).await != "stretch_reflex" {
         tab.press("Tab").await;
         presses += 1;
         assert!(presses < 60, "the switch is out of reach");
