@@ -62,7 +62,7 @@ impl Campaign {
             base: Arc::new(base),
             switches,
             worst_first,
-            groups: groups(live.tasks()),
+            groups: groups(live),
             title: study.title(),
             prepared,
         })

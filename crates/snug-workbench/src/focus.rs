@@ -4,8 +4,7 @@ use crate::campaign::Campaign;
 use crate::error::WorkbenchError;
 use serde::Deserialize;
 use snug_campaign::Factor;
-use snug_diagnose::Focus;
-use snug_identify::FitTask;
+use snug_diagnose::{Focus, LiveCases};
 
 /// Tightenings that have a condition in common.
 pub(crate) struct Group {
@@ -21,16 +20,16 @@ pub(crate) struct Group {
 const MOST_LEVELS: usize = 40;
 
 /// Every group of every condition that has more than one.
-pub(crate) fn groups(tasks: &[FitTask<'_>]) -> Vec<Group> {
+pub(crate) fn groups(live: &LiveCases) -> Vec<Group> {
     Factor::ALL
         .iter()
-        .flat_map(|factor| of(tasks, factor))
+        .flat_map(|factor| of(live, factor))
         .collect()
 }
 
-fn of(tasks: &[FitTask<'_>], factor: &Factor) -> Vec<Group> {
+fn of(live: &LiveCases, factor: &Factor) -> Vec<Group> {
     let mut found: Vec<(snug_campaign::Level, Vec<usize>)> = Vec::new();
-    for (member, task) in tasks.iter().enumerate() {
+    for (member, task) in live.tasks().iter().enumerate() {
         let Some(level) = factor.level(&task.tightening) else {
             continue;
         };
