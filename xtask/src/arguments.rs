@@ -25,6 +25,8 @@ Examples:
   cargo xtask effects cubic_stiffness          one effect of the catalogue in full
   cargo xtask workbench --data DIR             a page on this machine: click an effect, the error falls
 
+  cargo xtask plant --help                     thousands of tools: Parquet, one machine or many, what changed when
+
   cargo xtask recover FILE.mcap                a recording that was cut short, made whole
 
 Exit codes: 0 done, 1 failed or nothing was identified, 2 bad arguments, 130 stopped by Ctrl-C or a signal;

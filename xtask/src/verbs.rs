@@ -6,6 +6,7 @@ mod effects;
 mod fixtures;
 mod fuzz;
 mod init;
+mod plant;
 mod recover;
 mod run;
 mod test;
@@ -14,6 +15,7 @@ mod workbench;
 
 use crate::arguments::{ChangeOptions, RunOptions};
 use clap::Subcommand;
+use std::ffi::OsString;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -98,6 +100,19 @@ pub enum Verb {
         #[arg(long)]
         no_open: bool,
     },
+    /// A plant's tightenings as Parquet: brought in, fitted on one machine or many, asked and watched.
+    ///
+    /// `cargo xtask plant --help` says everything. The first time it is built with its engine, which takes some ten minutes.
+    #[command(disable_help_flag = true)]
+    Plant {
+        /// What the plant's program is given.
+        #[arg(
+            trailing_var_arg = true,
+            allow_hyphen_values = true,
+            value_name = "ARGS"
+        )]
+        arguments: Vec<OsString>,
+    },
     /// Makes a recording that was cut short whole: an index at its end, so that every reader opens it.
     ///
     /// A run that is killed leaves its recording as recording.partial-TIME.mcap. Everything in it that can be read stays
@@ -177,6 +192,7 @@ impl Verb {
                 port,
                 no_open,
             } => workbench::workbench(study.as_deref(), data.as_deref(), port, no_open),
+            Self::Plant { arguments } => plant::plant(&arguments),
             Self::Recover { file } => recover::recover(&file),
             Self::Fixtures => fixtures::fixtures(),
             Self::Test {

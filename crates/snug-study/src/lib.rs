@@ -24,6 +24,7 @@ mod settling;
 mod statistics;
 mod study;
 mod syntax;
+mod tightenings;
 mod validation;
 
 #[doc(hidden)]
@@ -39,4 +40,7 @@ pub use run::{Outcome, RunSettings, run};
 pub use selection::SelectionSettings;
 pub use snug_preprocess::Preset;
 pub use study::Study;
+pub use tightenings::{
+    FileTightenings, FittedTightening, fit_tightenings, fitted_files, read_tightenings, settled,
+};
 pub use validation::ValidationSettings;

@@ -1,0 +1,261 @@
+//! The program's arguments.
+
+use clap::{Args, Parser, Subcommand};
+use snug_plant::{
+    CLUSTER_PARTS, Engine, FitSettings, Naming, PlantError, Simulation, WorkerSettings,
+};
+use snug_study::Study;
+use std::net::{IpAddr, SocketAddr};
+use std::path::PathBuf;
+
+/// A plant's tightenings as Parquet: brought in, fitted on one machine or many, asked and watched.
+///
+/// URL is a folder or file:///….
+#[derive(Debug, Parser)]
+#[command(name = "cargo xtask plant", bin_name = "cargo xtask plant", version)]
+pub struct Arguments {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+/// What to do.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Measurement files to a dataset, each file once: rows, and what was found of them.
+    Import(ImportOptions),
+    /// A plant of simulated tools straight into a dataset.
+    Simulate(SimulateOptions),
+    /// Fits every row; results as Parquet.
+    Fit(FitOptions),
+    /// The engine's scheduler, with Snug's function registered.
+    Scheduler(SchedulerOptions),
+    /// One of the engine's workers, with Snug's function registered.
+    Worker(WorkerOptions),
+    /// Asks a dataset and results: tables tightenings, findings, results.
+    Sql(SqlOptions),
+    /// What changed, when, in which tools; which differ from their sisters. Tables, JSON and a page.
+    Watch(WatchOptions),
+}
+
+/// Of `import`.
+#[derive(Debug, Args)]
+pub struct ImportOptions {
+    /// Folder with data in the thesis' layout, or a study (RON) that says how its data are written.
+    #[arg(value_name = "DIR|STUDY.ron")]
+    source: PathBuf,
+    /// The dataset.
+    #[arg(long, value_name = "URL")]
+    pub to: String,
+    /// What files' names say, for example '{tool}_{day}_{time}'; also {station} and {skip}.
+    #[arg(long, value_name = "TEMPLATE")]
+    names: Option<String>,
+    /// Tool of files whose names say none.
+    #[arg(long)]
+    tool: Option<String>,
+    /// Day (YYYY-MM-DD) of files whose names say none.
+    #[arg(long)]
+    day: Option<String>,
+    /// Station of files whose names say none.
+    #[arg(long)]
+    station: Option<String>,
+}
+
+impl ImportOptions {
+    /// The study that reads and prepares the files.
+    pub fn study(&self) -> Result<Study, PlantError> {
+        let is_study = self
+            .source
+            .extension()
+            .is_some_and(|ending| ending == "ron");
+        let study = match is_study {
+            true => Study::read(&self.source)?,
+            false => Study::on(self.source.clone()),
+        };
+        study.check()?;
+        Ok(study)
+    }
+
+    /// What files' names say.
+    pub fn naming(&self) -> Result<Naming, PlantError> {
+        let naming = Naming::of_all(self.tool.clone(), self.day.clone(), self.station.clone());
+        match &self.names {
+            Some(template) => naming.with_template(template),
+            None => Ok(naming),
+        }
+    }
+}
+
+/// Of `simulate`.
+#[derive(Debug, Args)]
+pub struct SimulateOptions {
+    /// The dataset.
+    #[arg(long, value_name = "URL")]
+    pub to: String,
+    /// Tools.
+    #[arg(long, default_value_t = 12)]
+    tools: usize,
+    /// Days.
+    #[arg(long, default_value_t = 20)]
+    days: usize,
+    /// The first of them.
+    #[arg(long, value_name = "YYYY-MM-DD", default_value = "2026-03-01")]
+    first_day: String,
+    /// Tightenings of a tool on a day.
+    #[arg(long, value_name = "N", default_value_t = 20)]
+    per_day: usize,
+    /// Effect that comes over some tools.
+    #[arg(long)]
+    effect: Option<String>,
+    /// How strong it is, 0 to 1.
+    #[arg(long, default_value_t = 0.5)]
+    strength: f64,
+    /// Numbers of the tools that have it.
+    #[arg(long, value_delimiter = ',', default_values_t = [3, 7, 10])]
+    in_tools: Vec<u32>,
+    /// Day, counted from 1, from which they have it.
+    #[arg(long, value_name = "N", default_value_t = 11)]
+    from_day: usize,
+    /// Samples per second.
+    #[arg(long, value_name = "HZ", default_value_t = 10_000.0)]
+    rate: f64,
+    /// What decides everything random.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+}
+
+impl SimulateOptions {
+    /// What is simulated.
+    pub fn simulation(&self) -> Simulation {
+        Simulation {
+            tools: self.tools,
+            days: self.days,
+            first_day: self.first_day.clone(),
+            per_day: self.per_day,
+            effect: self.effect.clone(),
+            strength: self.strength,
+            in_tools: self.in_tools.clone(),
+            from_day: self.from_day,
+            sample_rate_hz: self.rate,
+            seed: self.seed,
+        }
+    }
+}
+
+/// Of `fit`.
+#[derive(Debug, Args)]
+pub struct FitOptions {
+    /// The dataset.
+    #[arg(long, value_name = "URL")]
+    pub data: String,
+    /// The results.
+    #[arg(long, value_name = "URL")]
+    pub to: String,
+    /// Effects beside the study's own.
+    #[arg(long, value_delimiter = ',', value_name = "EFFECT,…")]
+    effects: Vec<String>,
+    /// Scheduler of a cluster; without it, this process does everything.
+    #[arg(long, value_name = "HOST:PORT")]
+    cluster: Option<String>,
+    /// Parts that a cluster's workers take at the same time.
+    #[arg(long, value_name = "N", default_value_t = CLUSTER_PARTS)]
+    parts: usize,
+    /// Only what has no results yet, or results of other rows.
+    #[arg(long)]
+    resume: bool,
+    /// Rows of one job.
+    #[arg(long, value_name = "N")]
+    rows_per_job: Option<usize>,
+}
+
+impl FitOptions {
+    /// How the dataset is fitted.
+    pub fn settings(&self) -> FitSettings {
+        let engine = match &self.cluster {
+            Some(address) => Engine::Cluster {
+                address: address.clone(),
+                parts: self.parts,
+            },
+            None => Engine::Embedded,
+        };
+        let usual = FitSettings::default();
+        FitSettings {
+            effects: self.effects.clone(),
+            engine,
+            resume: self.resume,
+            rows_per_job: self.rows_per_job.unwrap_or(usual.rows_per_job),
+        }
+    }
+}
+
+/// Of `scheduler`.
+#[derive(Debug, Args)]
+pub struct SchedulerOptions {
+    /// Address that it listens at. Whoever reaches it may run plans: keep it on loopback or a network of its own.
+    #[arg(long, value_name = "IP:PORT", default_value = "127.0.0.1:50050")]
+    pub bind: SocketAddr,
+}
+
+/// Of `worker`.
+#[derive(Debug, Args)]
+pub struct WorkerOptions {
+    /// The scheduler.
+    #[arg(long, value_name = "IP:PORT", default_value = "127.0.0.1:50050")]
+    scheduler: SocketAddr,
+    /// Address that it listens at, under which scheduler, clients and other workers reach it.
+    #[arg(long, value_name = "IP", default_value = "127.0.0.1")]
+    bind: IpAddr,
+    /// Port for data.
+    #[arg(long, default_value_t = 50051)]
+    port: u16,
+    /// Port for commands.
+    #[arg(long, default_value_t = 50052)]
+    command_port: u16,
+    /// Tasks at a time; default one a core.
+    #[arg(long, value_name = "N")]
+    cores: Option<usize>,
+    /// Folder for what is handed between stages; default one of its own.
+    #[arg(long, value_name = "DIR")]
+    work_dir: Option<String>,
+}
+
+impl WorkerOptions {
+    /// How it is started.
+    pub fn settings(&self) -> WorkerSettings {
+        WorkerSettings {
+            scheduler: self.scheduler,
+            bind: self.bind,
+            port: self.port,
+            command_port: self.command_port,
+            cores: self.cores,
+            work_dir: self.work_dir.clone(),
+        }
+    }
+}
+
+/// Of `sql`.
+#[derive(Debug, Args)]
+pub struct SqlOptions {
+    /// The question; it only reads.
+    pub query: String,
+    /// A dataset: tables tightenings and findings.
+    #[arg(long, value_name = "URL")]
+    pub data: Option<String>,
+    /// Results of a fit: table results.
+    #[arg(long, value_name = "URL")]
+    pub results: Option<String>,
+}
+
+/// Of `watch`.
+#[derive(Debug, Args)]
+pub struct WatchOptions {
+    /// Results of a fit.
+    #[arg(long, value_name = "URL")]
+    pub results: String,
+    /// The dataset that they were made from: with it, the page leads down to single tightenings.
+    #[arg(long, value_name = "URL")]
+    pub data: Option<String>,
+    /// Where watch.html, watch.json, watch.parquet and daily.parquet go.
+    #[arg(long, value_name = "URL")]
+    pub to: String,
+}

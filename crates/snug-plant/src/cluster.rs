@@ -1,0 +1,102 @@
+//! The engine's own processes, with Snug's function registered: a scheduler and as many workers as wanted.
+
+use crate::PlantError;
+use crate::fit::function::{NAME, function};
+use ballista_core::registry::BallistaFunctionRegistry;
+use ballista_executor::executor_process::{ExecutorProcessConfig, start_executor_process};
+use ballista_scheduler::cluster::BallistaCluster;
+use ballista_scheduler::config::SchedulerConfig;
+use ballista_scheduler::scheduler_process::start_server;
+use datafusion::execution::{FunctionRegistry, SessionState, SessionStateBuilder};
+use datafusion::prelude::SessionConfig;
+use std::net::SocketAddr;
+use std::sync::Arc;
+
+/// A worker says that it is alive so often \[s\].
+const HEARTBEAT_S: u64 = 2;
+
+/// A worker that was silent for so long is dead, and its work is another's \[s\].
+const DEAD_AFTER_S: u64 = 10;
+
+/// How a worker is started.
+#[derive(Debug, Clone)]
+pub struct WorkerSettings {
+    /// `host:port` of the scheduler.
+    pub scheduler: SocketAddr,
+    /// Address that it binds to.
+    pub bind: std::net::IpAddr,
+    /// Port for data.
+    pub port: u16,
+    /// Port for commands.
+    pub command_port: u16,
+    /// Tasks at a time; `None` for one a core.
+    pub cores: Option<usize>,
+    /// Folder for what is handed between stages; `None` for one of its own that ends with it.
+    pub work_dir: Option<String>,
+}
+
+fn state(config: SessionConfig) -> datafusion::error::Result<SessionState> {
+    let mut state = SessionStateBuilder::new()
+        .with_config(config)
+        .with_default_features()
+        .build();
+    state.register_udf(Arc::new(function()))?;
+    Ok(state)
+}
+
+/// Runs a scheduler until the process ends.
+///
+/// # Errors
+/// [`PlantError::Cluster`] where it cannot be bound.
+pub async fn scheduler(address: SocketAddr) -> Result<(), PlantError> {
+    let failed = |reason: String| PlantError::Cluster {
+        what: "scheduler",
+        address: address.to_string(),
+        reason,
+    };
+    let mut config = SchedulerConfig::default()
+        .with_hostname(address.ip().to_string())
+        .with_port(address.port())
+        .with_override_session_builder(Arc::new(state));
+    config.bind_host = address.ip().to_string();
+    config.executor_timeout_seconds = DEAD_AFTER_S;
+    config.expire_dead_executor_interval_seconds = HEARTBEAT_S;
+    let cluster = BallistaCluster::new_from_config(&config)
+        .await
+        .map_err(|error| failed(error.to_string()))?;
+    let served = start_server(cluster, address, Arc::new(config)).await;
+    served.map_err(|error| failed(error.to_string()))
+}
+
+/// Runs a worker until the process ends.
+///
+/// # Errors
+/// [`PlantError::Cluster`] where it cannot be bound, or finds no scheduler.
+pub async fn worker(settings: &WorkerSettings) -> Result<(), PlantError> {
+    let mut registry = BallistaFunctionRegistry::default();
+    registry
+        .scalar_functions
+        .insert(NAME.to_owned(), Arc::new(function()));
+    let mut config = ExecutorProcessConfig {
+        bind_host: settings.bind.to_string(),
+        external_host: Some(settings.bind.to_string()),
+        port: settings.port,
+        grpc_port: settings.command_port,
+        scheduler_host: settings.scheduler.ip().to_string(),
+        scheduler_port: settings.scheduler.port(),
+        scheduler_connect_timeout_seconds: 30,
+        work_dir: settings.work_dir.clone(),
+        executor_heartbeat_interval_seconds: HEARTBEAT_S,
+        override_function_registry: Some(Arc::new(registry)),
+        ..ExecutorProcessConfig::default()
+    };
+    if let Some(cores) = settings.cores {
+        config.vcores = cores;
+    }
+    let served = start_executor_process(Arc::new(config)).await;
+    served.map_err(|error| PlantError::Cluster {
+        what: "worker",
+        address: format!("{}:{}", settings.bind, settings.port),
+        reason: error.to_string(),
+    })
+}

@@ -1,0 +1,31 @@
+#![doc = include_str!("../README.md")]
+
+mod cluster;
+mod dataset;
+mod engine;
+mod error;
+mod fit;
+mod import;
+mod naming;
+mod parquet_file;
+mod partition;
+mod rows;
+mod schema;
+mod simulate;
+mod sql;
+mod store;
+mod watch;
+
+pub use cluster::{WorkerSettings, scheduler, worker};
+pub use dataset::{Commit, CommittedFile, Dataset, Manifest};
+pub use engine::{CLUSTER_PARTS, Engine};
+pub use error::PlantError;
+pub use fit::{FitSettings, Fitted, fit};
+pub use import::{Imported, import};
+pub use naming::{Named, Naming};
+pub use partition::Partition;
+pub use schema::SCHEMA_VERSION;
+pub use simulate::{Simulation, simulate_plant};
+pub use sql::{Tables, as_text, query};
+pub use store::Store;
+pub use watch::{Found, WatchSettings, Watched, watch};

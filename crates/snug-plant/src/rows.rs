@@ -1,0 +1,54 @@
+//! Tightenings as rows: every field of a prepared tightening in columns, and back with the same bits.
+
+mod decode;
+mod encode;
+mod integrals;
+
+pub(crate) use decode::prepared;
+pub use encode::batch;
+
+use snug_campaign::{Quantity, Tightening};
+use snug_preprocess::Prepared;
+
+/// A prepared tightening with what no measurement file says of it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Row {
+    /// Digest of the measurement file's bytes.
+    pub source: String,
+    /// Name of the station.
+    pub station: Option<String>,
+    /// When the file's recording began, since midnight \[s\].
+    pub time_of_day_s: Option<f64>,
+    /// The tightening.
+    pub prepared: Prepared,
+}
+
+impl Row {
+    /// The key by which the row is known: the same tightening of the same file has the same.
+    pub fn key(&self) -> String {
+        format!("{}-{}", self.source, self.prepared.tightening.id.number)
+    }
+}
+
+/// CRC-32 of a tightening's signals.
+pub(crate) fn checksum(tightening: &Tightening) -> u32 {
+    let motion = Quantity::ALL.map(|quantity| tightening.motion.get(quantity).unwrap_or(&[]));
+    let force = tightening.grip_force_n.as_deref().unwrap_or(&[]);
+    let mut hasher = crc32fast::Hasher::new();
+    for signal in [&tightening.torque_nm[..]]
+        .into_iter()
+        .chain(motion)
+        .chain([force])
+    {
+        hasher.update(&(signal.len() as u64).to_le_bytes());
+        let bytes: Vec<u8> = signal
+            .iter()
+            .flat_map(|value| value.to_le_bytes())
+            .collect();
+        hasher.update(&bytes);
+    }
+    hasher.finalize()
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,8 @@
+//! A plant's day: brought in once, fitted on one machine and on a cluster, damaged, resumed, watched.
+#![allow(clippy::unwrap_used)]
+
+mod cluster;
+mod faults;
+mod import;
+mod plant;
+mod watch;
