@@ -26,7 +26,7 @@ pub struct Simulation {
     pub per_day: usize,
     /// The effect that comes over some tools, by its name; none for a plant where nothing happens.
     pub effect: Option<String>,
-    /// How strong it is, 0 to 1.
+    /// How strong it is, 0 to 1, without unit.
     pub strength: f64,
     /// Numbers of the tools that have it, from 1.
     pub in_tools: Vec<u32>,
@@ -134,7 +134,7 @@ fn plan(simulation: &Simulation, effect: Option<HiddenEffect>) -> CampaignPlan {
     let file = |tool: usize| FilePlan {
         participant: tool as u32 + 1,
         strategy: Strategy::QuickStep,
-        joint: if tool % 2 == 0 {
+        joint: if tool.is_multiple_of(2) {
             Joint::Soft
         } else {
             Joint::Hard

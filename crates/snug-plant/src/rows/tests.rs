@@ -1,3 +1,4 @@
+//! Every field of a row through Parquet and back, and what is noticed when one changed.
 #![allow(clippy::unwrap_used)]
 use super::*;
 use crate::partition::Partition;

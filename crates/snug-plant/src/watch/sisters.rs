@@ -13,9 +13,9 @@ use snug_statistics::random_effects::random_effects;
 /// A group beside its sisters.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Beside {
-    /// What the others have on average.
+    /// What the others have on average, in the quantity's unit.
     pub mean: f64,
-    /// Standard deviation between them, beyond their own errors.
+    /// Standard deviation between them, beyond their own errors, in the quantity's unit.
     pub spread: f64,
     /// That a sister would lie so far out.
     pub p: f64,

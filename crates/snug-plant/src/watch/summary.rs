@@ -18,9 +18,9 @@ use std::collections::BTreeMap;
 pub struct Level {
     /// Mean of the days' values, in the quantity's unit.
     pub mean: f64,
-    /// Standard error over days; `None` for one day.
+    /// Standard error over days, in the quantity's unit; `None` for one day.
     pub standard_error: Option<f64>,
-    /// 95 % interval over days (Student's t); `None` for one day.
+    /// 95 % interval over days (Student's t), in the quantity's unit; `None` for one day.
     pub interval: Option<(f64, f64)>,
 }
 

@@ -67,6 +67,64 @@ pub fn daily(series: &[Series]) -> Result<Vec<u8>, PlantError> {
     table("daily", columns, arrays)
 }
 
+/// How a number is read from a judged series.
+type Read = fn(&JudgedSeries) -> Option<f64>;
+
+/// The table's numbers: name, what it is, how it is read.
+const NUMBERS: [(&str, &str, Read); 11] = [
+    (
+        "now",
+        "mean of the days since the change, or of all, in the quantity's unit",
+        |one| Some(one.level.mean),
+    ),
+    (
+        "now_low",
+        "lower end of its 95 % interval over days",
+        |one| Some(one.level.interval?.0),
+    ),
+    (
+        "now_high",
+        "upper end of its 95 % interval over days",
+        |one| Some(one.level.interval?.1),
+    ),
+    (
+        "before",
+        "mean of the days before the likeliest change",
+        |one| Some(one.change?.before),
+    ),
+    ("after", "mean of the days from it on", |one| {
+        Some(one.change?.after)
+    }),
+    (
+        "difference_low",
+        "lower end of the 95 % interval of after - before",
+        |one| Some(one.change?.difference.0),
+    ),
+    (
+        "difference_high",
+        "upper end of the 95 % interval of after - before",
+        |one| Some(one.change?.difference.1),
+    ),
+    (
+        "change_p_adjusted",
+        "p of the change (Worsley 1979), adjusted (Benjamini-Hochberg)",
+        |one| one.change_p,
+    ),
+    (
+        "sisters_mean",
+        "mean of its sisters (random effects)",
+        |one| Some(one.beside?.mean),
+    ),
+    ("sisters_spread", "standard deviation between them", |one| {
+        Some(one.beside?.spread)
+    }),
+    (
+        "sisters_p_adjusted",
+        "p of the difference from them, adjusted (Benjamini-Hochberg)",
+        |one| one.beside_p,
+    ),
+];
+
 /// The table `watch`: one row a group and quantity.
 pub fn judged(judged: &Judged) -> Result<Vec<u8>, PlantError> {
     let all = &judged.all;
@@ -99,62 +157,8 @@ pub fn judged(judged: &Judged) -> Result<Vec<u8>, PlantError> {
             "whether it differs from its sisters, under false-discovery control",
         ),
     ];
-    type Read = fn(&JudgedSeries) -> Option<f64>;
-    let numbers: [(&str, &str, Read); 11] = [
-        (
-            "now",
-            "mean of the days since the change, or of all, in the quantity's unit",
-            |one| Some(one.level.mean),
-        ),
-        (
-            "now_low",
-            "lower end of its 95 % interval over days",
-            |one| Some(one.level.interval?.0),
-        ),
-        (
-            "now_high",
-            "upper end of its 95 % interval over days",
-            |one| Some(one.level.interval?.1),
-        ),
-        (
-            "before",
-            "mean of the days before the likeliest change",
-            |one| Some(one.change?.before),
-        ),
-        ("after", "mean of the days from it on", |one| {
-            Some(one.change?.after)
-        }),
-        (
-            "difference_low",
-            "lower end of the 95 % interval of after - before",
-            |one| Some(one.change?.difference.0),
-        ),
-        (
-            "difference_high",
-            "upper end of the 95 % interval of after - before",
-            |one| Some(one.change?.difference.1),
-        ),
-        (
-            "change_p_adjusted",
-            "p of the change (Worsley 1979), adjusted (Benjamini-Hochberg)",
-            |one| one.change_p,
-        ),
-        (
-            "sisters_mean",
-            "mean of its sisters (random effects)",
-            |one| Some(one.beside?.mean),
-        ),
-        ("sisters_spread", "standard deviation between them", |one| {
-            Some(one.beside?.spread)
-        }),
-        (
-            "sisters_p_adjusted",
-            "p of the difference from them, adjusted (Benjamini-Hochberg)",
-            |one| one.beside_p,
-        ),
-    ];
     columns.extend(
-        numbers
+        NUMBERS
             .iter()
             .map(|(name, told, _)| field(name, Kind::Number, true, told)),
     );
@@ -172,10 +176,7 @@ pub fn judged(judged: &Judged) -> Result<Vec<u8>, PlantError> {
                 .collect::<BooleanArray>(),
         )
     };
-    let since = all.iter().map(|one| {
-        let change = one.change.filter(|_| one.is_changed)?;
-        Some(one.series.days[change.first].day)
-    });
+    let since = all.iter().map(day_of_change);
     let days = all
         .iter()
         .map(|one| u32::try_from(one.series.days.len()).ok());
@@ -188,10 +189,16 @@ pub fn judged(judged: &Judged) -> Result<Vec<u8>, PlantError> {
         Arc::new(since.collect::<Date32Array>()),
         flags(|one| one.differs),
     ];
-    for (_, _, read) in numbers {
+    for (_, _, read) in NUMBERS {
         arrays.push(Arc::new(all.iter().map(read).collect::<Float64Array>()));
     }
     table("watch", columns, arrays)
+}
+
+/// First day of a change that counts, in days since 1970-01-01.
+fn day_of_change(one: &JudgedSeries) -> Option<i32> {
+    let change = one.change.filter(|_| one.is_changed)?;
+    Some(one.series.days[change.first].day)
 }
 
 fn table(name: &str, columns: Vec<Field>, arrays: Vec<ArrayRef>) -> Result<Vec<u8>, PlantError> {
