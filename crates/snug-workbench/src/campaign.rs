@@ -10,8 +10,8 @@ use snug_diagnose::LiveFit;
 use snug_model::{Description, Effect, Law};
 use snug_report::viewer::{Compared, Simulated};
 use snug_study::{FilesRead, Prepared, Study, prepare};
-use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
+use std::sync::{Arc, OnceLock};
 
 /// Digits of an error.
 const DIGITS: i32 = 4;
@@ -29,6 +29,8 @@ pub(crate) struct Campaign {
     pub groups: Vec<Group>,
     /// The title of the study, or the data's name.
     pub title: String,
+    /// How many of them would be selected under the model to begin with; worked out when it is first asked.
+    base_usable: OnceLock<Option<usize>>,
     /// What an error counts in: multiples of the noise, or the shown output's unit.
     pub error_unit: String,
     /// What an error of a fit is multiplied with to be shown in it.
@@ -59,6 +61,7 @@ impl Campaign {
         Ok(Self {
             error_scale,
             error_unit,
+            base_usable: OnceLock::new(),
             base: Arc::new(base),
             switches,
             worst_first,
@@ -66,6 +69,21 @@ impl Campaign {
             title: study.title(),
             prepared,
         })
+    }
+
+    /// How many tightenings would be selected under a model; `None` where nobody knows.
+    pub fn usable(&self, fit: &LiveFit) -> Option<usize> {
+        let usable = self.prepared.usable(fit);
+        usable
+            .inspect_err(|error| {
+                tracing::warn!(%error, "nobody knows which tightenings would be selected");
+            })
+            .ok()
+    }
+
+    /// The same under the model to begin with.
+    pub fn base_usable(&self) -> Option<usize> {
+        *self.base_usable.get_or_init(|| self.usable(&self.base))
     }
 
     /// An error as it is shown, without its unit.

@@ -9,7 +9,7 @@ use crate::error::DiagnoseError;
 use crate::pooled::fitted::Fitted;
 use crate::pooled::model::{PooledModel, Room};
 use snug_campaign::Interval;
-use snug_least_squares::{PooledSettings, SolveError};
+use snug_least_squares::PooledSettings;
 use snug_model::Effect;
 use std::ops::RangeInclusive;
 use std::sync::atomic::AtomicBool;
@@ -128,11 +128,7 @@ impl LiveCases {
         }
         let ended = pooled.fit(&start, &PooledSettings::default());
         follower.go_on()?;
-        let fitted = Fitted::new(&pooled, ended?, &self.clusters);
-        match fitted.squares().is_finite() {
-            true => Ok(LiveFit::new(&self.cases, fitted)),
-            false => Err(SolveError::NoStart.into()),
-        }
+        self.ended(Fitted::new(&pooled, ended?, &self.clusters))
     }
 }
 

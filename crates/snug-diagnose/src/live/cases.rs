@@ -113,6 +113,11 @@ impl LiveCases {
         // Where a fit was ended, what was tried in its place says so too.
         follower.go_on()?;
         let fitted = fitted?;
+        self.ended(fitted)
+    }
+
+    /// A fit that ended, if anything finite came of it.
+    pub(super) fn ended(&self, fitted: Fitted) -> Result<LiveFit, DiagnoseError> {
         match fitted.squares().is_finite() {
             true => Ok(LiveFit::new(&self.cases, fitted)),
             false => Err(SolveError::NoStart.into()),

@@ -7,6 +7,7 @@ use crate::error::DiagnoseError;
 use crate::ranking::applicability::candidates;
 use crate::ranking::rank::rank;
 use crate::selection::path::{misfits, twins};
+use crate::selection::thresholds::EQUAL;
 use crate::watch::Watch;
 use snug_model::Effect;
 
@@ -32,9 +33,6 @@ pub struct HeldOut {
     /// Campaigns of nothing but noise that were scored likewise, and in how many of them something was called supported.
     pub false_alarms: (usize, usize),
 }
-
-/// By how many standard deviations another effect must explain more to be plainly better. Chosen as where twins end.
-const PLAINLY: f64 = 2.0;
 
 impl LiveCases {
     /// Tests `effect` beside the model of `without`, among everything that could be missing there; seconds, which `watch` may end.
@@ -73,7 +71,7 @@ impl LiveCases {
         };
         let tested = &candidates[place];
         let better = (candidates.iter())
-            .filter(|other| other.is_supported(settings) && other.ahead_of(tested) > PLAINLY)
+            .filter(|other| other.is_supported(settings) && other.ahead_of(tested) > EQUAL)
             .max_by(|a, b| a.gain().total_cmp(&b.gain()));
         Ok(Some(HeldOut {
             share: tested.share_beside(current),
