@@ -14,6 +14,7 @@ use std::borrow::Cow;
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Reads and prepares at most `most` tightenings, evenly spread over the files and within each; tightenings with faulty
 /// data, those kept for validation and those that cannot be judged by the same measure as the others take no part.
@@ -22,31 +23,42 @@ pub fn cases(
     files: &[PathBuf],
     most: usize,
 ) -> Result<Vec<FitTask<'static>>, StudyError> {
-    Ok(chosen(study, &Host, files, most, &|| ())?.0.cases)
+    Ok(chosen(study, &Host, files, most, &|_| ())?.0.cases)
 }
 
 /// Samples that must be scored for a comparison to say anything.
 const FEWEST_SCORED: usize = 100;
 
+/// How far reading has come.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct FilesRead {
+    /// Files that are read and prepared.
+    pub read: usize,
+    /// Files that are to be: of very many only as many as there is room for their tightenings.
+    pub files: usize,
+}
+
 /// Tightenings of one file that take part at least, if it has them: what drifts within a file shows between two.
 const EACH: usize = 2;
 
-/// The same, with what is to be said of those that take no part, and the files as far as there is room for them; `one_more` hears of
+/// The same, with what is to be said of those that take no part, and the files as far as there is room for them; `tell` hears of
 /// every file that was read.
 pub(crate) fn chosen(
     study: &Study,
     disk: &dyn Disk,
     files: &[PathBuf],
     most: usize,
-    one_more: &(dyn Fn() + Sync),
+    tell: &(dyn Fn(FilesRead) + Sync),
 ) -> Result<(Comparable, KeptFiles), StudyError> {
     let kept = Mutex::new(KeptFiles::default());
+    let (read_files, to_read) = (AtomicUsize::new(0), AtomicUsize::new(0));
     let is_fitted = |file: &&PathBuf| !study.validation.keeps(file);
     let files: Vec<PathBuf> = files.iter().filter(is_fitted).cloned().collect();
     let stride = files.len().div_ceil((most / EACH).max(1)).max(1);
     let each = (most * stride / files.len().max(1)).max(1);
     let read = |from: usize| -> Result<Vec<Part>, StudyError> {
         let some: Vec<usize> = (from..files.len()).step_by(stride).collect();
+        to_read.fetch_add(some.len(), Ordering::Relaxed);
         let parts = some.into_par_iter().map(|number| {
             let path = &files[number];
             let (all, unread) = match PreparedFile::read(study, disk, path)? {
@@ -59,7 +71,10 @@ pub(crate) fn chosen(
                 }
                 Err(error) => (Vec::new(), Some(error)),
             };
-            one_more();
+            tell(FilesRead {
+                read: read_files.fetch_add(1, Ordering::Relaxed) + 1,
+                files: to_read.load(Ordering::Relaxed),
+            });
             let part = Part::of(number, all, each, number / stride);
             Ok(Part { unread, ..part })
         });

@@ -164,7 +164,7 @@ pub fn diagnose(
     });
     let pool = pool(settings.threads)?;
     let most = study.diagnosis.most_tightenings;
-    let (comparable, kept) = pool.install(|| chosen(study, disk, &files, most, &|| ()))?;
+    let (comparable, kept) = pool.install(|| chosen(study, disk, &files, most, &|_| ()))?;
     let Comparable {
         cases,
         reasons: left_out,

@@ -27,12 +27,13 @@ mod syntax;
 mod tightenings;
 mod validation;
 
+pub use cases::FilesRead;
 #[doc(hidden)]
 pub use cases::cases;
 pub use diagnosis::{DiagnosisSettings, Verb, diagnose};
 pub use error::StudyError;
 pub use init::{Draft, DraftColumn, draft, write_draft};
-pub use prepared::{FilesRead, Prepared, prepare};
+pub use prepared::{Prepared, prepare};
 pub use progress::ProgressEvent;
 pub use recover::{Recovered, recover};
 pub use rewriting::{rewrite_effects, write_with_effects};

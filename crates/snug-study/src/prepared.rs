@@ -1,7 +1,7 @@
 //! A study's tightenings, read, prepared and settled once, for models to be tried on them by hand.
 
 use crate::campaign_result::vocabulary;
-use crate::cases::{chosen, with_settled};
+use crate::cases::{FilesRead, chosen, with_settled};
 use crate::diagnosis::effects;
 use crate::evaluation::is_usable;
 use crate::settling::{Settled, settle};
@@ -11,7 +11,6 @@ use snug_campaign::words::vocabulary::Vocabulary;
 use snug_diagnose::{DiagnoseError, Goal, LiveCases, LiveFit, Question};
 use snug_files::Host;
 use snug_model::Effect;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// A study's tightenings, ready for models to be tried on them.
 pub struct Prepared {
@@ -31,17 +30,7 @@ pub struct Prepared {
     pub remarks: Vec<String>,
 }
 
-/// How far reading has come.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct FilesRead {
-    /// Files that are read and prepared.
-    pub read: usize,
-    /// Files that the data hold.
-    pub files: usize,
-}
-
-/// Reads and prepares a study's tightenings as `diagnose` does; `tell` hears how many files there are before they are read, and of each
-/// that was. Nothing is written.
+/// Reads and prepares a study's tightenings as `diagnose` does; `tell` hears of each file that was read. Nothing is written.
 ///
 /// # Errors
 /// As [`crate::run()`] for settings and data, and where no tightening can be compared with the model.
@@ -49,19 +38,8 @@ pub fn prepare(study: &Study, tell: &(dyn Fn(FilesRead) + Sync)) -> Result<Prepa
     study.check()?;
     let listing = snug_ingest::list_on(&Host, &study.source, &study.source.path)?;
     let files = study.validation.last(listing.files)?;
-    let (count, read) = (files.len(), AtomicUsize::new(0));
-    tell(FilesRead {
-        read: 0,
-        files: count,
-    });
-    let one_more = || {
-        tell(FilesRead {
-            read: read.fetch_add(1, Ordering::Relaxed) + 1,
-            files: count,
-        })
-    };
     let most = study.diagnosis.most_tightenings;
-    let (comparable, _) = chosen(study, &Host, &files, most, &one_more)?;
+    let (comparable, _) = chosen(study, &Host, &files, most, tell)?;
     if comparable.cases.is_empty() {
         return Err(DiagnoseError::NothingToCompare {
             tightenings: 0,

@@ -139,8 +139,13 @@ pub fn run(
     });
     let (disk, files) = (&*settings.disk, &workplace.listing.files);
     let (settled, kept) = pool(settings.threads)?.install(|| {
-        let (comparable, kept) =
-            chosen(study, disk, files, study.diagnosis.most_tightenings, &|| ())?;
+        let (comparable, kept) = chosen(
+            study,
+            disk,
+            files,
+            study.diagnosis.most_tightenings,
+            &|_| (),
+        )?;
         Ok::<_, StudyError>((settle(study, &comparable.cases), kept))
     })?;
     let (study, notes) = match &settled {

@@ -89,7 +89,7 @@ pub fn settled(study: &Study) -> Result<Study, StudyError> {
     }
     let (files, _) = fitted_files(study)?;
     let most = study.diagnosis.most_tightenings;
-    let (comparable, _) = chosen(study, &Host, &files, most, &|| ())?;
+    let (comparable, _) = chosen(study, &Host, &files, most, &|_| ())?;
     let settled = settle(study, &comparable.cases);
     Ok(settled.map_or_else(|| study.clone(), |settled| settled.study))
 }

@@ -13,7 +13,7 @@ use crate::session::{Session, Ticket};
 use crate::told;
 use after::Tests;
 use serde_json::Value;
-use snug_diagnose::{DiagnoseError, LiveFit};
+use snug_diagnose::{DiagnoseError, FitStep, LiveFit};
 use snug_study::{FilesRead, Study};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -48,6 +48,23 @@ pub struct Bench {
     sessions: Mutex<BTreeMap<String, Session>>,
     /// What was saved, and where.
     pub(crate) saved: Mutex<Option<(PathBuf, String)>>,
+}
+
+/// A fit for a session, under way.
+struct Work {
+    bench: Arc<Bench>,
+    campaign: Arc<Campaign>,
+    session: String,
+    ticket: Ticket,
+    effects: EffectSet,
+}
+
+impl Work {
+    /// Tells the session's pages of a step, unless something else was asked for since.
+    fn tell(&self, step: FitStep) {
+        let told = told::step(&self.campaign, self.ticket.number, step);
+        (self.bench).with_last(&self.session, &self.ticket, |known| known.tell(told));
+    }
 }
 
 /// What nobody can leave in disorder: every change of it is one assignment.
@@ -177,21 +194,14 @@ impl Bench {
 
     /// Fits a session's present model, unless it was fitted before; what is under way for this session is ended.
     fn work_on(self: &Arc<Self>, session: &str, campaign: &Arc<Campaign>) {
-        let Some((ticket, effects)) = self.begin(session, campaign) else {
-            return;
-        };
-        let (bench, campaign) = (Arc::clone(self), Arc::clone(campaign));
-        let session = session.to_owned();
-        // Wherever it is asked for: a fit takes a processor for itself.
-        std::thread::spawn(move || {
-            let begun = bench.fitted(&effects).is_none().then(Instant::now);
-            let tell = |step| {
-                bench.with_last(&session, &ticket, |known| {
-                    known.tell(told::step(&campaign, ticket.number, step))
-                });
-            };
-            let fit = bench.fit(&campaign, &effects, &tell, &ticket.end);
-            bench.went(&session, &campaign, &ticket, &effects, fit, begun);
+        self.start(session, campaign, |work| {
+            let (bench, ticket) = (&work.bench, &work.ticket);
+            bench.fit(
+                &work.campaign,
+                &work.effects,
+                &|step| work.tell(step),
+                &ticket.end,
+            )
         });
     }
 
@@ -205,34 +215,56 @@ impl Bench {
     ) -> Result<(), WorkbenchError> {
         let campaign = self.campaign()?;
         let present = self.present(session).ok_or(WorkbenchError::NotFitted)?;
-        let Some((ticket, effects)) = self.begin(session, &campaign) else {
-            return Ok(());
-        };
-        let (bench, session) = (Arc::clone(self), session.to_owned());
-        std::thread::spawn(move || {
-            let begun = Some(Instant::now());
-            let tell = |step| {
-                bench.with_last(&session, &ticket, |known| {
-                    known.tell(told::step(&campaign, ticket.number, step))
-                });
-            };
-            let live = &campaign.prepared.live;
-            let fit = live
-                .fit_from(&present, member, &values, &tell, &ticket.end)
-                .map(Arc::new)
-                .map_err(WorkbenchError::from);
-            let fit = fit.map(|fit| {
-                let is_lower = locked(&bench.fits).improve(&effects, &fit);
-                if is_lower {
-                    locked(&bench.looks).forget();
-                }
-                let sentence = told::from_here(&campaign, &present, &fit, is_lower);
-                bench.with_last(&session, &ticket, |known| known.tell(sentence));
-                if is_lower { fit } else { present }
-            });
-            bench.went(&session, &campaign, &ticket, &effects, fit, begun);
+        self.start(session, &campaign, move |work| {
+            let (bench, live) = (&work.bench, &work.campaign.prepared.live);
+            let tell = |step| work.tell(step);
+            let fit = live.fit_from(&present, member, &values, &tell, &work.ticket.end)?;
+            let fit = Arc::new(fit);
+            let is_lower = locked(&bench.fits).improve(&work.effects, &fit);
+            if is_lower {
+                locked(&bench.looks).forget();
+            }
+            let sentence = told::from_here(&work.campaign, &present, &fit, is_lower);
+            bench.with_last(&work.session, &work.ticket, |known| known.tell(sentence));
+            Ok(if is_lower { fit } else { present })
         });
         Ok(())
+    }
+
+    /// Makes a fit for a session and tells what it came to; what was under way for it is ended.
+    fn start(
+        self: &Arc<Self>,
+        session: &str,
+        campaign: &Arc<Campaign>,
+        fit: impl FnOnce(&Work) -> Result<Arc<LiveFit>, WorkbenchError> + Send + 'static,
+    ) {
+        let Some((ticket, effects)) = self.begin(session, campaign) else {
+            return;
+        };
+        let work = Work {
+            bench: Arc::clone(self),
+            campaign: Arc::clone(campaign),
+            session: session.to_owned(),
+            ticket,
+            effects,
+        };
+        // Wherever it is asked for: a fit takes a processor for itself.
+        std::thread::spawn(move || {
+            let begun = Instant::now();
+            let was_known = work.bench.fitted(&work.effects);
+            let fit = fit(&work);
+            let is_known =
+                |fit: &Arc<LiveFit>| was_known.as_ref().is_some_and(|was| Arc::ptr_eq(was, fit));
+            let begun = (!fit.as_ref().is_ok_and(is_known)).then_some(begun);
+            let Work {
+                bench,
+                campaign,
+                session,
+                ticket,
+                effects,
+            } = &work;
+            bench.went(session, campaign, ticket, effects, fit, begun);
+        });
     }
 
     /// Ends what is under way for a session and says that something is; what is to be fitted.
@@ -278,7 +310,7 @@ impl Bench {
         &self,
         campaign: &Campaign,
         effects: &EffectSet,
-        tell: &(dyn Fn(snug_diagnose::FitStep) + Sync),
+        tell: &(dyn Fn(FitStep) + Sync),
         end: &AtomicBool,
     ) -> Result<Arc<LiveFit>, WorkbenchError> {
         if let Some(fit) = self.fitted(effects) {

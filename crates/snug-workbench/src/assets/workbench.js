@@ -202,14 +202,19 @@ const follow = async () => {
   asking = false;
 };
 
-// The missing force of all tightenings, over time and over displacement and velocity.
-let forced = 0;
+// The missing force of all tightenings, over time and over displacement and velocity; asked for once as long as the model stays.
+let forced = 0, forcedBy = '';
 const force = async () => {
+  const model = state.effects.join() + one('error').textContent;
+  if (model === forcedBy) return;
+  forcedBy = model;
   const number = ++forced;
   try {
     const answer = await fetch('/api/force?' + new URLSearchParams({ effects: state.effects.join(',') }));
-    if (answer.ok && number === forced) one('force').innerHTML = await answer.text();
-  } catch { /* That the workbench is gone is said where its events end. */ }
+    if (number !== forced) return;
+    if (answer.ok) one('force').innerHTML = await answer.text();
+    else forcedBy = '';
+  } catch { forcedBy = ''; /* That the workbench is gone is said where its events end. */ }
 };
 
 // Sliders: a number of the present model each. They stay where the same numbers are told anew, and with them the focus.

@@ -62,10 +62,7 @@ async fn a_keyboard_is_enough() {
     let server = Server::begin(0, &study_in(folder.path()));
     let browser = Headless::launch(program).await;
     let tab = browser.open(&server.address(), 1400, "light").await;
-    tab.until("document.querySelector('[data-error]')?.textContent === '1.541'")
-        .await;
-    tab.until("(document.querySelector('[data-usable]')?.textContent ?? '') !== ''")
-        .await;
+    tab.is_ready("1.541").await;
     let at = "document.activeElement.closest('li')?.dataset.effect ?? ''";
     let mut presses = 0;
     while tab.value(at).await != "stretch_reflex" {

@@ -175,6 +175,16 @@ impl Tab {
         }
     }
 
+    /// Waits until the study's own model is fitted, its error said, and everything that follows from it.
+    pub async fn is_ready(&self, error: &str) {
+        self.until(&format!(
+            "document.querySelector('[data-error]')?.textContent === '{error}'"
+        ))
+        .await;
+        self.until("(document.querySelector('[data-usable]')?.textContent ?? '') !== ''")
+            .await;
+    }
+
     /// Clicks where a person would: in the middle of what is on screen.
     pub async fn click(&self, selector: &str) {
         self.page.bring_to_front().await.unwrap();

@@ -31,10 +31,7 @@ async fn the_mystery_is_solved_by_clicking() {
     let tab = browser.open(&server.address(), 1400, "light").await;
 
     // The misfit is seen, and what promises most stands first.
-    tab.until("document.querySelector('[data-error]')?.textContent === '1.541'")
-        .await;
-    tab.until("(document.querySelector('[data-usable]')?.textContent ?? '') !== ''")
-        .await;
+    tab.is_ready("1.541").await;
     assert!(
         tab.text("says")
             .await
