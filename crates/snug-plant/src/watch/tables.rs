@@ -10,9 +10,9 @@ use arrow::array::{
 use arrow::datatypes::Field;
 use std::sync::Arc;
 
-/// The table `daily`: one row a group, quantity and day.
-pub fn daily(series: &[Series]) -> Result<Vec<u8>, PlantError> {
-    let columns = vec![
+/// What both tables begin with: which series a row is of.
+fn series_columns() -> [Field; 3] {
+    [
         field(
             "by",
             Kind::Text,
@@ -21,6 +21,13 @@ pub fn daily(series: &[Series]) -> Result<Vec<u8>, PlantError> {
         ),
         field("group", Kind::Text, false, "name of the group"),
         field("quantity", Kind::Text, false, "column of the results"),
+    ]
+}
+
+/// The table `daily`: one row a group, quantity and day.
+pub fn daily(series: &[Series]) -> Result<Vec<u8>, PlantError> {
+    let mut columns = Vec::from(series_columns());
+    columns.extend([
         field("day", Kind::Day, false, "day"),
         field(
             "tightenings",
@@ -34,7 +41,7 @@ pub fn daily(series: &[Series]) -> Result<Vec<u8>, PlantError> {
             false,
             "their median, in the quantity's unit",
         ),
-    ];
+    ]);
     let each = || {
         series
             .iter()
@@ -128,15 +135,8 @@ const NUMBERS: [(&str, &str, Read); 11] = [
 /// The table `watch`: one row a group and quantity.
 pub fn judged(judged: &Judged) -> Result<Vec<u8>, PlantError> {
     let all = &judged.all;
-    let mut columns = vec![
-        field(
-            "by",
-            Kind::Text,
-            false,
-            "what groups tightenings: tool, joint or station",
-        ),
-        field("group", Kind::Text, false, "name of the group"),
-        field("quantity", Kind::Text, false, "column of the results"),
+    let mut columns = Vec::from(series_columns());
+    columns.extend([
         field("days", Kind::Count, false, "days that have a value"),
         field(
             "changed",
@@ -156,7 +156,7 @@ pub fn judged(judged: &Judged) -> Result<Vec<u8>, PlantError> {
             false,
             "whether it differs from its sisters, under false-discovery control",
         ),
-    ];
+    ]);
     columns.extend(
         NUMBERS
             .iter()
