@@ -62,12 +62,23 @@ fn short(state: &str) -> &'static str {
 
 fn verdict(campaign: &Campaign, name: &str, tested: &HeldOut) -> (&'static str, String) {
     let called = |effect: &Effect| campaign.called(effect.name());
-    if let Some(better) = &tested.better {
-        let better = called(better);
-        return (
-            "unsure",
-            format!("Tested: {better} takes plainly more than {name}; try it in its place."),
-        );
+    match &tested.better {
+        // A law that is in no catalogue has no switch.
+        Some(Effect::Custom(law)) if !campaign.switches.contains(&Effect::Custom(law)) => {
+            let expression = &law.settings().expression;
+            let told = format!(
+                "Tested: a law that is in no catalogue, {expression}, takes plainly more than {name}; the command cargo xtask improve tries \
+                 such laws."
+            );
+            return ("unsure", told);
+        }
+        Some(better) => {
+            let better = called(better);
+            let told =
+                format!("Tested: {better} takes plainly more than {name}; try it in its place.");
+            return ("unsure", told);
+        }
+        None => {}
     }
     if !tested.is_supported {
         let why = match tested.is_told_from_nothing {
