@@ -62,8 +62,14 @@ impl Clusters {
 
 /// 97.5 % quantile of Student's t with one degree of freedom less than there are clusters.
 pub(crate) fn student(clusters: usize) -> f64 {
+    student_among(clusters, 1)
+}
+
+/// The same that none of so many exceeds in 95 % (Bonferroni).
+pub(crate) fn student_among(clusters: usize, family: usize) -> f64 {
     let freedom = clusters.saturating_sub(1).max(1) as f64;
-    StudentsT::new(0.0, 1.0, freedom).map_or(1.96, |t| t.inverse_cdf(0.975))
+    let tail = 0.025 / family as f64;
+    StudentsT::new(0.0, 1.0, freedom).map_or(1.96, |t| t.inverse_cdf(1.0 - tail))
 }
 
 #[cfg(test)]

@@ -4,11 +4,12 @@
 //! the S⁻¹ of unit noise; Student's t with U − 1. That of one tightening's samples is snug-identify's (M of known noise or of
 //! scores over time), that of regressions on what was fitted snug-statistics' (CR2).
 
-use crate::data::clusters::student;
+use crate::data::clusters::{student, student_among};
 use crate::library::is_unlisted;
 use crate::pooled::fitted::Fitted;
 use crate::pooled::group_sizes;
 use crate::pooled::parameter_place::first_parameter;
+use BesideNothing::{Held, Told, Unknown};
 use snug_campaign::EffectParameter;
 use snug_identify::FitTask;
 use snug_least_squares::matrix::{SymmetricMatrix, inner_product as dot};
@@ -68,12 +69,32 @@ pub(crate) fn parameters(
         .collect()
 }
 
+/// What the data say of an effect's size beside nothing.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum BesideNothing {
+    /// An interval excludes the value at which the effect is not there.
+    Told,
+    /// Every interval holds it.
+    Held,
+    /// There is no interval, or a shape that ends where it may go no further.
+    Unknown,
+}
+
 /// Whether the data know an effect's size well enough to tell it from nothing: an interval that excludes the value at which the
 /// effect is not there. Where that lies beyond all it may be, the interval must lie within what it may be; a law of the study's
 /// own says nowhere where it vanishes and is believed.
 pub(crate) fn is_told_from_nothing(cases: &[FitTask<'_>], fitted: &Fitted, effect: Effect) -> bool {
+    beside_nothing(cases, fitted, effect) == BesideNothing::Told
+}
+
+/// The same with what is not told: whether it may be nothing, or nobody knows.
+pub(crate) fn beside_nothing(
+    cases: &[FitTask<'_>],
+    fitted: &Fitted,
+    effect: Effect,
+) -> BesideNothing {
     let Ok(model) = cases[0].model_with(&fitted.effects) else {
-        return false;
+        return BesideNothing::Unknown;
     };
     let first = first_parameter(&fitted.effects, effect);
     let specs = effect.description().parameters;
@@ -82,26 +103,26 @@ pub(crate) fn is_told_from_nothing(cases: &[FitTask<'_>], fitted: &Fitted, effec
         (told, _) => told,
     };
     let sizes = parameters(cases, fitted, effect);
-    let excludes = |(offset, size): (usize, &EffectParameter)| {
+    let told = |(offset, size): (usize, &EffectParameter)| {
         let nothing = nothing(offset)?;
         // What some group has is there, whatever the mean.
         if let Some(by_group) = &size.by_group {
-            return Some(by_group.groups.iter().any(|group| group.present));
+            let is_there = by_group.groups.iter().any(|group| group.present);
+            return Some(if is_there { Told } else { Held });
         }
-        // What scatters between tightenings is there, whatever its mean.
+        let index = first + offset;
         if size.per_tightening && fitted.own.len() > 1 {
-            return Some(true);
+            return Some(fitted.own_beside(nothing, index));
         }
-        let parameter = &model.parameters()[first + offset];
+        let parameter = &model.parameters()[index];
         let (Some(low), Some(high)) = (size.low, size.high) else {
-            return Some(false);
+            return Some(Unknown);
         };
-        Some(
-            match nothing >= parameter.minimum && nothing <= parameter.maximum {
-                true => low > nothing || high < nothing,
-                false => low > parameter.minimum && high < parameter.maximum,
-            },
-        )
+        let is_told = match nothing >= parameter.minimum && nothing <= parameter.maximum {
+            true => low > nothing || high < nothing,
+            false => low > parameter.minimum && high < parameter.maximum,
+        };
+        Some(if is_told { Told } else { Held })
     };
     // A law whose shape ends where it may go no further is another law.
     let is_at_its_end = |(offset, size): (usize, &EffectParameter)| {
@@ -110,10 +131,15 @@ pub(crate) fn is_told_from_nothing(cases: &[FitTask<'_>], fitted: &Fitted, effec
         nothing(offset).is_none() && !size.per_tightening && ends.contains(&size.value)
     };
     if fitted.are_stretches() && sizes.iter().enumerate().any(is_at_its_end) {
-        return false;
+        return Unknown;
     }
-    let told: Vec<bool> = sizes.iter().enumerate().filter_map(excludes).collect();
-    told.is_empty() || told.contains(&true)
+    let all: Vec<BesideNothing> = sizes.iter().enumerate().filter_map(told).collect();
+    match all.as_slice() {
+        [] => Told,
+        all if all.contains(&Told) => Told,
+        all if all.contains(&Unknown) => Unknown,
+        _ => Held,
+    }
 }
 
 /// Whether a standard error is one: of a direction of which the data know nothing it comes out as 0.
@@ -207,13 +233,48 @@ impl Fitted {
     /// Standard errors of a single long record's own parameters; `None` of whole tightenings and of several records, where the
     /// scatter between them says it.
     fn errors_of_one_record(&self) -> Option<Vec<f64>> {
-        let ([_], [curvature]) = (self.own.as_slice(), self.member_curvature.as_slice()) else {
+        let ([_], Some((errors, _))) = (self.own.as_slice(), self.errors_of_record(0)) else {
             return None;
         };
-        let gradients: Vec<Vec<f64>> = (self.blocks.iter())
-            .map(|block| block.gradient.clone())
+        Some(errors)
+    }
+
+    /// Standard errors of one long record's parameters, its own first, and of how many stretches; `None` of whole tightenings.
+    fn errors_of_record(&self, member: usize) -> Option<(Vec<f64>, usize)> {
+        let curvature = self.member_curvature.get(member)?;
+        let blocks = self.members.iter().zip(&self.blocks);
+        let gradients: Vec<Vec<f64>> = blocks
+            .filter(|(of, _)| **of == member)
+            .map(|(_, block)| block.gradient.clone())
             .collect();
-        self.errors(curvature, &gradients)
+        let errors = self.errors(curvature, &gradients)?;
+        Some((errors, gradients.len()))
+    }
+
+    /// What several tightenings say of a parameter that each has of its own, the model's at `index`. What scatters between whole
+    /// tightenings is there, whatever its mean; of long records one must know its own, beyond what chance does in any of them.
+    fn own_beside(&self, nothing: f64, index: usize) -> BesideNothing {
+        let Some(column) = self.own_indices().iter().position(|&one| one == index) else {
+            return Unknown;
+        };
+        if !self.are_stretches() {
+            return Told;
+        }
+        let records = self.own.len();
+        let of_one = |(member, own): (usize, &Vec<f64>)| {
+            let (errors, stretches) = self.errors_of_record(member)?;
+            let error = errors
+                .get(column)
+                .copied()
+                .filter(|&error| is_known(error))?;
+            Some((own[column] - nothing).abs() > student_among(stretches, records) * error)
+        };
+        let known: Vec<bool> = (self.own.iter().enumerate()).filter_map(of_one).collect();
+        match known.as_slice() {
+            [] => Unknown,
+            known if known.contains(&true) => Told,
+            _ => Held,
+        }
     }
 
     /// Of every parameter of `curvature`, by the sandwich over clusters.

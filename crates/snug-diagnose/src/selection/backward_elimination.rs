@@ -3,9 +3,10 @@
 use crate::error::DiagnoseError;
 use crate::pooled::fit::fit_effects;
 use crate::pooled::fitted::Fitted;
+use crate::pooled::sizes::{BesideNothing, beside_nothing};
 use crate::ranking::paired_gain::{clearness, gains};
 use crate::selection::model_selection::ModelSelection;
-use crate::selection::path::{Attempt, SelectionPath, leaves_more};
+use crate::selection::path::{SelectionPath, leaves_more};
 use crate::selection::thresholds::EQUAL;
 use snug_model::Effect;
 
@@ -20,36 +21,67 @@ pub(crate) fn try_removals(
     let added: Vec<Effect> = path.additions.iter().map(|one| one.effect).collect();
     for effect in added {
         let full = path.last().clone();
-        selection
-            .watch
-            .begin(&format!("trying to do without {}", effect.name()))?;
-        let mut effects = full.effects.clone();
-        effects.retain(|known| *known != effect);
-        // A model that cannot even be run without it needs it.
-        let Ok(without) = fit_effects(selection.cases, &effects, Some(&full), selection.clusters)
-        else {
+        let Some(without) = without(selection, &full, effect)? else {
+            path.needs(effect);
             continue;
         };
         let losses = gains(&without.heldout_beyond_torque_noise(), &full);
-        let loss: f64 = losses.iter().sum();
-        let growth = loss / full.squares();
+        let growth = losses.iter().sum::<f64>() / full.squares();
         let hardly_matters = growth < without.smallest_gain(selection.settings);
-        let removed = hardly_matters || clearness(&losses, full.scale()) < 1.0;
-        path.attempts.push(Attempt {
-            effect,
-            removed,
-            loss,
-            growth,
-        });
-        if removed {
-            path.additions.retain(|one| one.effect != effect);
-            path.stand_on(without);
+        match hardly_matters || clearness(&losses, full.scale()) < 1.0 {
+            true => path.take_out(effect, without),
+            false => path.keep(effect, &without),
         }
     }
     if path.attempts.iter().any(|attempt| attempt.removed) {
         selection.rank_last(path)?;
     }
     Ok(())
+}
+
+/// Takes out what may be nothing beside the others, the interval of its size says: it stood in for what has come in since. Where of
+/// several each may be nothing, they stand in for each other, and the one without which least is lost goes first.
+pub(crate) fn take_out_what_may_be_nothing(
+    selection: &ModelSelection<'_>,
+    path: &mut SelectionPath,
+) -> Result<(), DiagnoseError> {
+    while path.additions.len() > 1 {
+        let full = path.last().clone();
+        let may_be_nothing = |effect: &Effect| {
+            beside_nothing(&selection.cases, &full, *effect) == BesideNothing::Held
+        };
+        let added = path.additions.iter().map(|one| one.effect);
+        let mut least: Option<(Effect, Fitted)> = None;
+        for effect in added.filter(may_be_nothing) {
+            let Some(without) = without(selection, &full, effect)? else {
+                continue;
+            };
+            let known = least
+                .as_ref()
+                .map_or(f64::INFINITY, |(_, one)| one.squares());
+            if without.squares() < known {
+                least = Some((effect, without));
+            }
+        }
+        let Some((effect, without)) = least else {
+            return Ok(());
+        };
+        path.take_out(effect, without);
+    }
+    Ok(())
+}
+
+/// `full` without `effect`, from where it ended; `None` where that cannot be run.
+fn without(
+    selection: &ModelSelection<'_>,
+    full: &Fitted,
+    effect: Effect,
+) -> Result<Option<Fitted>, DiagnoseError> {
+    let doing = format!("trying to do without {}", effect.name());
+    selection.watch.begin(&doing)?;
+    let mut effects = full.effects.clone();
+    effects.retain(|known| *known != effect);
+    Ok(fit_effects(selection.cases, &effects, Some(full), selection.clusters).ok())
 }
 
 /// Keeps of each added effect's twins those that still do as well in its place beside the others.
@@ -174,6 +206,30 @@ mod tests {
                     "a share of what is left"
                 );
             }
+        });
+    }
+
+    /// What took little as it came in, for others stood in for it, is no small effect where much is lost without it; what may be
+    /// nothing beside the others is taken out, whatever it took.
+    #[test]
+    fn what_stands_in_for_another_is_taken_out_and_what_is_needed_is_not_small() {
+        let added = [QuadraticDamping, CubicStiffness, TorqueOffset];
+        after_selection(&added, &[], |selection, path| {
+            take_out_what_may_be_nothing(selection, path).expect("it can be fitted");
+            let left: Vec<Effect> = path.additions.iter().map(|one| one.effect).collect();
+            assert_eq!(left, [CubicStiffness, TorqueOffset]);
+            assert_eq!(path.last().effects, left);
+            let [attempt] = path.attempts.as_slice() else {
+                panic!("one was taken out: {:?}", path.attempts)
+            };
+            assert!(attempt.removed && attempt.effect == QuadraticDamping);
+
+            path.rungs[0] =
+                fit_effects(selection.cases, &[], None, WHOLE).expect("it can be fitted");
+            path.additions[0].share_of_first = 1e-3;
+            try_removals(selection, path).expect("it can be fitted");
+            let share = path.additions[0].share_of_first;
+            assert!(share > 0.1, "{share}");
         });
     }
 

@@ -1,7 +1,9 @@
 //! Forward selection: rank, add the best, again, until nothing more is justified; then backward elimination.
 
 use crate::error::DiagnoseError;
-use crate::selection::backward_elimination::{look_at_twins_again, try_removals};
+use crate::selection::backward_elimination::{
+    look_at_twins_again, take_out_what_may_be_nothing, try_removals,
+};
 use crate::selection::model_selection::{ModelSelection, Step};
 use crate::selection::path::{SelectionPath, Stop, justified};
 use crate::selection::thresholds::MOST_EFFECTS;
@@ -51,7 +53,8 @@ impl ModelSelection<'_> {
         for (addition, fitted) in steps {
             path.add(addition, self.settled(&fitted)?);
         }
-        self.exchange_kin(path)
+        self.exchange_kin(path)?;
+        take_out_what_may_be_nothing(self, path)
     }
 }
 

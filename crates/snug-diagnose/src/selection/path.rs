@@ -5,7 +5,7 @@ use crate::error::DiagnoseError;
 use crate::library::is_unlisted;
 use crate::pooled::fitted::Fitted;
 use crate::ranking::kin::is_simpler;
-use crate::ranking::paired_gain::agreement;
+use crate::ranking::paired_gain::{agreement, gains};
 use crate::ranking::rank::{Candidate, Ranking};
 use crate::selection::thresholds::{
     AS_MUCH, EQUAL, GOOD_PART, MATTERS, MOST, NO_OTHER, PLAINLY_MORE, PROMISING_P, SMALL, TRIFLE,
@@ -82,6 +82,47 @@ impl SelectionPath {
             ..addition
         });
         self.stand_on(fitted);
+    }
+
+    /// One rung down: the last model does `without` an effect that was added.
+    pub fn take_out(&mut self, effect: Effect, without: Fitted) {
+        self.attempts.push(self.attempt(effect, &without, true));
+        self.additions.retain(|one| one.effect != effect);
+        self.stand_on(without);
+        if let [only] = self.additions.as_slice() {
+            self.needs(only.effect);
+        }
+    }
+
+    /// The last model keeps an effect that was added: it explains at least what is lost `without` it, whatever it took first.
+    pub fn keep(&mut self, effect: Effect, without: &Fitted) {
+        let attempt = self.attempt(effect, without, false);
+        self.explains(effect, attempt.loss / misfit(&self.rungs[0]));
+        self.attempts.push(attempt);
+    }
+
+    /// Without an effect that was added the last model is nothing: it explains all that all of them do.
+    pub fn needs(&mut self, effect: Effect) {
+        self.explains(effect, 1.0 - misfit(self.last()) / misfit(&self.rungs[0]));
+    }
+
+    fn explains(&mut self, effect: Effect, share: f64) {
+        let mut additions = self.additions.iter_mut();
+        if let Some(one) = additions.find(|one| one.effect == effect) {
+            one.share_of_first = one.share_of_first.max(share);
+        }
+    }
+
+    fn attempt(&self, effect: Effect, without: &Fitted, removed: bool) -> Attempt {
+        let full = self.last();
+        let losses = gains(&without.heldout_beyond_torque_noise(), full);
+        let loss: f64 = losses.iter().sum();
+        Attempt {
+            effect,
+            removed,
+            loss,
+            growth: loss / full.squares(),
+        }
     }
 
     /// The last model as it fits from another place, against which nothing is ranked yet.
