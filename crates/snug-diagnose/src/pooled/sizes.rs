@@ -10,7 +10,7 @@ use crate::pooled::fitted::Fitted;
 use crate::pooled::group_sizes;
 use crate::pooled::parameter_place::first_parameter;
 use BesideNothing::{Held, Told, Unknown};
-use snug_campaign::EffectParameter;
+use snug_campaign::{EffectParameter, ParameterSource};
 use snug_identify::FitTask;
 use snug_least_squares::matrix::{SymmetricMatrix, inner_product as dot};
 use snug_model::{BASE_PARAMETERS, Effect, Law, Model, ParameterSpec, Scope};
@@ -300,7 +300,8 @@ impl Fitted {
     }
 }
 
-/// The model of one case with everything but its own parameters held, known as well as `errors` say.
+/// The model of one case with everything but its own parameters held, known as well as `errors` say, and those where all tightenings
+/// together put them: what is fitted from there fits no worse.
 pub(crate) fn held(
     case: &FitTask<'_>,
     fitted: &Fitted,
@@ -308,6 +309,11 @@ pub(crate) fn held(
     errors: Option<&[f64]>,
 ) -> Option<Model> {
     let mut model = case.model_with(&fitted.effects).ok()?;
+    for (&index, &value) in fitted.own_indices().iter().zip(&fitted.own[member]) {
+        let parameter = &mut model.parameters_mut()[index];
+        parameter.value = value;
+        parameter.source = ParameterSource::Identified;
+    }
     for part in fitted.parts(member, errors) {
         let parameter = &mut model.parameters_mut()[part.index];
         parameter.value = part.value;

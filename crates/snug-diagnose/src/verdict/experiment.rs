@@ -136,10 +136,7 @@ fn simulated<'a>(
     let input = Input::new(&torque, interval_s, snug_campaign::Intersample::Linear)
         .with_onset(case.input.onset_s())
         .with_rest_before(case.input.rest_before_s());
-    let mut values: Vec<f64> = model.parameters().iter().map(|p| p.value).collect();
-    for (&index, &value) in first.own_indices().iter().zip(&first.own[member]) {
-        values[index] = value;
-    }
+    let values: Vec<f64> = model.parameters().iter().map(|p| p.value).collect();
     let mut tightening = case.tightening.clone().into_owned();
     tightening.motion = model.simulate(&values, &input).ok()?;
     tightening.torque_nm = torque;

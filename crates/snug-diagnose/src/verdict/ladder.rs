@@ -61,14 +61,7 @@ fn rms_residual(cases: &[FitTask<'_>], fitted: &Fitted) -> f64 {
         let Some(model) = held(case, fitted, member, None) else {
             continue;
         };
-        let mut values: Vec<f64> = model.parameters().iter().map(|p| p.value).collect();
-        let own = fitted.own_indices().iter().zip(&fitted.own[member]);
-        for (&index, &value) in own {
-            values[index] = value;
-        }
-        for part in fitted.parts(member, None) {
-            values[part.index] = part.value;
-        }
+        let values: Vec<f64> = model.parameters().iter().map(|p| p.value).collect();
         let mut output = vec![0.0; case.measured().len()];
         model
             .output(&values, &case.input, case.quantity(), &mut output)

@@ -110,4 +110,38 @@ mod tests {
             assert!(largest < 1e-3, "{largest}");
         }
     }
+
+    /// Whatever the study has its fits begin from: where all tightenings together put a tightening is a place to begin.
+    #[test]
+    fn each_fits_no_worse_than_all_together() {
+        let mut cases: Vec<FitTask<'_>> = (0..4)
+            .map(|number| exact(number, &[CoulombFriction], &[5.0]))
+            .collect();
+        let tally = Tally::default();
+        let sharing = Sharing::default();
+        let fitted = {
+            let cases = Cases::new(&cases, &tally);
+            fit_sharing(cases, &[CoulombFriction], &sharing, None, WHOLE)
+        };
+        let fitted = fitted.expect("it can be fitted");
+        for case in &mut cases {
+            let [mass, damping, stiffness, ..] = case.model.to_mut().parameters_mut() else {
+                panic!("a model has m, c, k")
+            };
+            (mass.value, damping.value, stiffness.value) = (900.0, 1e-3, 1e6);
+        }
+        for (member, model) in held_models(&cases, &fitted).iter().enumerate() {
+            let own: Vec<f64> = model.parameters()[..3].iter().map(|p| p.value).collect();
+            assert_eq!(own, fitted.own[member]);
+        }
+        let fits = TighteningFits::of(&cases, &fitted).expect("each can be fitted");
+        for (seen, all) in fits.seen().iter().zip(&fitted.own) {
+            for (one, together) in seen.estimate.parameters.iter().zip(all) {
+                assert!(
+                    (one.value / together - 1.0).abs() < 1e-3,
+                    "{one:?} {together}"
+                );
+            }
+        }
+    }
 }
