@@ -243,8 +243,12 @@ impl Search<'_> {
     ) -> Result<(Answer, Option<Study>), StudyError> {
         let straight = self.examined(question)?;
         let cases = question.cases;
-        let may_be_held = held_input::may_be_held(study, cases, &straight.diagnosis);
-        if *self.verb != Verb::Improve || !may_be_held {
+        if *self.verb != Verb::Improve || !held_input::is_open(study, cases) {
+            return Ok((straight, None));
+        }
+        let last = straight.models.last();
+        let last = last.map_or_else(|| study.clone(), |model| with_model(study, model, true));
+        if !held_input::is_worth_it(&straight.diagnosis, &last, cases)? {
             return Ok((straight, None));
         }
         let (held_study, cases) = held_input::held(study, cases)?;

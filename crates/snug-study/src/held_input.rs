@@ -7,7 +7,7 @@ use crate::cases::with_settled;
 use crate::{Study, StudyError};
 use snug_campaign::words::reason::Reason;
 use snug_campaign::{Diagnosis, Intersample};
-use snug_identify::FitTask;
+use snug_identify::{FitTask, identify_all};
 use snug_model::{Input, Scale};
 use std::borrow::Cow;
 
@@ -26,13 +26,47 @@ const AS_LITTLE: f64 = 1.1;
 /// The same below which one of as many effects leaves plainly less \[–\]. Chosen.
 const PLAINLY_LESS: f64 = 0.95;
 
-/// Whether a search that found `diagnosis` is worth to be made again with a held input.
-pub(crate) fn may_be_held(study: &Study, cases: &[FitTask<'_>], diagnosis: &Diagnosis) -> bool {
+/// Whether the study leaves it open, and so few samples were recorded that a search may be made again with a held input.
+pub(crate) fn is_open(study: &Study, cases: &[FitTask<'_>]) -> bool {
     let samples: usize = cases.iter().map(|case| case.measured().len()).sum();
     study.model.intersample.is_none()
         && matches!(study.model.scale, Scale::Rig { .. })
         && samples <= MOST_SAMPLES
-        && stand_ins(diagnosis).next().is_some()
+}
+
+/// Whether a search that found `diagnosis`, whose last model is that of `last`, is worth to be made again with a held input: something
+/// stands in for half a sampling interval, or the model, begun where it ended, leaves plainly less with that input.
+pub(crate) fn is_worth_it(
+    diagnosis: &Diagnosis,
+    last: &Study,
+    cases: &[FitTask<'_>],
+) -> Result<bool, StudyError> {
+    if stand_ins(diagnosis).next().is_some() {
+        return Ok(true);
+    }
+    let straight = with_settled(last, cases.iter().map(FitTask::lent).collect())?;
+    let (_, held) = held(last, cases)?;
+    Ok(match (squares_left(&held), squares_left(&straight)) {
+        (Some(with), Some(without)) => with < PLAINLY_LESS * PLAINLY_LESS * without,
+        _ => false,
+    })
+}
+
+/// Σ (measured − simulated)² of all recordings, of each of which only mass, damping and stiffness are fitted again; `None` where one
+/// has no fit.
+fn squares_left(cases: &[FitTask<'_>]) -> Option<f64> {
+    let mut squares = 0.0;
+    for (estimate, case) in identify_all(cases).into_iter().zip(cases) {
+        let values: Vec<f64> = estimate.ok()?.parameters.iter().map(|p| p.value).collect();
+        let mut output = vec![0.0; case.measured().len()];
+        let quantity = case.quantity();
+        (case.model)
+            .output(&values, &case.input, quantity, &mut output)
+            .ok()?;
+        let pairs = output.iter().zip(case.measured()).skip(case.unscored());
+        squares += pairs.map(|(s, y)| (y - s).powi(2)).sum::<f64>();
+    }
+    Some(squares)
 }
 
 /// The study and its recordings with a held input.
