@@ -163,8 +163,7 @@ pub(crate) fn closer(campaign: &Campaign, closer: &Closer, base: &LiveFit, now: 
     };
     let worth = match closer.is_of_a_stretch() {
         true => {
-            "Promises count there, with every tightening's own mass, damping and stiffness free to follow it alone: a short stretch \
-                 tells little."
+            "Promises count there, with every tightening's own mass, damping and stiffness free to follow over its whole window."
         }
         false => "Promises count there.",
     };

@@ -42,12 +42,7 @@ impl LiveCases {
             Some(model) => model,
             None => case.model_with(&fitted.effects)?,
         };
-        let mut values: Vec<f64> = model.parameters().iter().map(|p| p.value).collect();
-        let own = fitted.own_indices().iter().zip(&fitted.own[member]);
-        own.for_each(|(&index, &value)| values[index] = value);
-        for part in fitted.parts(member, None) {
-            values[part.index] = part.value;
-        }
+        let values: Vec<f64> = model.parameters().iter().map(|p| p.value).collect();
         let mut output = vec![0.0; case.measured().len()];
         model.output(&values, &case.input, case.quantity(), &mut output)?;
         let mut estimate = identify(&model, &case.input, &case.tightening, &case.settings)?;

@@ -8,8 +8,9 @@ use crate::focus::Closer;
 use crate::session::Ticket;
 use crate::told;
 use serde_json::json;
-use snug_diagnose::{Focus, HeldOut, LiveCases, LiveFit, Watch};
+use snug_diagnose::{DiagnoseError, Focus, HeldOut, LiveCases, LiveFit, Watch};
 use snug_model::Effect;
+use std::ops::Range;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
@@ -29,9 +30,23 @@ impl Tests {
 
 /// What is looked at more closely, with the models as they are there.
 struct Close {
-    cases: LiveCases,
+    /// The tightenings with their whole windows, and the present model as it is on these.
+    whole: LiveCases,
+    whole_now: LiveFit,
     base: LiveFit,
     now: LiveFit,
+    /// Samples of every window that count, where not all do.
+    samples: Option<Range<usize>>,
+}
+
+impl Close {
+    fn promises(&self, candidates: &[Effect]) -> Result<Vec<f64>, DiagnoseError> {
+        let (whole, now, base) = (&self.whole, &self.whole_now, &self.base);
+        match &self.samples {
+            Some(samples) => whole.promises_within(now, base, candidates, samples),
+            None => whole.promises(now, base, candidates),
+        }
+    }
 }
 
 impl Bench {
@@ -59,17 +74,20 @@ impl Bench {
             let told = told::closer(campaign, &closer, &close.base, &close.now);
             self.with_last(session, ticket, |known| known.tell(told));
         }
-        let (live, base, now) = match &close {
-            Some(close) => (&close.cases, &close.base, &close.now),
-            None => (&campaign.prepared.live, &*campaign.base, fit),
-        };
         for candidates in campaign.switches.chunks(SCORED_TOGETHER) {
             if ticket.end.load(Ordering::Relaxed) {
                 return;
             }
             let absent = |effect: &&Effect| !fit.effects().contains(effect);
             let absent: Vec<Effect> = candidates.iter().filter(absent).copied().collect();
-            match live.promises(now, base, &absent) {
+            let promises = match &close {
+                Some(close) => close.promises(&absent),
+                None => campaign
+                    .prepared
+                    .live
+                    .promises(fit, &campaign.base, &absent),
+            };
+            match promises {
                 Ok(shares) => self.with_last(session, ticket, |known| {
                     known.tell(told::promises(&absent, &shares));
                 }),
@@ -151,8 +169,20 @@ impl Bench {
 
 fn close(campaign: &Campaign, closer: &Closer, fit: &LiveFit) -> Result<Close, WorkbenchError> {
     let focus: Focus = closer.focus(campaign)?;
-    let cases = campaign.prepared.live.focused(&focus)?;
-    let base = cases.as_fitted(&campaign.base, &focus.members)?;
-    let now = cases.as_fitted(fit, &focus.members)?;
-    Ok(Close { cases, base, now })
+    let live = &campaign.prepared.live;
+    let there = live.focused(&focus)?;
+    let base = there.as_fitted(&campaign.base, &focus.members)?;
+    let now = there.as_fitted(fit, &focus.members)?;
+    let Focus { members, samples } = focus;
+    let whole = live.focused(&Focus {
+        members: members.clone(),
+        samples: None,
+    })?;
+    Ok(Close {
+        whole_now: whole.as_fitted(fit, &members)?,
+        whole,
+        base,
+        now,
+        samples,
+    })
 }
