@@ -1,0 +1,84 @@
+//! A day's use: two tabs, 500 clicks, 50 reloads; what the server's memory and the page's come to.
+
+use crate::browser::{Headless, LOADING, Tab};
+use crate::many::study_of;
+use crate::server::Server;
+use std::path::Path;
+use tempfile::TempDir;
+
+const CLICKS: usize = 500;
+/// Clicks from one reload to the next.
+const BETWEEN_RELOADS: usize = 10;
+/// Clicks from one line of the table to the next.
+const BETWEEN_LINES: usize = 50;
+
+/// What is clicked in turn, beside a switch now and then.
+const BUTTONS: [&str; 4] = [
+    "[data-undo]",
+    "[data-redo]",
+    "[data-worse='1']",
+    "[data-pin]",
+];
+
+/// Clicks and reloads; the table of memory.
+pub async fn of_use(program: &Path) {
+    let folder = TempDir::new().unwrap();
+    let server = Server::begin(0, &study_of(folder.path(), 1));
+    let browser = Headless::launch(program.to_owned()).await;
+    let tabs = [
+        browser.open(&server.address(), 1400, "light").await,
+        browser.open(&server.address(), 1400, "dark").await,
+    ];
+    for tab in &tabs {
+        tab.is_ready("1.541").await;
+    }
+    println!("a day's use      server [MB]  page [MB]  nodes");
+    for click in 0..CLICKS {
+        if click % BETWEEN_LINES == 0 {
+            line(click, &tabs[0]).await;
+        }
+        let tab = &tabs[click % 2];
+        tab.page.bring_to_front().await.unwrap();
+        let selector = match click % 3 {
+            0 => format!(".effect:nth-child({}) .switch", 1 + click / 3 % 20),
+            _ => BUTTONS[click / 2 % BUTTONS.len()].to_owned(),
+        };
+        tab.value(&format!("document.querySelector(\"{selector}\").click()"))
+            .await;
+        if click % 5 == 4 {
+            tab.until("!document.body.classList.contains('fitting')")
+                .await;
+        }
+        if click % BETWEEN_RELOADS == BETWEEN_RELOADS - 1 {
+            (tokio::time::timeout(LOADING, tab.page.reload()).await).ok();
+            tab.until("(document.querySelector('[data-error]')?.textContent ?? '…') !== '…'")
+                .await;
+        }
+    }
+    line(CLICKS, &tabs[0]).await;
+    for tab in &tabs {
+        tab.was_well(server.port);
+    }
+    browser.close().await;
+    server.end();
+}
+
+async fn line(click: usize, tab: &Tab) {
+    tab.page.bring_to_front().await.unwrap();
+    let heap = tab.value("performance.memory.usedJSHeapSize").await;
+    let nodes = tab.value("document.getElementsByTagName('*').length").await;
+    println!(
+        "  {click:>3} clicks    {:>10.0} {:>10.1} {:>6}",
+        own_memory_mb(),
+        heap.as_f64().unwrap_or(f64::NAN) / 1e6,
+        nodes.as_f64().unwrap_or(f64::NAN)
+    );
+}
+
+/// Resident memory of this process, which is the server \[MB\]; NaN where the system does not tell it.
+fn own_memory_mb() -> f64 {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:"));
+    let kb = line.and_then(|line| line.trim().trim_end_matches(" kB").parse::<f64>().ok());
+    kb.map_or(f64::NAN, |kb| kb / 1e3)
+}

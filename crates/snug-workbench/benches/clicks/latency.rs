@@ -1,0 +1,97 @@
+//! From a click to the first lower error on screen, and to the last.
+
+use crate::browser::{Headless, Tab};
+use crate::many::study_of;
+use crate::server::Server;
+use std::path::Path;
+use std::time::Instant;
+use tempfile::TempDir;
+
+/// Effects that are clicked, each from the study's own model.
+const EFFECTS: [&str; 8] = [
+    "stretch_reflex",
+    "directional_damping",
+    "cubic_stiffness",
+    "coulomb_friction",
+    "maxwell_branch",
+    "torque_delay",
+    "voluntary_push",
+    "backlash",
+];
+
+/// Clicks `selector` and waits until what was asked for is fitted; milliseconds to the first text that the error takes after it, and to
+/// the last.
+const CLICKED: &str = "(async () => {
+  const error = document.querySelector('[data-error]'), begun = performance.now(), times = [];
+  const seen = new MutationObserver(() => times.push(performance.now() - begun));
+  seen.observe(error, { childList: true });
+  document.body.classList.add('fitting');
+  document.querySelector(SELECTOR).click();
+  while (document.body.classList.contains('fitting')) await new Promise(rest => setTimeout(rest, 1));
+  await new Promise(rest => requestAnimationFrame(rest));
+  seen.disconnect();
+  return [times[0] ?? NaN, times.at(-1) ?? NaN];
+})()";
+
+/// Moves a slider by a hundredth and waits for what the tightening makes of it \[ms\].
+const DRAGGED: &str = "(async () => {
+  const range = document.querySelectorAll('.slider input')[2], says = document.querySelector('[data-by-hand]');
+  const was = says.textContent, begun = performance.now();
+  range.value = range.value * 0.99;
+  range.dispatchEvent(new Event('input'));
+  while (says.textContent === was) await new Promise(rest => setTimeout(rest, 1));
+  return performance.now() - begun;
+})()";
+
+/// Drags of which the median is told.
+const DRAGS: usize = 20;
+
+/// The table of a campaign that is so many times the mystery.
+pub async fn of_clicks(program: &Path, copies: usize) {
+    let folder = TempDir::new().unwrap();
+    let begun = Instant::now();
+    let server = Server::begin(0, &study_of(folder.path(), copies));
+    let browser = Headless::launch(program.to_owned()).await;
+    let tab = browser.open(&server.address(), 1400, "light").await;
+    tab.until("document.querySelector('[data-error]')?.textContent > '1'")
+        .await;
+    println!(
+        "{} tightenings: first error on screen after {:.1} s, browser started",
+        24 * copies,
+        begun.elapsed().as_secs_f64()
+    );
+    println!("  click                  first [ms]  last [ms]");
+    for effect in EFFECTS {
+        is_quiet(&tab).await;
+        let [first, last] = clicked(&tab, &format!("[data-effect={effect}] .switch")).await;
+        println!("  {effect:<22} {first:>10.0} {last:>10.0}");
+        is_quiet(&tab).await;
+        clicked(&tab, "[data-undo]").await;
+    }
+    let mut drags = Vec::new();
+    is_quiet(&tab).await;
+    for _ in 0..DRAGS {
+        drags.push(tab.value(DRAGGED).await.as_f64().unwrap());
+    }
+    drags.sort_by(f64::total_cmp);
+    println!(
+        "  a slider dragged       {:>10.0} (median of {DRAGS}, longest {:.0})",
+        drags[DRAGS / 2],
+        drags[DRAGS - 1]
+    );
+    tab.was_well(server.port);
+    browser.close().await;
+    server.end();
+}
+
+/// Waits until all that follows from a fit is told but the tests of what was added, which go on behind the next click.
+async fn is_quiet(tab: &Tab) {
+    tab.until("document.querySelector('[data-usable]').textContent !== ''")
+        .await;
+}
+
+async fn clicked(tab: &Tab, selector: &str) -> [f64; 2] {
+    let script = CLICKED.replace("SELECTOR", &format!("'{selector}'"));
+    let times = tab.value(&script).await;
+    [0, 1].map(|place| times[place].as_f64().unwrap_or(f64::NAN))
+}

@@ -1,0 +1,31 @@
+//! How long a click takes in a real browser, and whether a day's use leaves the memory as it was: `cargo xtask bench workbench`.
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    dead_code,
+    reason = "a benchmark prints its table, and shares what drives the browser with the stories"
+)]
+
+#[path = "../../tests/in_browser/browser.rs"]
+mod browser;
+mod day;
+mod latency;
+mod many;
+#[path = "../../tests/in_browser/server.rs"]
+mod server;
+
+use browser::installed;
+
+/// A workbench on 24 tightenings and on 240, clicked; with `--long` used for a day.
+fn main() {
+    let Some(program) = installed() else { return };
+    let is_long = std::env::args().any(|argument| argument == "--long");
+    let runtime = tokio::runtime::Runtime::new().unwrap();
+    runtime.block_on(async {
+        latency::of_clicks(&program, 1).await;
+        latency::of_clicks(&program, 10).await;
+        if is_long {
+            day::of_use(&program).await;
+        }
+    });
+}
