@@ -22,7 +22,7 @@ pub use examine::examine;
 pub use live::by_hand::{ByHand, HandNumber};
 pub use live::cases::LiveCases;
 pub use live::fit::LiveFit;
-pub use live::focus::Focus;
+pub use live::focus::{CloserLook, Counted, Focus};
 pub use live::held_out::HeldOut;
 pub use live::tightening::LiveTightening;
 pub use locate::{Seen, compare, drifts, locate};

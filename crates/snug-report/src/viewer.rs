@@ -181,9 +181,10 @@ pub fn document(title: &str, style: &str, body: &Markup) -> Markup {
     }
 }
 
-/// The missing force over time and over displacement and velocity, as the report draws it; nothing where there is none.
-pub fn missing_force(curve: &ForceCurve, map: &ForceMap) -> Markup {
-    force::drawings(curve, map)
+/// The missing force over time, beside what another model lacked `before`, and over displacement and velocity, as the report draws it but
+/// for `data-cell`: of each cell of the map its edges, displacement \[m\] and velocity \[m/s\] of the grip. Nothing where there is none.
+pub fn missing_force(curve: &ForceCurve, before: Option<&ForceCurve>, map: &ForceMap) -> Markup {
+    force::live(curve, before, map)
 }
 
 /// Where the viewer draws, `panels` one below the other; `data` is what it begins with.

@@ -61,6 +61,19 @@ pub enum WorkbenchError {
         /// Where it was to end \[s\].
         to_s: Option<f64>,
     },
+    /// A cell of the map of the missing force that is none.
+    #[error(
+        "cell = {given:?} is no cell of the map: four numbers are needed, lower and upper edge of the grip's displacement in m and of its velocity in m/s, with commas between them"
+    )]
+    NoCell {
+        /// What was given instead.
+        given: String,
+    },
+    /// A closer look at a stretch of time and at a cell.
+    #[error(
+        "from_s, to_s and cell are given: a closer look is at a stretch of time or at a cell of the map, not at both"
+    )]
+    StretchAndCell,
     /// Numbers set by hand that are not those of the model.
     #[error(
         "values = {given:?} are not the {count} numbers of this model, each finite, with commas between them"

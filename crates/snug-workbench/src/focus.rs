@@ -1,10 +1,13 @@
-//! A closer look at some of the tightenings, or at a stretch of time: what a page asks for, and what that means here.
+//! A closer look at some of the tightenings, a stretch of time or a cell of the map of the missing force: what a page asks for, and
+//! what that means here.
 
 use crate::campaign::Campaign;
 use crate::error::WorkbenchError;
 use serde::Deserialize;
 use snug_campaign::Factor;
-use snug_diagnose::{Focus, LiveCases};
+use snug_campaign::words::number::significant;
+use snug_diagnose::{Counted, Focus, LiveCases};
+use std::ops::RangeInclusive;
 
 /// Tightenings that have a condition in common.
 pub(crate) struct Group {
@@ -60,6 +63,16 @@ pub(crate) struct Closer {
     pub from_s: Option<f64>,
     /// Where it ends \[s\].
     pub to_s: Option<f64>,
+    /// A cell of the map of the missing force: lower and upper edge of displacement \[m\] and velocity \[m/s\] of the grip, with commas
+    /// between them; empty for all of it.
+    #[serde(default)]
+    pub cell: String,
+}
+
+/// Where a grip is, and how fast it moves.
+struct Cell {
+    x_m: RangeInclusive<f64>,
+    v_m_per_s: RangeInclusive<f64>,
 }
 
 impl Closer {
@@ -68,9 +81,9 @@ impl Closer {
         *self == Self::default()
     }
 
-    /// Whether it is a look at a part of the time.
-    pub fn is_of_a_stretch(&self) -> bool {
-        self.from_s.is_some()
+    /// Whether it is a look at a part of every window.
+    pub fn is_of_a_part(&self) -> bool {
+        self.from_s.is_some() || !self.cell.is_empty()
     }
 
     /// Which tightenings and samples that are.
@@ -82,25 +95,53 @@ impl Closer {
         };
         let interval_s = tasks[0].tightening.time_base.interval_s;
         let sample = |time_s: f64| (time_s / interval_s).round().max(0.0) as usize;
-        let samples = match (self.from_s, self.to_s) {
-            (Some(from_s), Some(to_s)) if from_s < to_s => Some(sample(from_s)..sample(to_s) + 1),
-            (None, None) => None,
-            (from_s, to_s) => return Err(WorkbenchError::NoStretch { from_s, to_s }),
+        let counted = match (self.from_s, self.to_s, self.cell()?) {
+            (None, None, None) => Counted::All,
+            (None, None, Some(Cell { x_m, v_m_per_s })) => Counted::Cell { x_m, v_m_per_s },
+            (Some(from_s), Some(to_s), None) if from_s < to_s => {
+                Counted::Stretch(sample(from_s)..sample(to_s) + 1)
+            }
+            (from_s, to_s, None) => return Err(WorkbenchError::NoStretch { from_s, to_s }),
+            (_, _, Some(_)) => return Err(WorkbenchError::StretchAndCell),
         };
-        Ok(Focus { members, samples })
+        Ok(Focus { members, counted })
     }
 
-    /// What is looked at, in words: `participant TP2, 20 to 80 ms`.
+    fn cell(&self) -> Result<Option<Cell>, WorkbenchError> {
+        if self.cell.is_empty() {
+            return Ok(None);
+        }
+        let wrong = || WorkbenchError::NoCell {
+            given: self.cell.chars().take(120).collect(),
+        };
+        let edges: Result<Vec<f64>, _> = self.cell.split(',').map(str::parse).collect();
+        match edges.map_err(|_| wrong())?.as_slice() {
+            &[left, right, slow, fast] if left < right && slow < fast => Ok(Some(Cell {
+                x_m: left..=right,
+                v_m_per_s: slow..=fast,
+            })),
+            _ => Err(wrong()),
+        }
+    }
+
+    /// What is looked at, in words: `participant TP2, from 0.0200 to 0.0800 s`.
     pub fn says(&self, campaign: &Campaign) -> Result<String, WorkbenchError> {
         let who = match self.group.as_str() {
             "" => campaign.says("all tightenings"),
             key => campaign.group(key)?.name.clone(),
         };
-        Ok(match (self.from_s, self.to_s) {
-            (Some(from_s), Some(to_s)) => {
-                let number = |time_s: f64| snug_campaign::words::number::significant(time_s, 3);
+        let number = |value: f64| significant(value, 3);
+        Ok(match (self.from_s, self.to_s, self.cell()?) {
+            (Some(from_s), Some(to_s), _) => {
                 format!("{who}, from {} to {} s", number(from_s), number(to_s))
             }
+            (_, _, Some(Cell { x_m, v_m_per_s })) => format!(
+                "{who}, where the grip is at {} to {} mm and moves at {} to {} m/s",
+                number(1e3 * x_m.start()),
+                number(1e3 * x_m.end()),
+                number(*v_m_per_s.start()),
+                number(*v_m_per_s.end())
+            ),
             _ => who,
         })
     }

@@ -146,6 +146,8 @@ fn centre(campaign: &Campaign) -> Markup {
             (viewer(&nothing, &["Model and measurement", "What is left over: measured − simulated"]))
             section.force aria-labelledby="force-title" {
                 h3 id="force-title" { "The missing force" }
+                p.note { "Click a cell of the map, or go there with the arrows and press Enter, and candidates are ranked by what is left \
+                    over there." }
                 div data-force="" aria-live="off" {}
             }
             p.help { "Point at a curve to read values; drag across to zoom, double-click to see all again. Keys in a figure: ← → move the \

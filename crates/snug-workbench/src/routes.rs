@@ -94,6 +94,8 @@ struct Attendance {
     group: String,
     from_s: Option<f64>,
     to_s: Option<f64>,
+    #[serde(default)]
+    cell: String,
 }
 
 async fn events(
@@ -105,6 +107,7 @@ async fn events(
         group: page.group,
         from_s: page.from_s,
         to_s: page.to_s,
+        cell: page.cell,
     };
     let listener = bench.attend(&page.session, effects, closer)?;
     // Whoever lagged behind is cut off, comes again, and is told the whole state.
@@ -204,16 +207,29 @@ struct Which {
     effects: String,
 }
 
+/// Which model, and which to hold it against.
+#[derive(Deserialize)]
+struct Between {
+    #[serde(default)]
+    effects: String,
+    before: Option<String>,
+}
+
 async fn missing_force(
     State(bench): State<Arc<Bench>>,
-    Query(which): Query<Which>,
+    Query(between): Query<Between>,
 ) -> Result<Html<String>, WorkbenchError> {
     aside(move || {
         let campaign = bench.campaign()?;
-        let effects = EffectSet::from_address(&which.effects);
-        let fit = bench.fitted_now(&campaign, &effects, &AtomicBool::new(false))?;
-        let (curve, map) = campaign.prepared.live.missing_force(&fit)?;
-        let drawn = snug_report::viewer::missing_force(&curve, &map).into_string();
+        let lacks = |effects: &str| {
+            let effects = EffectSet::from_address(effects);
+            let fit = bench.fitted_now(&campaign, &effects, &AtomicBool::new(false))?;
+            Ok::<_, WorkbenchError>(campaign.prepared.live.missing_force(&fit)?)
+        };
+        let (curve, map) = lacks(&between.effects)?;
+        let before = between.before.as_deref().map(lacks).transpose()?;
+        let before = before.as_ref().map(|(curve, _)| curve);
+        let drawn = snug_report::viewer::missing_force(&curve, before, &map).into_string();
         Ok(Html(snug_report::markup(
             &drawn,
             campaign.prepared.vocabulary,

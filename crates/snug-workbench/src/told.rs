@@ -10,7 +10,7 @@ use crate::focus::Closer;
 use serde_json::{Value, json};
 use snug_campaign::EffectParameter;
 use snug_campaign::words::number::{percent, significant};
-use snug_diagnose::{FitStep, LiveFit};
+use snug_diagnose::{CloserLook, FitStep, LiveFit};
 use snug_model::Effect;
 
 pub(crate) use tested::{tested, testing};
@@ -150,22 +150,25 @@ fn size(campaign: &Campaign, parameter: &EffectParameter) -> String {
     campaign.says(&size.size().to_string())
 }
 
-/// What is looked at more closely, and what the models leave there.
-pub(crate) fn closer(campaign: &Campaign, closer: &Closer, base: &LiveFit, now: &LiveFit) -> Value {
+/// What is looked at more closely, and what the models leave there; the present one may be the first.
+pub(crate) fn closer(
+    campaign: &Campaign,
+    closer: &Closer,
+    look: &CloserLook,
+    is_base: bool,
+) -> Value {
     let says = closer.says(campaign).unwrap_or_default();
-    let errors = match base.effects() == now.effects() {
-        true => campaign.shown(now.error()),
-        false => format!(
-            "{} → {}",
-            campaign.shown(base.error()),
-            campaign.shown(now.error())
-        ),
+    let [base, now] = look.errors().map(|error| campaign.shown(error));
+    let errors = match is_base {
+        true => now,
+        false => format!("{base} → {now}"),
     };
-    let worth = match closer.is_of_a_stretch() {
-        true => {
-            "Promises count there, with every tightening's own mass, damping and stiffness free to follow over its whole window."
-        }
-        false => "Promises count there.",
+    let worth = match closer.is_of_a_part() {
+        true => format!(
+            "Promises count in these {} samples, in the size that whole windows predict.",
+            look.samples()
+        ),
+        false => "Promises count there.".to_owned(),
     };
     let sentence = format!(
         "A closer look at {says}: error {errors} {}. {worth}",

@@ -1,7 +1,7 @@
 //! A hidden spring that stiffens, found by hand: the error falls to the noise, step by step.
 
 use super::cases::LiveCases;
-use super::focus::Focus;
+use super::focus::{Counted, Focus};
 use crate::data::follower::FitStep;
 use crate::error::DiagnoseError;
 use crate::question::{Goal, Question};
@@ -136,60 +136,65 @@ fn a_closer_look_leaves_what_the_fit_left_there() {
     let base = live
         .fit(&[], None, &|_| (), &never())
         .expect("it can be fitted");
-    let closer = |members: &[usize], samples| {
+    let closer = |members: &[usize], counted| {
         let focus = Focus {
             members: members.to_vec(),
-            samples,
+            counted,
         };
-        let closer = live.focused(&focus).expect("it can be looked at");
-        let fit = closer.as_fitted(&base, members).expect("it can be run");
-        (closer, fit)
+        live.closer(&focus, &base, &base)
     };
-    let (_, some) = closer(&[2, 7], None);
-    for (place, member) in [(0, 2), (1, 7)] {
-        close(some.errors()[place], base.errors()[member], 1e-9);
+    let error = |members: &[usize], counted| {
+        let look = closer(members, counted).expect("it can be looked at");
+        look.errors()[0]
+    };
+    for member in [2, 7] {
+        close(error(&[member], Counted::All), base.errors()[member], 1e-9);
     }
     // The spring is missed where the tool turns furthest, not as it begins to move.
-    let error = |samples| closer(&[2, 7], Some(samples)).1.errors()[0];
-    assert!(error(60..SAMPLES) > 1.05 * error(0..30));
-    let nobody = Focus {
-        members: Vec::new(),
-        samples: None,
-    };
-    assert!(live.focused(&nobody).is_err());
-    let instant = Focus {
-        members: vec![0],
-        samples: Some(10..11),
-    };
-    assert!(live.focused(&instant).is_err());
+    let stretch = |samples| error(&[2, 7], Counted::Stretch(samples));
+    assert!(stretch(60..SAMPLES) > 1.05 * stretch(0..30));
+    assert!(closer(&[], Counted::All).is_err());
+    assert!(closer(&[0], Counted::Stretch(10..11)).is_err());
 }
 
-/// A tenth of the window, about where the tool turns furthest: its own m, c, k could follow it there, over the whole window they cannot.
-/// What is missing is promised to take most of what is left there, and a wrong effect less.
+/// What is missing is promised to take most of what is left there, and a wrong effect less: in a tenth of the window, about where the
+/// tool turns furthest, and where the grip is in the last fifth of its way. A spring that stiffens has no force near rest.
 #[test]
-fn a_stretch_tells_what_is_missing_there() {
+fn a_part_of_the_samples_tells_what_is_missing_there() {
     let live = live();
     let base = live
         .fit(&[], None, &|_| (), &never())
         .expect("it can be fitted");
-    let members: Vec<usize> = (0..live.tasks().len()).collect();
-    let middle = SAMPLES / 2;
-    let samples = middle..middle + SAMPLES / 10;
-    let focus = Focus {
-        members: members.clone(),
-        samples: Some(samples.clone()),
+    let tasks = live.tasks();
+    let way = |task: &FitTask<'_>| -> f64 {
+        let angles = task.tightening.motion.displacement_rad.iter().flatten();
+        angles.fold(0.0, |most, angle| angle.max(most)) * task.tightening.rig.lever_arm_m
     };
-    let there = live.focused(&focus).expect("it can be looked at");
-    let left = there.as_fitted(&base, &members).expect("it can be run");
-    let of = [CubicStiffness, TorqueOffset];
-    let shares = live
-        .promises_within(&base, &left, &of, &samples)
-        .expect("they can be scored");
-    assert!(shares[0] > 0.8 && shares[0] > 1.5 * shares[1], "{shares:?}");
-    let alone = there
-        .promises(&left, &left, &of)
-        .expect("they can be scored");
-    assert!(alone[0] < 0.5 * shares[0], "{alone:?} {shares:?}");
+    let furthest = tasks.iter().map(way).fold(0.0, f64::max);
+    let look = |counted| {
+        let focus = Focus {
+            members: (0..tasks.len()).collect(),
+            counted,
+        };
+        live.closer(&focus, &base, &base)
+            .expect("it can be looked at")
+    };
+    let at = |x_m| Counted::Cell {
+        x_m,
+        v_m_per_s: -10.0..=10.0,
+    };
+    let middle = SAMPLES / 2;
+    let far = look(at(0.8 * furthest..=furthest));
+    for look in [look(Counted::Stretch(middle..middle + SAMPLES / 10)), far] {
+        let shares = look
+            .promises(&[CubicStiffness, TorqueOffset])
+            .expect("they can be scored");
+        assert!(shares[0] > 0.8 && shares[0] > 1.5 * shares[1], "{shares:?}");
+        assert!(look.samples() < tasks.len() * SAMPLES / 4);
+    }
+    let all = look(at(-1.0..=1.0));
+    assert_eq!(all.samples(), tasks.len() * SAMPLES);
+    close(all.errors()[0], look(Counted::All).errors()[0], 1e-9);
 }
 
 #[test]

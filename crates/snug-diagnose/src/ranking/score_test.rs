@@ -21,7 +21,6 @@ use snug_campaign::Quantity;
 use snug_identify::smooth;
 use snug_least_squares::matrix::{SymmetricMatrix, inner_product as dot};
 use snug_model::{Effect, Input};
-use std::ops::Range;
 
 /// The fitted model against which effects are scored.
 pub(crate) struct Scorer<'a, 'h> {
@@ -30,8 +29,8 @@ pub(crate) struct Scorer<'a, 'h> {
     clusters: Clusters,
     /// Campaigns of nothing but noise that are scored beside the measured one.
     control: Control,
-    /// Samples that count, where not all do.
-    within: Option<Range<usize>>,
+    /// Of every residual of each tightening whether it counts; `None` where all do.
+    counted: Option<&'h [Vec<bool>]>,
 }
 
 /// How many campaigns of nothing but noise are drawn, and from which seed.
@@ -83,16 +82,15 @@ impl<'a, 'h> Scorer<'a, 'h> {
                 campaigns,
                 ..control
             },
-            within: None,
+            counted: None,
         }
     }
 
-    /// The same with nothing counted but these samples of every window. What the model's own parameters can imitate is taken out over the
-    /// whole window all the same: a stretch alone they could follow almost whatever happens there. What all share is taken out
-    /// tightening by tightening, too.
-    pub fn within(self, samples: Range<usize>) -> Self {
+    /// The same with nothing counted but some residuals of each tightening. What the model's own parameters can imitate is taken out over
+    /// the whole window all the same, and what all share tightening by tightening, too.
+    pub fn counting(self, counted: &'h [Vec<bool>]) -> Self {
         Self {
-            within: Some(samples),
+            counted: Some(counted),
             ..self
         }
     }
@@ -219,18 +217,7 @@ impl<'a, 'h> Scorer<'a, 'h> {
     pub fn is_joint(&self) -> bool {
         let is_one_statement =
             self.clusters.are_whole() || self.fitted.shares_all() && self.pooled.cases.len() > 1;
-        self.within.is_none() && is_one_statement
-    }
-
-    /// Those of one tightening's residuals `range` that count.
-    fn counted(&self, member: usize, range: Range<usize>) -> Range<usize> {
-        let Some(within) = &self.within else {
-            return range;
-        };
-        let samples = self.pooled.cases[member].measured().len();
-        let before = samples - self.pooled.residual_count(member);
-        let start = within.start.saturating_sub(before).max(range.start);
-        start..within.end.saturating_sub(before).min(range.end).max(start)
+        self.counted.is_none() && is_one_statement
     }
 
     /// All parameters of one tightening's model as fitted.
@@ -266,10 +253,13 @@ impl<'a, 'h> Scorer<'a, 'h> {
         for signature in of_columns {
             let mut z = pooled.weigh_signal(member, signature);
             nuisance.project(&mut z);
+            if let Some(counted) = self.counted {
+                let uncounted = z.iter_mut().zip(&counted[member]).filter(|(_, is)| !**is);
+                uncounted.for_each(|(z, _)| *z = 0.0);
+            }
             let (mut scores, mut variances) = (Vec::new(), Vec::new());
             let mut information = 0.0;
             for range in self.clusters.ranges(count) {
-                let range = self.counted(member, range);
                 let (z, r) = (&z[range.clone()], &residual[range.clone()]);
                 let along = bias
                     .as_ref()

@@ -155,6 +155,27 @@ impl Column {
         }
     }
 
+    /// Predicted decrease of Σ r² of the residuals that `part` counts, with the size that all of them predict: s̃ and Ĩ of the part give
+    /// 2 β s̃ − β² Ĩ, β = Σ s / Σ I; what a size of its own would do there is no promise.
+    pub fn predicted_gain_in(&self, part: &Self) -> f64 {
+        let gain = |score: f64, information: f64, part_score: f64, part_information: f64| {
+            let size = score / information;
+            match information > 0.0 && self.may_be(size) {
+                true => size * (2.0 * part_score - size * part_information),
+                false => 0.0,
+            }
+        };
+        if !self.own {
+            let [all, there] = [self, part].map(|of| of.scores.iter().sum::<f64>());
+            return gain(all, self.information, there, part.information);
+        }
+        let all = self.scores.iter().zip(&self.variances);
+        let there = part.scores.iter().zip(&part.variances);
+        all.zip(there)
+            .map(|((s, v), (part_s, part_v))| gain(*s, *v, *part_s, *part_v))
+            .sum()
+    }
+
     /// Σ s²/var(s): what sizes of its own for every tightening explain, in units of chance.
     fn energy(&self) -> f64 {
         let terms = self.scores.iter().zip(&self.variances);

@@ -23,6 +23,14 @@ pub struct Bar {
     pub title: String,
 }
 
+/// A rectangle that can be chosen.
+pub struct Cell {
+    /// What is drawn.
+    pub bar: Bar,
+    /// What it stands for, as a script reads it from `data-cell`.
+    pub key: String,
+}
+
 /// A straight line between two points, in the units of the axes.
 pub struct Segment {
     /// Horizontal coordinates of its ends.
@@ -41,6 +49,8 @@ pub enum Mark {
     Dots(&'static str, Vec<Dot>),
     /// Rectangles.
     Bars(&'static str, Vec<Bar>),
+    /// Rectangles that can be chosen.
+    Cells(&'static str, Vec<Cell>),
     /// Straight lines, for whiskers and rules.
     Segments(&'static str, Vec<Segment>),
 }
@@ -69,12 +79,23 @@ impl Mark {
                 }
             },
             Self::Bars(class, bars) => html! {
-                g.bars.(class) { @for bar in bars.iter().filter(|bar| finite(&[bar.x.0, bar.x.1, bar.y.0, bar.y.1])) { (bar_svg(bar, frame)) } }
+                g.bars.(class) { @for bar in bars.iter().filter(|bar| bar.is_finite()) { (bar_svg(bar, None, frame)) } }
+            },
+            Self::Cells(class, cells) => html! {
+                g.bars.(class) {
+                    @for cell in cells.iter().filter(|cell| cell.bar.is_finite()) { (bar_svg(&cell.bar, Some(&cell.key), frame)) }
+                }
             },
             Self::Segments(class, segments) => html! {
                 path.segments.(class) d=(segment_path(segments, frame)) {}
             },
         }
+    }
+}
+
+impl Bar {
+    fn is_finite(&self) -> bool {
+        finite(&[self.x.0, self.x.1, self.y.0, self.y.1])
     }
 }
 
@@ -127,11 +148,11 @@ fn segment_path(segments: &[Segment], frame: &Frame) -> String {
         .collect()
 }
 
-fn bar_svg(bar: &Bar, frame: &Frame) -> Markup {
+fn bar_svg(bar: &Bar, key: Option<&str>, frame: &Frame) -> Markup {
     let (left, right) = (frame.x(bar.x.0), frame.x(bar.x.1));
     let (top, bottom) = (frame.y(bar.y.1), frame.y(bar.y.0));
     html! {
-        rect x=(pixel(left)) y=(pixel(top)) width=(pixel((right - left).max(0.0))) height=(pixel((bottom - top).max(0.0))) {
+        rect x=(pixel(left)) y=(pixel(top)) width=(pixel((right - left).max(0.0))) height=(pixel((bottom - top).max(0.0))) data-cell=[key] {
             @if !bar.title.is_empty() { title { (bar.title) } }
         }
     }

@@ -4,7 +4,7 @@ mod axis;
 mod mark;
 
 pub use axis::{Axis, linear_range, round_step};
-pub use mark::{Bar, Dot, Mark, Segment};
+pub use mark::{Bar, Cell, Dot, Mark, Segment};
 
 use axis::Tick;
 use maud::{Markup, PreEscaped, html};

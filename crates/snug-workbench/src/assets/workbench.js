@@ -16,6 +16,7 @@ const state = {
   // What is looked at more closely, the model to hold the present one against, the effect whose signature is shown.
   group: address().get('group') || '',
   stretch: address().has('from_s') ? [Number(address().get('from_s')), Number(address().get('to_s'))] : null,
+  cell: address().get('cell') || '',
   rival: address().has('rival') ? address().get('rival') : null,
   signature: null,
   // Numbers set by hand; none where they are as fitted.
@@ -32,6 +33,7 @@ sessionStorage.setItem('snug-session', session);
 const closer = () => ({
   ...(state.group && { group: state.group }),
   ...(state.stretch && { from_s: state.stretch[0], to_s: state.stretch[1] }),
+  ...(state.cell && { cell: state.cell }),
 });
 
 const remember = () => {
@@ -148,7 +150,8 @@ const hear = {
   },
   promises(event) { event.shares.forEach(promise); },
   ranked() { sort(); },
-  closer(event) { show('closer', event.sentence); },
+  // Promises of another part are no promises of before.
+  closer(event) { show('closer', event.sentence); state.was.clear(); },
   usable(event) { show('usable', event.sentence); },
   from_here(event) { show('by-hand', event.sentence); },
   // Whether an effect that was added is real, once tightenings have said so that it was not fitted to.
@@ -205,17 +208,62 @@ const follow = async () => {
 // The missing force of all tightenings, over time and over displacement and velocity; asked for once as long as the model stays.
 let forced = 0, forcedBy = '';
 const force = async () => {
-  const model = state.effects.join() + one('error').textContent;
+  const model = [state.effects, one('error').textContent, state.before].join();
   if (model === forcedBy) return;
   forcedBy = model;
   const number = ++forced;
   try {
-    const answer = await fetch('/api/force?' + new URLSearchParams({ effects: state.effects.join(',') }));
+    const query = new URLSearchParams({ effects: state.effects.join(',') });
+    if (state.before) query.set('before', state.before.join(','));
+    const answer = await fetch('/api/force?' + query);
     if (number !== forced) return;
-    if (answer.ok) one('force').innerHTML = await answer.text();
+    if (answer.ok) { one('force').innerHTML = await answer.text(); choosableCells(); }
     else forcedBy = '';
   } catch { forcedBy = ''; /* That the workbench is gone is said where its events end. */ }
 };
+
+// A cell of the map is a way in: with the pointer, or with arrows and Enter.
+const cells = () => [...one('force').querySelectorAll('[data-cell]')];
+const cellsOf = map => [...map.querySelectorAll('[data-cell]')];
+const choosableCells = () => {
+  // The map is there twice, for wide screens and for narrow ones.
+  new Set(cells().map(cell => cell.closest('svg'))).forEach(map => {
+    map.setAttribute('role', 'group');
+    cellsOf(map).forEach((cell, i) => {
+      cell.setAttribute('role', 'button');
+      cell.setAttribute('tabindex', i ? '-1' : '0');
+      cell.setAttribute('aria-label', `rank by the samples where ${cell.textContent}`);
+    });
+  });
+  chosenCell();
+};
+const chosenCell = () => cells().forEach(cell => cell.setAttribute('aria-pressed', String(cell.dataset.cell === state.cell)));
+const towards = (cell, key) => {
+  const [x, y] = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[key];
+  const from = cell.getBoundingClientRect();
+  const along = other => {
+    const to = other.getBoundingClientRect(), right = to.x - from.x, down = to.y - from.y;
+    const ahead = x * right + y * down;
+    return ahead > 1 ? ahead + 3 * Math.abs(x ? down : right) : Infinity;
+  };
+  return cellsOf(cell.closest('svg')).map(other => [along(other), other]).reduce((near, next) => next[0] < near[0] ? next : near, [Infinity, cell])[1];
+};
+one('force').addEventListener('click', event => {
+  const key = event.target.closest('[data-cell]')?.dataset.cell;
+  if (key) lookCloser({ cell: key === state.cell ? '' : key, stretch: null });
+});
+one('force').addEventListener('keydown', event => {
+  const cell = event.target.closest('[data-cell]');
+  if (!cell) return;
+  if (event.key === 'Enter' || event.key === ' ') cell.dispatchEvent(new MouseEvent('click', { bubbles: true }));
+  else if (event.key.startsWith('Arrow')) {
+    const next = towards(cell, event.key);
+    cell.setAttribute('tabindex', '-1');
+    next.setAttribute('tabindex', '0');
+    next.focus();
+  } else return;
+  event.preventDefault();
+});
 
 // Sliders: a number of the present model each. They stay where the same numbers are told anew, and with them the focus.
 let rows = [];
@@ -291,13 +339,15 @@ const turnTo = number => {
   look();
 };
 
-// A closer look: at a group, or at the stretch that is zoomed to.
+// A closer look: at a group, at the stretch that is zoomed to, or at a cell of the map.
 const among = () => [...one('tightening').options].filter(option => !option.hidden);
 const choosable = () => {
   for (const option of one('tightening').options) option.hidden = option.disabled = state.group !== '' && !option.dataset.groups.includes(`|${state.group}|`);
   one('group').value = state.group;
-  one('everything').hidden = !state.group && !state.stretch;
-  if (!state.group && !state.stretch) show('closer', '');
+  const isAll = !state.group && !state.stretch && !state.cell;
+  one('everything').hidden = isAll;
+  if (isAll) show('closer', '');
+  chosenCell();
 };
 const lookCloser = change => {
   Object.assign(state, change);
@@ -327,8 +377,8 @@ items().forEach(item => item.querySelector('[data-signature]').addEventListener(
   look();
 }));
 one('group').addEventListener('change', event => lookCloser({ group: event.target.value }));
-one('brush').addEventListener('click', () => lookCloser({ stretch: viewers[0].view.map(at => at / state.perSecond) }));
-one('everything').addEventListener('click', () => lookCloser({ group: '', stretch: null }));
+one('brush').addEventListener('click', () => lookCloser({ stretch: viewers[0].view.map(at => at / state.perSecond), cell: '' }));
+one('everything').addEventListener('click', () => lookCloser({ group: '', stretch: null, cell: '' }));
 viewers[0].root.addEventListener('zoomed', zoomed);
 one('as-fitted').addEventListener('click', () => { state.values = null; show('by-hand', ''); look(); });
 one('from-here').addEventListener('click', () => ask('/api/change', { kind: 'fit_from', number: Number(state.tightening), values: state.values.join(',') }));

@@ -8,9 +8,8 @@ use crate::focus::Closer;
 use crate::session::Ticket;
 use crate::told;
 use serde_json::json;
-use snug_diagnose::{DiagnoseError, Focus, HeldOut, LiveCases, LiveFit, Watch};
+use snug_diagnose::{CloserLook, HeldOut, LiveFit, Watch};
 use snug_model::Effect;
-use std::ops::Range;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
@@ -28,27 +27,6 @@ impl Tests {
     }
 }
 
-/// What is looked at more closely, with the models as they are there.
-struct Close {
-    /// The tightenings with their whole windows, and the present model as it is on these.
-    whole: LiveCases,
-    whole_now: LiveFit,
-    base: LiveFit,
-    now: LiveFit,
-    /// Samples of every window that count, where not all do.
-    samples: Option<Range<usize>>,
-}
-
-impl Close {
-    fn promises(&self, candidates: &[Effect]) -> Result<Vec<f64>, DiagnoseError> {
-        let (whole, now, base) = (&self.whole, &self.whole_now, &self.base);
-        match &self.samples {
-            Some(samples) => whole.promises_within(now, base, candidates, samples),
-            None => whole.promises(now, base, candidates),
-        }
-    }
-}
-
 impl Bench {
     /// Works out and tells one thing after the other, until something else is asked for.
     pub(super) fn look_further(
@@ -62,7 +40,7 @@ impl Bench {
         let closer = self.closer(session);
         let close = match closer.is_all() {
             true => Ok(None),
-            false => close(campaign, &closer, fit).map(Some),
+            false => look_closer(campaign, &closer, fit).map(Some),
         };
         let close = close.unwrap_or_else(|error| {
             self.with_last(session, ticket, |known| {
@@ -71,7 +49,8 @@ impl Bench {
             None
         });
         if let Some(close) = &close {
-            let told = told::closer(campaign, &closer, &close.base, &close.now);
+            let is_base = fit.effects() == campaign.base.effects();
+            let told = told::closer(campaign, &closer, close, is_base);
             self.with_last(session, ticket, |known| known.tell(told));
         }
         for candidates in campaign.switches.chunks(SCORED_TOGETHER) {
@@ -167,22 +146,11 @@ impl Bench {
     }
 }
 
-fn close(campaign: &Campaign, closer: &Closer, fit: &LiveFit) -> Result<Close, WorkbenchError> {
-    let focus: Focus = closer.focus(campaign)?;
-    let live = &campaign.prepared.live;
-    let there = live.focused(&focus)?;
-    let base = there.as_fitted(&campaign.base, &focus.members)?;
-    let now = there.as_fitted(fit, &focus.members)?;
-    let Focus { members, samples } = focus;
-    let whole = live.focused(&Focus {
-        members: members.clone(),
-        samples: None,
-    })?;
-    Ok(Close {
-        whole_now: whole.as_fitted(fit, &members)?,
-        whole,
-        base,
-        now,
-        samples,
-    })
+fn look_closer(
+    campaign: &Campaign,
+    closer: &Closer,
+    fit: &LiveFit,
+) -> Result<CloserLook, WorkbenchError> {
+    let (focus, live) = (closer.focus(campaign)?, &campaign.prepared.live);
+    Ok(live.closer(&focus, &campaign.base, fit)?)
 }

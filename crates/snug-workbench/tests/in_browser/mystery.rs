@@ -82,6 +82,23 @@ async fn the_mystery_is_solved_by_clicking() {
     tab.until("document.querySelector('[data-closer]').textContent === ''")
         .await;
 
+    // A cell of the map of the missing force is chosen by keyboard, and counts alone.
+    tab.until("document.querySelectorAll('[data-cell]').length > 1")
+        .await;
+    let first_cell = tab.page.find_element("[data-cell][tabindex='0']").await;
+    first_cell.unwrap().focus().await.unwrap();
+    tab.press("ArrowRight").await;
+    tab.press("Enter").await;
+    tab.until(
+        "document.querySelector('[data-closer]').textContent.includes('where the grip is at')",
+    )
+    .await;
+    let is_kept = tab.value("location.search.includes('cell=')").await;
+    assert_eq!(is_kept, Value::Bool(true));
+    tab.click("[data-everything]").await;
+    tab.until("document.querySelector('[data-closer]').textContent === ''")
+        .await;
+
     // A number follows the keyboard, and the curve the number.
     tab.page
         .find_element(".slider input")

@@ -17,46 +17,66 @@ pub fn figures(location: &Location) -> Markup {
         p { "The force between tool and hand that would have to be added so that the model met the measurement, averaged over \
             the tightenings. Its shape names the law: the same for going and coming back is a spring, one sign per direction of \
             motion is friction, a fixed time after the onset is a nerve." }
-        (drawings(curve, map))
-    }
-}
-
-/// The pictures alone.
-pub fn drawings(curve: &ForceCurve, map: &ForceMap) -> Markup {
-    html! {
         div.figures {
-            @if !curve.at.is_empty() { (over_time_figure(curve)) }
-            @if force_map::holds(map) { (force_map::figure(map)) }
+            @if over_time { (over_time_figure(curve, None)) }
+            @if over_state { (force_map::figure(map, false)) }
         }
     }
 }
 
-fn over_time_figure(curve: &ForceCurve) -> Markup {
+/// The pictures alone, beside what another model lacked before; a cell of the map can be chosen.
+pub fn live(curve: &ForceCurve, before: Option<&ForceCurve>, map: &ForceMap) -> Markup {
+    html! {
+        div.figures {
+            @if !curve.at.is_empty() { (over_time_figure(curve, before)) }
+            @if force_map::holds(map) { (force_map::figure(map, true)) }
+        }
+    }
+}
+
+fn over_time_figure(curve: &ForceCurve, before: Option<&ForceCurve>) -> Markup {
     let times: Vec<f64> = curve.at.iter().map(|time| 1000.0 * time).collect();
     let points = |values: &[f64]| -> Vec<(f64, f64)> {
         times.iter().copied().zip(values.iter().copied()).collect()
     };
+    let line = |curve: &ForceCurve| -> Vec<Option<(f64, f64)>> {
+        let points = curve.at.iter().zip(&curve.force_n);
+        points
+            .map(|(at, force)| Some((1000.0 * at, *force)))
+            .collect()
+    };
     let all = [&curve.force_n, &curve.low_n, &curve.high_n];
-    let (low, high) = linear_range(all.into_iter().flatten().copied().chain([0.0]), 0.06);
+    let was = before.iter().flat_map(|before| &before.force_n);
+    let all = all.into_iter().flatten().chain(was).copied();
+    let (low, high) = linear_range(all.chain([0.0]), 0.06);
     let (start, end) = linear_range(times.iter().copied(), 0.0);
+    // As before and now are drawn in curves.
+    let was = before.map(|before| Mark::Line("c-rejected", line(before)));
+    let class = if before.is_some() {
+        "c-simulated"
+    } else {
+        "c-rejected"
+    };
     let figure = Figure {
         description: "Missing force over time since the pulse began, with its 95 % band".into(),
         width: 520.0,
         height: 320.0,
         x: Axis::linear("time since the pulse began [ms]", start, end, 6),
         y: Axis::linear("missing force [N]", low, high, 6),
-        marks: vec![
+        marks: [
             Mark::Band("c-band", points(&curve.low_n), points(&curve.high_n)),
             Mark::rule("c-zero", (start, end), (0.0, 0.0)),
-            Mark::Line(
-                "c-rejected",
-                points(&curve.force_n).into_iter().map(Some).collect(),
-            ),
-        ],
+        ]
+        .into_iter()
+        .chain(was)
+        .chain([Mark::Line(class, line(curve))])
+        .collect(),
     };
+    let mut entries = vec![(class, "mean over tightenings"), ("c-band", "95 % band")];
+    entries.extend(before.map(|_| ("c-rejected", "before the last click")));
     captioned(
         "Over time",
-        html! { (figure.svg()) (legend(&[("c-rejected", "mean over tightenings"), ("c-band", "95 % band")])) },
+        html! { (figure.svg()) (legend(&entries)) },
         Some("Where the band holds zero, nothing is proven to be missing."),
     )
 }

@@ -1,6 +1,6 @@
 //! Heat map of the missing force; a cell whose 95 % band holds zero is grey, so that noise is not read as a law.
 
-use crate::figure::{Axis, Bar, Figure, Mark, captioned, legend};
+use crate::figure::{Axis, Bar, Cell, Figure, Mark, captioned, legend};
 use crate::grouping::grouped;
 use crate::number::significant;
 use maud::{Markup, html};
@@ -32,8 +32,8 @@ fn class(force: f64, half_width: Option<f64>, step: f64) -> &'static str {
     }
 }
 
-/// The missing force over displacement and velocity as a map of coloured cells.
-pub fn figure(map: &ForceMap) -> Markup {
+/// The missing force over displacement and velocity as a map of coloured cells; where they can be chosen, each with its edges in SI units.
+pub fn figure(map: &ForceMap, can_be_chosen: bool) -> Markup {
     let (width_mm, height) = (1000.0 * spacing(&map.x_m), spacing(&map.v_m_per_s));
     let sure = map
         .force_n
@@ -44,7 +44,7 @@ pub fn figure(map: &ForceMap) -> Markup {
         });
     let largest = sure.fold(0.0_f64, |largest, force| largest.max(force.abs()));
     let step = if largest > 0.0 { largest / 4.0 } else { 1.0 };
-    let mut bars = Vec::new();
+    let mut cells = Vec::new();
     let columns = map.v_m_per_s.len();
     for (cell, force) in map.force_n.iter().enumerate() {
         let Some(force) = force.filter(|force| force.is_finite()) else {
@@ -56,14 +56,22 @@ pub fn figure(map: &ForceMap) -> Markup {
             map.v_m_per_s[cell % columns],
         );
         let class = class(force, half, step);
+        let (x_m, half_m) = (1e-3 * x_mm, 5e-4 * width_mm);
+        let edges = [
+            x_m - half_m,
+            x_m + half_m,
+            v - 0.5 * height,
+            v + 0.5 * height,
+        ];
         let bar = Bar {
             x: (x_mm - 0.5 * width_mm, x_mm + 0.5 * width_mm),
             y: (v - 0.5 * height, v + 0.5 * height),
             title: spoken(x_mm, v, force, half),
         };
-        bars.push((class, bar));
+        let key = edges.map(|edge| format!("{edge:e}")).join(",");
+        cells.push((class, Cell { bar, key }));
     }
-    let layers = grouped(bars);
+    let layers = grouped(cells);
     let used: Vec<&str> = layers.iter().map(|(class, _)| *class).collect();
     let ends = |values: &[f64], factor: f64, room: f64| {
         let low = values.iter().copied().fold(f64::INFINITY, f64::min);
@@ -80,7 +88,10 @@ pub fn figure(map: &ForceMap) -> Markup {
         y: Axis::linear("velocity of the grip v [m/s]", bottom, top, 6),
         marks: layers
             .into_iter()
-            .map(|(class, bars)| Mark::Bars(class, bars))
+            .map(|(class, cells)| match can_be_chosen {
+                true => Mark::Cells(class, cells),
+                false => Mark::Bars(class, cells.into_iter().map(|cell| cell.bar).collect()),
+            })
             .collect(),
     };
     captioned(
