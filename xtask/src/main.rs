@@ -44,6 +44,7 @@ mod exit {
 }
 
 fn main() -> ExitCode {
+    snug_campaign::words::program::set_program("cargo xtask");
     let arguments = Arguments::parse();
     if let Err(error) = logging::start(&arguments.log) {
         terminal::complain(&error);

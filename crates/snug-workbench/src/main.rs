@@ -35,6 +35,7 @@ struct Arguments {
 const EMBEDDED: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../fixtures/campaign");
 
 fn main() -> ExitCode {
+    snug_campaign::words::program::set_program("cargo xtask");
     let arguments = Arguments::parse();
     tracing_subscriber::fmt()
         .with_writer(std::io::stderr)
