@@ -30,9 +30,13 @@ enum Verb {
     Snug(snug_cli::Verb),
     /// Prints what a shell must read to complete verbs, options and names of effects.
     ///
-    /// bash: source <(snug completions bash) in ~/.bashrc. zsh: source <(snug completions zsh) in ~/.zshrc, after compinit.
-    /// fish: snug completions fish | source in ~/.config/fish/config.fish. elvish: eval (snug completions elvish | slurp) in
-    /// ~/.config/elvish/rc.elv. powershell: snug completions powershell | Out-String | Invoke-Expression in $PROFILE.
+    ///   shell       where                         what
+    ///   bash        ~/.bashrc                     source <(snug completions bash)
+    ///   zsh         ~/.zshrc, after compinit      source <(snug completions zsh)
+    ///   fish        ~/.config/fish/config.fish    snug completions fish | source
+    ///   elvish      ~/.config/elvish/rc.elv       eval (snug completions elvish | slurp)
+    ///   powershell  $PROFILE                      snug completions powershell | Out-String | Invoke-Expression
+    #[command(verbatim_doc_comment)]
     Completions {
         /// The shell.
         #[arg(value_name = "SHELL")]

@@ -42,6 +42,24 @@ fn the_campaign_that_it_holds_is_that_of_the_repository() {
 }
 
 #[test]
+fn two_that_start_at_once_have_one_campaign() {
+    let machine = Machine::new();
+    let runs = ["one", "other"].map(|out| machine.snug(&["run", "--out", out]).spawn().unwrap());
+    for run in runs {
+        let output = run.wait_with_output().unwrap();
+        assert!(output.status.success(), "{output:?}");
+    }
+    let held = files_below(&machine.path("home/.local/share/snug"));
+    assert_eq!(held, [env!("CARGO_PKG_VERSION")]);
+}
+
+/// Names in a folder.
+fn files_below(folder: &Path) -> Vec<String> {
+    let entries = std::fs::read_dir(folder).unwrap();
+    (entries.map(|entry| entry.unwrap().file_name().into_string().unwrap())).collect()
+}
+
+#[test]
 fn every_command_that_it_recommends_is_its_own() {
     let machine = Machine::new();
     let data = fixture("mystery");
