@@ -1,6 +1,7 @@
 //! The campaign that the program holds: a simulation with a seed, written once to the user's data folder.
 
 use crate::error::CliError;
+use crate::front::Notify;
 use snug_campaign::words::program::program;
 use snug_synthetic::fixtures::{CAMPAIGN, MYSTERY, write};
 use std::path::{Path, PathBuf};
@@ -11,7 +12,7 @@ use std::path::{Path, PathBuf};
 /// # Errors
 /// [`CliError::NoFolder`] where the environment names no folder for data, [`CliError::Campaign`] and [`CliError::Write`] where
 /// the campaign cannot be made in it.
-pub fn campaign(tell: &dyn Fn(&str)) -> Result<PathBuf, CliError> {
+pub fn campaign(tell: Notify<'_>) -> Result<PathBuf, CliError> {
     let folder = data_folder()?.join("snug").join(env!("CARGO_PKG_VERSION"));
     if !folder.is_dir() {
         tell(&format!(

@@ -8,6 +8,9 @@ use std::ffi::OsString;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
+/// Hears what a person who waits is to be told.
+pub type Notify<'a> = &'a dyn Fn(&str);
+
 /// A program that offers Snug's verbs: `snug`, or `cargo xtask` in a checkout.
 #[derive(Debug, Clone, Copy)]
 pub struct Front {
@@ -16,7 +19,7 @@ pub struct Front {
     /// What stands in help for each word in braces, beside `{program}`.
     pub words: &'static [(&'static str, &'static str)],
     /// Folder of the campaign that is evaluated where nobody names data; hears whom to tell what takes long.
-    pub campaign: fn(&dyn Fn(&str)) -> Result<PathBuf, CliError>,
+    pub campaign: fn(Notify<'_>) -> Result<PathBuf, CliError>,
     /// Opens the workbench until it is ended.
     pub workbench: fn(&Front, &WorkbenchOptions) -> ExitCode,
     /// Starts the plant's program with these arguments.

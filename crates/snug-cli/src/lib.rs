@@ -20,7 +20,7 @@ pub use arguments::{
 };
 pub use embedded::campaign;
 pub use error::CliError;
-pub use front::{EXAMPLES, Front};
+pub use front::{EXAMPLES, Front, Notify};
 pub use logging::start as start_log;
 pub use terminal::{complain, say};
 pub use verbs::{Verb, refused, study};

@@ -49,7 +49,7 @@ const WORDS: &[(&str, &str)] = &[
     ("{workbench}", ""),
     (
         "{plant}",
-        "It is a program of its own, looked for beside this one and in PATH; cargo install --path crates/snug-plant installs it.",
+        "It is a program of its own, looked for beside this one and in PATH; cargo install --locked --path crates/snug-plant installs it.",
     ),
 ];
 

@@ -3,7 +3,7 @@
 use crate::arguments::{PresetName, RunOptions};
 use crate::diagnosis_summary::Following;
 use crate::error::CliError;
-use crate::front::Front;
+use crate::front::{Front, Notify};
 use crate::progress::Progress;
 use crate::terminal::complain;
 use crate::{diagnosis_summary, estimates, exit, signals, summary, terminal};
@@ -144,7 +144,7 @@ pub fn study(
     file: Option<&Path>,
     data: Option<&Path>,
     front: &Front,
-    tell: &dyn Fn(&str),
+    tell: Notify<'_>,
 ) -> Result<Study, CliError> {
     let mut study = match (file, data) {
         (Some(path), _) => Study::read(path)?,
