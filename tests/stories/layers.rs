@@ -83,14 +83,16 @@ const ALLOWED: &[(&str, &[&str])] = &[
         ],
     ),
     (
-        "xtask",
+        "snug-cli",
         &[
             "snug-campaign",
             "snug-model",
             "snug-study",
             "snug-synthetic",
+            "snug-workbench",
         ],
     ),
+    ("xtask", &["snug-campaign", "snug-cli", "snug-synthetic"]),
 ];
 
 #[test]

@@ -1,53 +1,62 @@
-//! Snug's command line: `cargo xtask run`, `cargo xtask test`, and what else `cargo xtask --help` lists.
-//!
-//! It parses arguments, shows progress and prints summaries; every equation lives in the crates.
+//! The workspace's driver: Snug's verbs, which live in `crates/snug-cli`, and the chores of a checkout.
 
-mod arguments;
-mod diagnosis_summary;
-mod estimates;
-mod logging;
-mod progress;
-mod signals;
-mod summary;
-mod terminal;
-mod verbs;
+mod chores;
+mod programs;
 mod workspace;
 
-use arguments::Arguments;
-use clap::Parser;
+use chores::Chore;
+use clap::{Parser, Subcommand};
+use snug_cli::{EXAMPLES, Front, LogOptions, complain, exit};
 use std::process::ExitCode;
 
-/// Exit codes other programs rely on.
-mod exit {
-    use std::process::ExitCode;
-
-    /// Done.
-    pub const DONE: ExitCode = ExitCode::SUCCESS;
-    /// Failed, or nothing at all was identified.
-    pub fn failed() -> ExitCode {
-        ExitCode::from(1)
-    }
-    /// Bad arguments or a bad study file (clap exits with the same code).
-    pub fn bad_arguments() -> ExitCode {
-        ExitCode::from(2)
-    }
-    /// Done, but some data was left out, and the run was asked to be strict about it.
-    pub fn left_out() -> ExitCode {
-        ExitCode::from(3)
-    }
-    /// Stopped by Ctrl-C or a signal, as shells count it.
-    pub const INTERRUPTED: u8 = 130;
-    /// The same, as this program's exit code.
-    pub fn interrupted() -> ExitCode {
-        ExitCode::from(INTERRUPTED)
-    }
+/// Snug identifies the hand–arm model of a nutrunner from measured tightenings.
+#[derive(Debug, Parser)]
+#[command(version, after_help = EXAMPLES)]
+struct Arguments {
+    /// What to do.
+    #[command(subcommand)]
+    verb: Verb,
+    /// How log lines are written.
+    #[command(flatten)]
+    log: LogOptions,
 }
 
+/// What to do.
+#[derive(Debug, Subcommand)]
+enum Verb {
+    #[command(flatten)]
+    Snug(snug_cli::Verb),
+    #[command(flatten)]
+    Chore(Chore),
+}
+
+const WORDS: &[(&str, &str)] = &[
+    ("{campaign}", "the campaign embedded in fixtures/"),
+    (
+        "{workbench}",
+        " The first time it is built, which takes a minute or two.",
+    ),
+    (
+        "{plant}",
+        "The first time it is built with its engine, which takes some ten minutes.",
+    ),
+];
+
 fn main() -> ExitCode {
-    let arguments = Arguments::parse();
-    if let Err(error) = logging::start(&arguments.log) {
-        terminal::complain(&error);
+    let front = Front {
+        program: "cargo xtask",
+        words: WORDS,
+        campaign: |_| Ok(workspace::embedded_campaign()),
+        workbench: programs::workbench,
+        plant: programs::plant,
+    };
+    let arguments: Arguments = front.parse();
+    if let Err(error) = snug_cli::start_log(&arguments.log) {
+        complain(&error);
         return exit::bad_arguments();
     }
-    arguments.verb.run()
+    match arguments.verb {
+        Verb::Snug(verb) => verb.run(&front),
+        Verb::Chore(chore) => chore.run(),
+    }
 }

@@ -1,7 +1,6 @@
-//! The workspace's folders, and cargo started in them on behalf of a verb.
+//! The workspace's folders, and cargo started in them on behalf of a chore.
 
-use crate::exit;
-use crate::terminal::complain;
+use snug_cli::{complain, exit};
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 

@@ -10,6 +10,7 @@ pub mod explained;
 pub mod groups;
 pub mod headline;
 pub mod number;
+pub mod program;
 pub mod reason;
 pub mod remark;
 pub mod size;

@@ -1,6 +1,7 @@
 //! The program's arguments.
 
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
+use snug_campaign::words::program;
 use snug_plant::{
     CLUSTER_PARTS, Engine, FitSettings, Naming, PlantError, Simulation, WorkerSettings,
 };
@@ -12,11 +13,29 @@ use std::path::PathBuf;
 ///
 /// URL is a folder or file:///….
 #[derive(Debug, Parser)]
-#[command(name = "cargo xtask plant", bin_name = "cargo xtask plant", version)]
+#[command(version)]
 pub struct Arguments {
     /// What to do.
     #[command(subcommand)]
     pub command: Command,
+}
+
+impl Arguments {
+    /// As typed, under the name that was typed: that of a program that started this one, as in `snug plant`, or its own. Ends the
+    /// program where they are wrong.
+    pub fn typed() -> Self {
+        let name: &'static str = match std::env::var(program::VARIABLE) {
+            Ok(front) => {
+                let front: &str = front.leak();
+                program::set_program(front);
+                format!("{front} plant").leak()
+            }
+            Err(_) => "snug-plant",
+        };
+        let mut command = Self::command().name(name).bin_name(name);
+        let matches = command.get_matches_mut();
+        Self::from_arg_matches(&matches).unwrap_or_else(|error| error.format(&mut command).exit())
+    }
 }
 
 /// What to do.

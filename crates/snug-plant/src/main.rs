@@ -3,14 +3,13 @@
 mod arguments;
 
 use arguments::{Arguments, Command};
-use clap::Parser;
 use snug_plant::{PlantError, Store, Tables, WatchSettings, Watched};
 use std::io::Write;
 use std::process::ExitCode;
 use tracing_subscriber::EnvFilter;
 
 fn main() -> ExitCode {
-    let arguments = Arguments::parse();
+    let arguments = Arguments::typed();
     let level = match arguments.command {
         Command::Scheduler(_) | Command::Worker(_) => "info",
         _ => "warn",

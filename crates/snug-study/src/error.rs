@@ -2,6 +2,7 @@
 
 use crate::position;
 use snug_campaign::did_you_mean;
+use snug_campaign::words::program::program;
 use snug_diagnose::DiagnoseError;
 use snug_files::FilesError;
 use snug_identify::IdentifyError;
@@ -83,8 +84,9 @@ pub enum StudyError {
          preprocess.rig: lever_arm_m and known_inertia of this rig\n  \
          model.parameters: without values, mass, damping and stiffness start where the spectra put them\n  \
          model.effects: fewer of them, or none\n\
-         `cargo xtask init FILES` shows every column as a small picture",
-        starts.join(", ")
+         `{} init FILES` shows every column as a small picture",
+        starts.join(", "),
+        program()
     )]
     NothingFits {
         /// Tightenings that were to be fitted.
@@ -200,7 +202,7 @@ pub enum StudyError {
         path: PathBuf,
     },
     /// Files in the layout of the thesis, which is the default.
-    #[error("{} holds files in the layout of the thesis, which need no study: cargo xtask run --data {}", path.display(), path.display())]
+    #[error("{} holds files in the layout of the thesis, which need no study: {} run --data {}", path.display(), program(), path.display())]
     NeedsNoStudy {
         /// Folder or file.
         path: PathBuf,
@@ -214,7 +216,7 @@ pub enum StudyError {
         source: RecordError,
     },
     /// A run that came to no end after it had recorded something; the results of the run before stand.
-    #[error("{source}; nothing was replaced, and what was recorded until then is in {partial} (`cargo xtask recover {partial}` makes it whole)", partial = partial.display())]
+    #[error("{source}; nothing was replaced, and what was recorded until then is in {partial} (`{} recover {partial}` makes it whole)", program(), partial = partial.display())]
     Unfinished {
         /// Why it came to no end.
         source: Box<StudyError>,

@@ -25,6 +25,12 @@ pub enum WorkbenchError {
         /// Why.
         source: std::io::Error,
     },
+    /// The server's threads cannot be started.
+    #[error("the server cannot be started: {source}")]
+    Runtime {
+        /// Why.
+        source: std::io::Error,
+    },
     /// The server ended by itself.
     #[error("the server ended: {source}")]
     Server {

@@ -8,6 +8,7 @@ mod fits;
 mod focus;
 mod guard;
 mod look;
+mod opening;
 mod page;
 mod results;
 mod routes;
@@ -18,4 +19,5 @@ mod told;
 
 pub use bench::Bench;
 pub use error::WorkbenchError;
+pub use opening::{Notice, Opening, open};
 pub use server::{Doors, serve};

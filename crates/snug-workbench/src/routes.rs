@@ -15,6 +15,7 @@ use axum::routing::{get, post};
 use axum::{Router, middleware};
 use serde::Deserialize;
 use serde_json::{Value, json};
+use snug_campaign::words::program::program;
 use std::convert::Infallible;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -271,8 +272,9 @@ async fn save_study(
     campaign.prepared.named(effects.names())?;
     let path = save::save(&bench, &effects)?;
     let sentence = format!(
-        "Saved as {}. The command cargo xtask run --study with it fits every tightening with this model.",
-        path.display()
+        "Saved as {}. The command {} run --study with it fits every tightening with this model.",
+        path.display(),
+        program()
     );
     Ok(Json(json!({ "sentence": sentence })))
 }

@@ -3,6 +3,7 @@
 use super::{Render, Section};
 use maud::{Markup, html};
 use snug_campaign::CampaignResult;
+use snug_campaign::words::program::program;
 
 /// Terms, symbols and units.
 pub const SECTION: Section = Section {
@@ -12,6 +13,7 @@ pub const SECTION: Section = Section {
     render: Render::Always(render),
 };
 
+/// Each with its meaning; `{program}` stands for what people type.
 const TERMS: &[(&str, &str)] = &[
     (
         "Tightening",
@@ -62,7 +64,7 @@ const TERMS: &[(&str, &str)] = &[
     ),
     (
         "Effect",
-        "A physical law that the model can have beyond mass, damper and spring; “cargo xtask effects” lists them.",
+        "A physical law that the model can have beyond mass, damper and spring; “{program} effects” lists them.",
     ),
     ("Misfit", "What of the residual is more than the noise."),
     (
@@ -97,7 +99,7 @@ const TERMS: &[(&str, &str)] = &[
 
 fn render(result: &CampaignResult) -> Markup {
     html! {
-        dl.glossary { @for (term, meaning) in TERMS { dt { (term) } dd { (meaning) } } }
+        dl.glossary { @for (term, meaning) in TERMS { dt { (term) } dd { (meaning.replace("{program}", program())) } } }
         @if !result.units.mechanical() {
             p.note {
                 "The source declares its input in " (result.units.input) " and its output in " (result.units.output)

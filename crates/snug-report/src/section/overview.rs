@@ -7,6 +7,7 @@ use crate::quantity::{self, capitalised};
 use crate::quartiles::Quartiles;
 use maud::{Markup, html};
 use snug_campaign::words::counted;
+use snug_campaign::words::program::program;
 use snug_campaign::{
     CampaignResult, ConditionSummary, Conditions, FitMeasures, QuantitySummary, Severity,
     TighteningResult,
@@ -76,8 +77,9 @@ fn usable(result: &CampaignResult, all: usize) -> String {
         ),
         Some(ratio) if ratio <= 1.1 => format!(
             "what the model leaves unexplained there is hardly more than the measurement noise ({} times); whether a faint \
-             effect hides in it, “cargo xtask diagnose” tells",
-            fixed(ratio, 2)
+             effect hides in it, “{} diagnose” tells",
+            fixed(ratio, 2),
+            program()
         ),
         Some(ratio) if ratio <= 2.0 => format!(
             "there the model misses the measurement by {} times the noise: a small part of the motion is unexplained",

@@ -7,6 +7,7 @@ use crate::number::{fixed, percent, significant};
 use maud::{Markup, html};
 use snug_campaign::words::chance::{by_chance, share_with_error};
 use snug_campaign::words::effect_name::{called, effect_name, names_in, unit_text};
+use snug_campaign::words::program::program;
 use snug_campaign::words::statement::grow;
 use snug_campaign::words::{counted, joined};
 use snug_campaign::{
@@ -118,9 +119,9 @@ fn missing(diagnosis: &Diagnosis, result: &CampaignResult) -> Markup {
                 (candidate(one, result))
             } }
             p { @if diagnosis.added.iter().any(|one| one.effect == first.effect) {
-                    "To give each group its own size and see the error before and after: " code { "cargo xtask improve" }
+                    "To give each group its own size and see the error before and after: " code { (program()) " improve" }
                 } @else {
-                    "To add it and see the error before and after: " code { "cargo xtask add " (first.effect) }
+                    "To add it and see the error before and after: " code { (program()) " add " (first.effect) }
                 }
                 ", with the same " code { "--data" } " or " code { "--study" } " as now." }
         }

@@ -266,7 +266,7 @@ fn what_cannot_be_drafted_says_why() {
         told(&[path.join("a.csv"), PathBuf::from("b.csv")]).contains("no file of the same folder")
     );
     let thesis = Path::new(env!("CARGO_MANIFEST_DIR")).join("../snug-ingest/tests/data/thesis");
-    assert!(told(&[thesis]).contains("need no study: cargo xtask run --data"));
+    assert!(told(&[thesis]).contains("need no study: snug run --data"));
 }
 
 #[test]

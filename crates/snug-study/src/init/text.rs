@@ -2,6 +2,7 @@
 
 use super::choice::{Choice, Clock, Taken};
 use super::events::Pulse;
+use snug_campaign::words::program::program;
 use snug_ingest::Signal;
 use snug_ingest::csv::Column;
 use snug_ingest::declared::Part;
@@ -11,8 +12,10 @@ use std::path::{Component, Path};
 
 /// The study file that says what was chosen; `path` leads to the data, `files` are named where not all are read.
 pub(super) fn study(choice: &Choice, path: &str, files: &[String], title: &str) -> String {
-    let mut text = "// Written by `cargo xtask init`: guesses from names and numbers, each with its reason. Correct what is wrong.\n"
-        .to_owned();
+    let mut text = format!(
+        "// Written by `{} init`: guesses from names and numbers, each with its reason. Correct what is wrong.\n",
+        program()
+    );
     for note in &choice.notes {
         _ = writeln!(text, "// {}", one_line(note));
     }

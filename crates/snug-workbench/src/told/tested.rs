@@ -3,6 +3,7 @@
 use crate::campaign::Campaign;
 use serde_json::{Value, json};
 use snug_campaign::words::chance::{by_chance, share_with_error};
+use snug_campaign::words::program::program;
 use snug_diagnose::HeldOut;
 use snug_model::Effect;
 
@@ -67,8 +68,9 @@ fn verdict(campaign: &Campaign, name: &str, tested: &HeldOut) -> (&'static str, 
         Some(Effect::Custom(law)) if !campaign.switches.contains(&Effect::Custom(law)) => {
             let expression = &law.settings().expression;
             let told = format!(
-                "Tested: a law that is in no catalogue, {expression}, takes plainly more than {name}; the command cargo xtask improve tries \
-                 such laws."
+                "Tested: a law that is in no catalogue, {expression}, takes plainly more than {name}; the command {} improve tries \
+                 such laws.",
+                program()
             );
             return ("unsure", told);
         }

@@ -1,0 +1,112 @@
+//! Options of the command line; the comments here are what `--help` prints. The verbs stand in `verbs.rs`.
+
+use crate::effect_names::EffectNames;
+use clap::{Args, ValueEnum};
+use std::path::PathBuf;
+use std::time::Duration;
+
+/// Options of the log; every verb takes them.
+#[derive(Debug, Args)]
+pub struct LogOptions {
+    /// Log lines for people or, one JSON object a line, for machines (on standard error).
+    #[arg(long, global = true, value_enum, default_value_t = LogFormat::Text)]
+    pub log: LogFormat,
+    /// Which log lines: error, warn, info, debug, trace, or a filter such as snug_ingest=debug.
+    #[arg(long, global = true, default_value = "warn", value_name = "FILTER")]
+    pub log_level: String,
+}
+
+/// Form of the log.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum LogFormat {
+    /// For people.
+    Text,
+    /// One JSON object a line.
+    Json,
+}
+
+/// Options of the verbs that evaluate data.
+#[derive(Debug, Args)]
+pub struct RunOptions {
+    /// Study file (RON); without it, the thesis' rig and file layout.
+    #[arg(long, value_name = "FILE.ron")]
+    pub study: Option<PathBuf>,
+    /// Folder (or file) with the data; overrides the study's.
+    #[arg(long, value_name = "DIR")]
+    pub data: Option<PathBuf>,
+    /// How recordings become tightenings; overrides the study's.
+    #[arg(long, value_enum)]
+    pub preset: Option<PresetName>,
+    /// Effects in the model, separated by commas, for example coulomb_friction,torque_delay.
+    #[arg(long, value_delimiter = ',', value_name = "A,B")]
+    #[arg(value_parser = EffectNames::OfModels, hide_possible_values = true)]
+    pub effects: Option<Vec<String>>,
+    /// Folder for the results; made if it is not there.
+    #[arg(long, value_name = "DIR", default_value = "out")]
+    pub out: PathBuf,
+    /// Ends after so many seconds with the best answer so far, which says that it is one.
+    #[arg(long, value_name = "S", value_parser = seconds)]
+    pub time: Option<Duration>,
+    /// Waits for another run that writes into the same folder.
+    #[arg(long)]
+    pub wait: bool,
+    /// Exit code 3 when a file or tightening was left out.
+    #[arg(long)]
+    pub strict: bool,
+    /// No progress, no summary: only errors.
+    #[arg(long)]
+    pub quiet: bool,
+    /// Threads; without it, one a core. Results do not depend on it.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
+    /// Seed of everything random (permutation tests).
+    #[arg(long, value_name = "N")]
+    pub seed: Option<u64>,
+}
+
+/// `60` or `60s`.
+fn seconds(text: &str) -> Result<Duration, String> {
+    let number = text.strip_suffix('s').unwrap_or(text).trim();
+    let seconds: f64 = number.parse().unwrap_or(f64::NAN);
+    match Duration::try_from_secs_f64(seconds) {
+        Ok(time) if !time.is_zero() => Ok(time),
+        _ => Err("a number of seconds above 0 is wanted, as 60 or 60s".to_owned()),
+    }
+}
+
+/// Options of the verbs that change the model: a study file stays as it is unless somebody says otherwise.
+#[derive(Debug, Args)]
+pub struct ChangeOptions {
+    /// Also writes the changed list of effects into the file given by --study.
+    #[arg(long, requires = "study")]
+    pub write: bool,
+    /// What every evaluation takes.
+    #[command(flatten)]
+    pub run: RunOptions,
+}
+
+/// How recordings become tightenings.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum PresetName {
+    /// Bias and noise measured in the quiet part, velocity zeroed there; the default.
+    Snug,
+    /// The original program, step by step.
+    Thesis,
+}
+
+/// Options of the workbench.
+#[derive(Debug, Args)]
+pub struct WorkbenchOptions {
+    /// Study file (RON); without it, the thesis' rig and file layout.
+    #[arg(long, value_name = "FILE.ron")]
+    pub study: Option<PathBuf>,
+    /// Folder (or file) with the data; overrides the study's.
+    #[arg(long, value_name = "DIR")]
+    pub data: Option<PathBuf>,
+    /// Port of 127.0.0.1 to listen at; 0 for any free one.
+    #[arg(long, value_name = "N")]
+    pub port: Option<u16>,
+    /// Does not open the browser.
+    #[arg(long)]
+    pub no_open: bool,
+}

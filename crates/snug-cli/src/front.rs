@@ -1,0 +1,86 @@
+//! What differs between the programs that offer Snug's verbs: their name, their campaign, and how they start other programs.
+
+use crate::arguments::WorkbenchOptions;
+use crate::error::CliError;
+use clap::{Command, Parser};
+use snug_campaign::words::program::set_program;
+use std::ffi::OsString;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// Hears what a person who waits is to be told.
+pub type Notify<'a> = &'a dyn Fn(&str);
+
+/// A program that offers Snug's verbs: `snug`, or `cargo xtask` in a checkout.
+#[derive(Debug, Clone, Copy)]
+pub struct Front {
+    /// What people type before a verb.
+    pub program: &'static str,
+    /// What stands in help for each word in braces, beside `{program}`.
+    pub words: &'static [(&'static str, &'static str)],
+    /// Folder of the campaign that is evaluated where nobody names data; hears whom to tell what takes long.
+    pub campaign: fn(Notify<'_>) -> Result<PathBuf, CliError>,
+    /// Opens the workbench until it is ended.
+    pub workbench: fn(&Front, &WorkbenchOptions) -> ExitCode,
+    /// Starts the plant's program with these arguments.
+    pub plant: fn(&Front, &[OsString]) -> ExitCode,
+}
+
+impl Front {
+    /// The program's arguments as typed; texts recommend its name from now on. Ends the program where they are wrong.
+    pub fn parse<A: Parser>(&self) -> A {
+        set_program(self.program);
+        let mut command = self.command::<A>();
+        let mut matches = command.get_matches_mut();
+        A::from_arg_matches_mut(&mut matches)
+            .unwrap_or_else(|error| error.format(&mut command).exit())
+    }
+
+    /// The command line of `A` under the program's name, every word in braces filled in.
+    pub fn command<A: Parser>(&self) -> Command {
+        let command = A::command().name(self.program).bin_name(self.program);
+        self.filled(command)
+            .mut_subcommands(|verb| self.filled(verb))
+    }
+
+    fn filled(&self, command: Command) -> Command {
+        let filled = |text: Option<&clap::builder::StyledStr>| {
+            let text = text.map(ToString::to_string).unwrap_or_default();
+            let own = [("{program}", self.program)];
+            (own.iter().chain(self.words)).fold(text, |text, (word, told)| text.replace(word, told))
+        };
+        let long = command.get_long_about().is_some();
+        let (about, long_about) = (
+            filled(command.get_about()),
+            filled(command.get_long_about()),
+        );
+        let after = filled(command.get_after_help());
+        let command = command.about(about).after_help(after);
+        match long {
+            true => command.long_about(long_about),
+            false => command,
+        }
+    }
+}
+
+/// What every program's help ends with.
+pub const EXAMPLES: &str = "\
+Examples:
+  {program} run                              the embedded campaign, into out/
+  {program} run --data DIR                   your folder of MAT files (or a folder of recordings)
+  {program} run --data DIR --preset thesis   the same, as the original program did it
+  {program} run --study rig.ron              any rig described in a study file
+  {program} init DIR                         a study for files of any other rig, in rig.ron
+  {program} compare --data DIR               where the model fails
+  {program} diagnose --data DIR              which physical effect is missing
+  {program} add coulomb_friction --data DIR  the error before and after
+  {program} improve --data DIR               all of that, until only noise is left
+  {program} effects cubic_stiffness          one effect of the catalogue in full
+  {program} workbench --data DIR             a page on this machine: click an effect, the error falls
+
+  {program} plant --help                     thousands of tools: Parquet, one machine or many, what changed when
+
+  {program} recover FILE.mcap                a recording that was cut short, made whole
+
+Exit codes: 0 done, 1 failed or nothing was identified, 2 bad arguments, 130 stopped by Ctrl-C or a signal;
+with --strict 3 when some data was left out (findings.json says which).";

@@ -1,0 +1,77 @@
+//! The program `snug`: Snug's verbs where there is no checkout, and completions for shells.
+
+mod completions;
+mod plant;
+mod workbench;
+
+use clap::{Parser, Subcommand};
+use clap_complete::CompleteEnv;
+use completions::Shell;
+use snug_campaign::words::program;
+use snug_cli::{EXAMPLES, Front, LogOptions, complain, exit};
+use std::process::ExitCode;
+
+/// Snug identifies the hand–arm model of a nutrunner from measured tightenings.
+#[derive(Debug, Parser)]
+#[command(version, after_help = EXAMPLES)]
+struct Arguments {
+    /// What to do.
+    #[command(subcommand)]
+    verb: Verb,
+    /// How log lines are written.
+    #[command(flatten)]
+    log: LogOptions,
+}
+
+/// What to do.
+#[derive(Debug, Subcommand)]
+enum Verb {
+    #[command(flatten)]
+    Snug(snug_cli::Verb),
+    /// Prints what a shell must read to complete verbs, options and names of effects.
+    ///
+    ///   shell       where                         what
+    ///   bash        ~/.bashrc                     source <(snug completions bash)
+    ///   zsh         ~/.zshrc, after compinit      source <(snug completions zsh)
+    ///   fish        ~/.config/fish/config.fish    snug completions fish | source
+    ///   elvish      ~/.config/elvish/rc.elv       eval (snug completions elvish | slurp)
+    ///   powershell  $PROFILE                      snug completions powershell | Out-String | Invoke-Expression
+    #[command(verbatim_doc_comment)]
+    Completions {
+        /// The shell.
+        #[arg(value_name = "SHELL")]
+        shell: Shell,
+    },
+}
+
+const WORDS: &[(&str, &str)] = &[
+    ("{campaign}", "the campaign that Snug holds"),
+    ("{workbench}", ""),
+    (
+        "{plant}",
+        "It is a program of its own, looked for beside this one and in PATH; cargo install --locked --path crates/snug-plant installs it.",
+    ),
+];
+
+fn main() -> ExitCode {
+    let front = Front {
+        // A program that starts this one says what people typed.
+        program: std::env::var(program::VARIABLE).map_or(program::program(), |name| name.leak()),
+        words: WORDS,
+        campaign: snug_cli::campaign,
+        workbench: workbench::open,
+        plant: plant::start,
+    };
+    CompleteEnv::with_factory(|| front.command::<Arguments>())
+        .var(completions::VARIABLE)
+        .complete();
+    let arguments: Arguments = front.parse();
+    if let Err(error) = snug_cli::start_log(&arguments.log) {
+        complain(&error);
+        return exit::bad_arguments();
+    }
+    match arguments.verb {
+        Verb::Snug(verb) => verb.run(&front),
+        Verb::Completions { shell } => completions::print(shell),
+    }
+}
