@@ -51,9 +51,9 @@ pub enum Chore {
     },
     /// How fast Snug is beside bare loops and other programs, in one table.
     Bench {
-        /// Sections, for example base or effects; default all.
+        /// Sections, for example base or effects; default all of the engine. By its name only: workbench (clicks in a browser).
         sections: Vec<String>,
-        /// Also what takes minutes: 2687 tightenings.
+        /// Also what takes minutes: 2687 tightenings, a day's clicks.
         #[arg(long)]
         long: bool,
     },

@@ -16,12 +16,13 @@ use snug_model::Effect;
 pub(crate) use tested::{tested, testing};
 pub(crate) use tightening::tightening;
 
-/// That a fit is under way.
+/// That a fit is under way; a page that shows no error yet begins with that of the model to begin with.
 pub(crate) fn fitting(campaign: &Campaign, number: usize, effects: &EffectSet) -> Value {
     json!({
         "kind": "fitting",
         "number": number,
         "effects": effects.names(),
+        "begins": campaign.shown(campaign.base.error()),
         "tested": campaign.says("Fitting all tightenings together …"),
     })
 }

@@ -12,6 +12,9 @@ const BETWEEN_RELOADS: usize = 10;
 /// Clicks from one line of the table to the next.
 const BETWEEN_LINES: usize = 50;
 
+/// Effects that are switched on together, at most: who tries more has lost the thread.
+const MOST_ON: usize = 3;
+
 /// What is clicked in turn, beside a switch now and then.
 const BUTTONS: [&str; 4] = [
     "[data-undo]",
@@ -39,8 +42,11 @@ pub async fn of_use(program: &Path) {
         }
         let tab = &tabs[click % 2];
         tab.page.bring_to_front().await.unwrap();
-        let selector = match click % 3 {
-            0 => format!(".effect:nth-child({}) .switch", 1 + click / 3 % 20),
+        let on = "document.querySelectorAll('.switch[aria-checked=true]').length";
+        let is_full = tab.value(on).await.as_u64() >= Some(MOST_ON as u64);
+        let selector = match (click % 3, is_full) {
+            (0, true) => ".switch[aria-checked=true]".to_owned(),
+            (0, false) => format!(".effect:nth-child({}) .switch", 1 + click / 3 % 20),
             _ => BUTTONS[click / 2 % BUTTONS.len()].to_owned(),
         };
         tab.value(&format!("document.querySelector(\"{selector}\").click()"))

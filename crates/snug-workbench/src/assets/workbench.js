@@ -113,6 +113,7 @@ const hear = {
     check();
     remember();
     document.body.classList.add('fitting');
+    if (one('error').textContent === '…') show('error', event.begins);
     show('tested', event.tested);
     show('evidence', '');
     delete one('tested').dataset.state;
