@@ -175,3 +175,98 @@ fn a_screw_s_ripple_comes_first_of_eight_recordings() {
     assert!((sine.hypot(cosine) - 10.0).abs() < 0.3, "{sine} {cosine}");
     assert!((wavelength - 0.006).abs() < 3e-5, "{wavelength}");
 }
+
+/// A pendulum that swings to 80°, turned by a torque that a controller holds from sample to sample: taken as running straight between them
+/// it leaves four times the noise, and nothing stands in for that. With it held the rig is known to its noise.
+#[test]
+fn a_pendulum_driven_by_a_held_torque_is_known_to_its_noise() {
+    const NOISE: f64 = 1.75e-3;
+    let mut noise = Noise(7);
+    let mut recording = || -> Vec<[f64; 2]> {
+        let levels: Vec<f64> = (0..12).map(|_| 12.0 * noise.even() - 6.0).collect();
+        let inputs: Vec<f64> = (0..1500).map(|k| levels[k / 130]).collect();
+        let rate = |[x, v]: [f64; 2], u: f64| [v, (u - 0.025 * v - 8.0 * x.sin()) / 0.012];
+        let angles = moved(&inputs, 20, rate).map(|[x, _]| x);
+        let measured = inputs.iter().zip(angles);
+        measured
+            .map(|(&u, x)| [u, x + NOISE * noise.draw()])
+            .collect()
+    };
+    let rig = Rig {
+        recordings: (0..3).map(|_| recording()).collect(),
+        declared: [
+            "signal: Torque, unit: NewtonMetre",
+            "Displacement",
+            "Radian",
+        ],
+        fitted: "Displacement",
+    };
+    let diagnosis = rig.told(&Verb::Improve);
+    let names: Vec<&str> = diagnosis
+        .added
+        .iter()
+        .map(|one| one.effect.as_str())
+        .collect();
+    assert_eq!(names, ["gravity_torque"], "{}", diagnosis.headline);
+    let weight = &diagnosis.added[0].parameters[0];
+    let (low, high) = (weight.low.unwrap(), weight.high.unwrap());
+    assert!((weight.value + 8.0).abs() < 0.02, "{weight:?}");
+    assert!(low <= -8.0 && -8.0 <= high, "{weight:?}");
+    let left = diagnosis.ladder.last().unwrap().rms_fitted_output;
+    assert!(left < 1.05 * NOISE, "{left}");
+    let headline = diagnosis.headline.to_string();
+    assert!(!headline.contains("still a motion"), "{headline}");
+}
+
+/// A positioner that sticks and slips: what stands in for its dry friction first, a law of the root of the speed, may be nothing beside it
+/// and is taken out again.
+#[test]
+fn a_valve_that_sticks_lacks_dry_friction_and_no_law_that_nobody_knows() {
+    let mut noise = Noise(5);
+    let mut recording = || -> Vec<[f64; 2]> {
+        let levels: Vec<f64> = (0..12).map(|_| 120.0 * noise.even() - 60.0).collect();
+        let inputs: Vec<f64> = (0..3000).map(|k| levels[k / 260]).collect();
+        let rate = |[x, v]: [f64; 2], u: f64| {
+            let friction = 6.0 + 4.0 * (-(v / 0.01).powi(2)).exp();
+            [
+                v,
+                (u - 30.0 * v - 900.0 * x - friction * (v / 1e-3).tanh()) / 2.0,
+            ]
+        };
+        let places = moved(&inputs, 20, rate).map(|[x, _]| x);
+        let measured = inputs.iter().zip(places);
+        measured
+            .map(|(&u, x)| [u, x + 2e-5 * noise.draw()])
+            .collect()
+    };
+    let rig = Rig {
+        recordings: (0..3).map(|_| recording()).collect(),
+        declared: ["signal: Torque, unit: Newton", "Displacement", "Metre"],
+        fitted: "Displacement",
+    };
+    let diagnosis = rig.told(&Verb::Improve);
+    assert_ne!(
+        diagnosis.verdict,
+        Verdict::UnlistedEffect,
+        "{}",
+        diagnosis.headline
+    );
+    let names: Vec<&str> = diagnosis
+        .added
+        .iter()
+        .map(|one| one.effect.as_str())
+        .collect();
+    let frictions = ["coulomb_friction", "stribeck_friction"];
+    assert!(
+        names.first().is_some_and(|first| frictions.contains(first)),
+        "{}",
+        diagnosis.headline
+    );
+    for size in diagnosis.added.iter().map(|one| &one.parameters[0]) {
+        let holds_nothing = size
+            .low
+            .zip(size.high)
+            .is_some_and(|(low, high)| low < 0.0 && high > 0.0);
+        assert!(!holds_nothing, "{size:?}");
+    }
+}
