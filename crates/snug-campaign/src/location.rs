@@ -60,6 +60,21 @@ pub struct ForceMap {
     pub half_width_n: Vec<Option<f64>>,
 }
 
+/// How what a model leaves goes with itself and with the torque, later and earlier.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct ResidualCorrelation {
+    /// How much later \[s\], from one sample on.
+    pub lag_s: Vec<f64>,
+    /// Correlation of the residual with itself that much later, −1 to 1; 0 of white noise.
+    pub own: Vec<f64>,
+    /// How much later than the torque \[s\]; below 0 how much earlier.
+    pub torque_lag_s: Vec<f64>,
+    /// Correlation of the residual with the torque, −1 to 1; 0 where nothing of the torque is left unexplained.
+    pub with_torque: Vec<f64>,
+    /// Half width of the band that 95 % of white noise's correlations are in.
+    pub half_width: f64,
+}
+
 /// Where a model fails.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct Location {
@@ -69,6 +84,8 @@ pub struct Location {
     pub force_over_time: ForceCurve,
     /// The same over displacement and velocity.
     pub force_map: ForceMap,
+    /// Whether what is left is white, and whether it follows from the torque; `None` where nothing is left to correlate.
+    pub correlation: Option<ResidualCorrelation>,
     /// Share of the squared misfit that the other tightenings' mean residual predicts, 0 to 1.
     pub repeatable_share: Option<f64>,
     /// What stands out.

@@ -5,10 +5,10 @@ pub(crate) mod cases;
 pub(crate) mod fit;
 pub(crate) mod focus;
 pub(crate) mod held_out;
-pub(crate) mod missing_force;
 pub(crate) mod promise;
 pub(crate) mod signature;
 pub(crate) mod tightening;
+pub(crate) mod what_is_left;
 
 #[cfg(test)]
 mod tests;

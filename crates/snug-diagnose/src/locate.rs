@@ -9,6 +9,7 @@ mod aspect;
 mod bootstrap;
 mod comparison;
 mod condition;
+mod correlation;
 pub(crate) mod drift;
 mod exposure;
 mod force_shape;
@@ -28,9 +29,7 @@ pub(crate) mod thresholds;
 use aspect::View;
 use bootstrap::Draws;
 use residual::Residuals;
-use snug_campaign::{
-    Comparison, Drift, Estimate, ForceCurve, ForceMap, Location, Motion, Tightening,
-};
+use snug_campaign::{Comparison, Drift, Estimate, Location, Motion, Tightening};
 
 /// One tightening with what a model makes of it.
 #[derive(Debug, Clone, Copy)]
@@ -60,6 +59,8 @@ pub fn compare(seen: &[Seen<'_>]) -> Comparison {
 /// over its pooled root mean square and the share is that of Σ w². Times count from the pulse's onset, or from the
 /// window's start where no tightening has an onset. The periodogram's window falls off over the first and last 5 % of the
 /// samples. Parts without a sample are left out, and aspects that no tightening can say anything about.
+///
+/// `correlation` is that of the residual with itself later and with the torque (see the `correlation` module).
 ///
 /// `repeatable_share` is the larger of two: what the other tightenings' mean residual predicts over the time since onset,
 /// and what a force over displacement and velocity with sizes from the other files predicts (see the `repeatable` and
@@ -100,6 +101,7 @@ pub fn locate(seen: &[Seen<'_>], seed: u64) -> Location {
         aspects,
         force_over_time,
         force_map,
+        correlation: correlation::correlation(&residuals),
         repeatable_share,
         remarks,
     }
@@ -119,9 +121,16 @@ pub fn drifts(seen: &[Seen<'_>]) -> Vec<Drift> {
     drift::drifts(seen)
 }
 
-/// The missing force alone, over time and over displacement and velocity; nothing where nothing can be compared.
-pub(crate) fn missing_force(seen: &[Seen<'_>], seed: u64) -> (ForceCurve, ForceMap) {
+/// What is left alone: the missing force over time and over displacement and velocity, and whether the residual is white and follows
+/// from the torque; nothing where nothing can be compared.
+pub(crate) fn what_is_left(seen: &[Seen<'_>], seed: u64) -> Location {
     let residuals = Residuals::of(seen);
     let draws = Draws::new(residuals.all.len(), seed);
-    missing_force::curve_and_map(&residuals, &draws)
+    let (force_over_time, force_map) = missing_force::curve_and_map(&residuals, &draws);
+    Location {
+        force_over_time,
+        force_map,
+        correlation: correlation::correlation(&residuals),
+        ..Location::default()
+    }
 }

@@ -3,12 +3,12 @@
 use crate::curves::{self, DIGITS, Series, Values, embedded, steps, time_unit};
 use crate::decimation;
 use crate::number::drawn;
-use crate::section::location::force;
+use crate::section::location::{correlation, force};
 use crate::signal_unit::motion_axis;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use serde_json::{Value, json};
 use snug_campaign::words::vocabulary::Vocabulary;
-use snug_campaign::{ForceCurve, ForceMap, NORMAL_95, Quantity, SignalUnits};
+use snug_campaign::{Location, NORMAL_95, Quantity, SignalUnits};
 
 /// Style of every page.
 const STYLE: &str = concat!(
@@ -181,10 +181,16 @@ pub fn document(title: &str, style: &str, body: &Markup) -> Markup {
     }
 }
 
-/// The missing force over time, beside what another model lacked `before`, and over displacement and velocity, as the report draws it but
-/// for `data-cell`: of each cell of the map its edges, displacement \[m\] and velocity \[m/s\] of the grip. Nothing where there is none.
-pub fn missing_force(curve: &ForceCurve, before: Option<&ForceCurve>, map: &ForceMap) -> Markup {
-    force::live(curve, before, map)
+/// The missing force over time, beside what another model lacked `before`, and over displacement and velocity, then how the residual goes
+/// with itself and with the torque: as the report draws them but for `data-cell`, of each cell of the map its edges, displacement \[m\] and
+/// velocity \[m/s\] of the grip. Nothing where there is none.
+pub fn what_is_left(location: &Location, before: Option<&Location>) -> Markup {
+    html! {
+        div.figures {
+            (force::live(location, before))
+            @if let Some(correlation) = &location.correlation { (correlation::drawings(correlation)) }
+        }
+    }
 }
 
 /// Where the viewer draws, `panels` one below the other; `data` is what it begins with.

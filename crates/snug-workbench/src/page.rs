@@ -145,7 +145,7 @@ fn centre(campaign: &Campaign) -> Markup {
             p.current data-heading="" aria-live="polite" { "…" }
             (viewer(&nothing, &["Model and measurement", "What is left over: measured − simulated"]))
             section.force aria-labelledby="force-title" {
-                h3 id="force-title" { "The missing force" }
+                h3 id="force-title" { "The missing force, and whether the rest is noise" }
                 p.note { "Click a cell of the map, or go there with the arrows and press Enter, and candidates are ranked by what is left \
                     over there." }
                 div data-force="" aria-live="off" {}

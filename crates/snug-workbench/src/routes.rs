@@ -32,7 +32,7 @@ pub(crate) fn router(bench: Arc<Bench>, guard: Guard) -> Router {
         .route("/api/events", get(events))
         .route("/api/change", post(change))
         .route("/api/tightening", get(tightening))
-        .route("/api/force", get(missing_force))
+        .route("/api/force", get(what_is_left))
         .route("/api/save", post(save_study))
         .route("/api/results", post(make_results))
         .route("/results/{number}/{name}", get(result_file))
@@ -216,21 +216,20 @@ struct Between {
     before: Option<String>,
 }
 
-async fn missing_force(
+async fn what_is_left(
     State(bench): State<Arc<Bench>>,
     Query(between): Query<Between>,
 ) -> Result<Html<String>, WorkbenchError> {
     aside(move || {
         let campaign = bench.campaign()?;
-        let lacks = |effects: &str| {
+        let left = |effects: &str| {
             let effects = EffectSet::from_address(effects);
             let fit = bench.fitted_now(&campaign, &effects, &AtomicBool::new(false))?;
-            Ok::<_, WorkbenchError>(campaign.prepared.live.missing_force(&fit)?)
+            Ok::<_, WorkbenchError>(campaign.prepared.live.what_is_left(&fit)?)
         };
-        let (curve, map) = lacks(&between.effects)?;
-        let before = between.before.as_deref().map(lacks).transpose()?;
-        let before = before.as_ref().map(|(curve, _)| curve);
-        let drawn = snug_report::viewer::missing_force(&curve, before, &map).into_string();
+        let now = left(&between.effects)?;
+        let before = between.before.as_deref().map(left).transpose()?;
+        let drawn = snug_report::viewer::what_is_left(&now, before.as_ref()).into_string();
         Ok(Html(snug_report::markup(
             &drawn,
             campaign.prepared.vocabulary,

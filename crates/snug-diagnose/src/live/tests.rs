@@ -293,7 +293,8 @@ fn a_missing_spring_is_a_force_that_fades_once_it_is_in() {
         let fit = live
             .fit(effects, None, &|_| (), &never())
             .expect("it can be fitted");
-        let (curve, _) = live.missing_force(&fit).expect("each can be fitted");
+        let left = live.what_is_left(&fit).expect("each can be fitted");
+        let curve = left.force_over_time;
         assert!(!curve.at.is_empty());
         curve.force_n.iter().fold(0.0_f64, |a, f| a.max(f.abs()))
     };

@@ -21,6 +21,10 @@ pub(crate) const NARROWEST: f64 = 1.5;
 pub(crate) const EDGE: f64 = 1e-6;
 /// Bins of the missing force over time. Chosen.
 pub(crate) const TIME_BINS: usize = 60;
+/// Share of the shortest window up to which a residual is correlated with what comes later \[–\]: beyond, few products are left. Chosen.
+pub(crate) const CORRELATED_SHARE: f64 = 0.3;
+/// Steps from a lag of one sample to the longest, each longer than the one before by the same factor. Chosen.
+pub(crate) const CORRELATION_LAGS: usize = 60;
 /// Bins of the missing force's map along x, and along v. Chosen.
 pub(crate) const MAP_BINS: usize = 16;
 /// A pulse lasts while the torque is above this share of its peak \[–\]. Chosen.

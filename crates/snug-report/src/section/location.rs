@@ -1,6 +1,7 @@
 //! Brings every view of the misfit into one section, with the drift that a missing effect leaves in fitted values.
 
 mod aspects;
+pub(crate) mod correlation;
 pub(crate) mod force;
 mod force_map;
 
@@ -71,6 +72,7 @@ fn views(location: &Location) -> Markup {
     html! {
         (aspects::figures(&location.aspects))
         (force::figures(location))
+        @if let Some(correlation) = &location.correlation { (correlation::figures(correlation)) }
     }
 }
 

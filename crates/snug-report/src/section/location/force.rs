@@ -3,7 +3,7 @@
 use super::force_map;
 use crate::figure::{Axis, Figure, Mark, captioned, legend, linear_range};
 use maud::{Markup, html};
-use snug_campaign::{ForceCurve, ForceMap, Location};
+use snug_campaign::{ForceCurve, Location};
 
 /// Both pictures, those there are.
 pub fn figures(location: &Location) -> Markup {
@@ -25,12 +25,12 @@ pub fn figures(location: &Location) -> Markup {
 }
 
 /// The pictures alone, beside what another model lacked before; a cell of the map can be chosen.
-pub fn live(curve: &ForceCurve, before: Option<&ForceCurve>, map: &ForceMap) -> Markup {
+pub fn live(location: &Location, before: Option<&Location>) -> Markup {
+    let (curve, map) = (&location.force_over_time, &location.force_map);
+    let before = before.map(|before| &before.force_over_time);
     html! {
-        div.figures {
-            @if !curve.at.is_empty() { (over_time_figure(curve, before)) }
-            @if force_map::holds(map) { (force_map::figure(map, true)) }
-        }
+        @if !curve.at.is_empty() { (over_time_figure(curve, before)) }
+        @if force_map::holds(map) { (force_map::figure(map, true)) }
     }
 }
 
