@@ -13,6 +13,7 @@ mod init;
 mod output;
 mod position;
 mod prepared;
+mod prepared_diagnosis;
 mod prepared_file;
 mod progress;
 mod recover;
@@ -34,6 +35,9 @@ pub use diagnosis::{DiagnosisSettings, Verb, diagnose};
 pub use error::StudyError;
 pub use init::{Draft, DraftColumn, draft, write_draft};
 pub use prepared::{Prepared, prepare};
+pub use prepared_diagnosis::{
+    Compared, PreparedDiagnosis, diagnose_prepared, shared_blocks, shared_parameters,
+};
 pub use progress::ProgressEvent;
 pub use recover::{Recovered, recover};
 pub use rewriting::{rewrite_effects, write_with_effects};
