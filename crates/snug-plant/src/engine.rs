@@ -1,11 +1,13 @@
 //! The engine: DataFusion in this process on all cores, or the same plans on a Ballista cluster.
 
 use crate::fit::function::function;
+use crate::pooled::{block_function, group_function, sum_function};
 use crate::{PlantError, Store};
 use ballista::prelude::{SessionConfigExt, SessionContextExt};
 use datafusion::dataframe::DataFrame;
 use datafusion::datasource::file_format::options::ParquetReadOptions;
 use datafusion::execution::SessionStateBuilder;
+use datafusion::logical_expr::ScalarUDF;
 use datafusion::prelude::{SessionConfig, SessionContext};
 use std::thread::available_parallelism;
 
@@ -34,7 +36,7 @@ pub enum Engine {
 }
 
 impl Engine {
-    /// A session that knows Snug's function and reads `stores`.
+    /// A session that knows Snug's functions and reads `stores`.
     ///
     /// # Errors
     /// [`PlantError::Cluster`] where no scheduler can be spoken to.
@@ -59,8 +61,11 @@ impl Engine {
                 })?
             }
         };
-        // A connected session has forgotten what its state knew: the function is told to it afterwards.
-        session.register_udf(function());
+        // A connected session has forgotten what its state knew: the functions are told to it afterwards.
+        scalar_functions()
+            .into_iter()
+            .for_each(|one| session.register_udf(one));
+        session.register_udaf(sum_function());
         register(&session, stores);
         Ok(session)
     }
@@ -73,6 +78,11 @@ pub(crate) fn reading_session(stores: &[&Store]) -> SessionContext {
     let session = SessionContext::new_with_config(config);
     register(&session, stores);
     session
+}
+
+/// Snug's functions of single rows.
+pub(crate) fn scalar_functions() -> [ScalarUDF; 3] {
+    [function(), block_function(), group_function()]
 }
 
 fn register(session: &SessionContext, stores: &[&Store]) {

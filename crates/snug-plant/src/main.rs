@@ -4,7 +4,7 @@ mod arguments;
 
 use arguments::{Arguments, Command};
 use clap::Parser;
-use snug_plant::{PlantError, Store, Tables, WatchSettings, Watched};
+use snug_plant::{Improved, PlantError, Store, Tables, WatchSettings, Watched};
 use std::io::Write;
 use std::process::ExitCode;
 use tracing_subscriber::EnvFilter;
@@ -86,6 +86,14 @@ async fn work(command: Command) -> Result<String, PlantError> {
                 done.rows, done.partitions, done.left
             ))
         }
+        Command::Improve(options) => {
+            let (data, to) = (Store::open(&options.data)?, Store::open(&options.to)?);
+            let hear = |what: &str| {
+                writeln!(std::io::stderr(), "{what}").ok();
+            };
+            let done = snug_plant::improve(data, to, &options.settings(), &hear).await?;
+            Ok(improved(&done))
+        }
         Command::Scheduler(options) => {
             snug_plant::scheduler(options.bind).await?;
             Ok("the scheduler has ended".to_owned())
@@ -112,6 +120,26 @@ async fn work(command: Command) -> Result<String, PlantError> {
             Ok(told(&snug_plant::watch(&settings).await?))
         }
     }
+}
+
+/// What an improvement came to: the verdict, the ladder, the tools.
+fn improved(done: &Improved) -> String {
+    let mut lines = vec![
+        done.headline.clone(),
+        format!(
+            "learnt from {} of {} tightenings; error over noise of all of them:",
+            done.sampled, done.rows
+        ),
+    ];
+    for (effects, error) in &done.ladder {
+        let effects = match effects.is_empty() {
+            true => "the base model".to_owned(),
+            false => effects.join(" + "),
+        };
+        lines.push(format!("  {error:.4} {effects}"));
+    }
+    lines.extend(done.watched.iter().map(told));
+    lines.join("\n")
 }
 
 /// What was found, a line a tool.

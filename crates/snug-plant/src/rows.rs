@@ -4,7 +4,7 @@ mod decode;
 mod encode;
 mod integrals;
 
-pub(crate) use decode::prepared;
+pub(crate) use decode::{conditions, names_of, prepared};
 pub use encode::batch;
 
 use snug_campaign::{Quantity, Tightening};

@@ -36,7 +36,7 @@ pub use error::StudyError;
 pub use init::{Draft, DraftColumn, draft, write_draft};
 pub use prepared::{Prepared, prepare};
 pub use prepared_diagnosis::{
-    Compared, PreparedDiagnosis, diagnose_prepared, shared_blocks, shared_parameters,
+    Compared, PreparedDiagnosis, compared_by, diagnose_prepared, shared_blocks, shared_parameters,
 };
 pub use progress::ProgressEvent;
 pub use recover::{Recovered, recover};

@@ -51,18 +51,8 @@ pub fn diagnose_prepared(
     interrupted: &AtomicBool,
 ) -> Result<PreparedDiagnosis, StudyError> {
     study.check()?;
-    let cases = prepared.iter().map(|one| case_of(study, one));
-    let cases: Vec<FitTask<'static>> =
-        (cases.collect::<Result<Vec<_>, _>>()?.into_iter().flatten()).collect();
-    let comparable = comparable(cases);
-    let Some(first) = comparable.cases.first() else {
-        return Err(DiagnoseError::NothingToCompare {
-            tightenings: prepared.len(),
-            reason: "each is faulty or too short; `plant sql` on table findings says why",
-        }
-        .into());
-    };
-    let compared = compared(first);
+    let comparable = comparable(cases_of(study, prepared)?);
+    let compared = common(&comparable.cases, prepared.len())?;
     let pool = pool(threads)?;
     let (last, ladder) =
         pool.install(|| climbed(study, comparable, verb, progress, interrupted))?;
@@ -84,6 +74,31 @@ pub fn diagnose_prepared(
         rungs,
         compared,
     })
+}
+
+/// What most of these tightenings can be compared by.
+///
+/// # Errors
+/// [`StudyError`] where none can be.
+pub fn compared_by(study: &Study, prepared: &[Prepared]) -> Result<Compared, StudyError> {
+    common(&comparable(cases_of(study, prepared)?).cases, prepared.len())
+}
+
+fn cases_of(study: &Study, prepared: &[Prepared]) -> Result<Vec<FitTask<'static>>, StudyError> {
+    let cases = prepared.iter().map(|one| case_of(study, one));
+    Ok((cases.collect::<Result<Vec<_>, _>>()?.into_iter().flatten()).collect())
+}
+
+/// What comparable cases, which came of so many tightenings, have in common.
+fn common(cases: &[FitTask<'_>], tightenings: usize) -> Result<Compared, StudyError> {
+    match cases.first() {
+        Some(first) => Ok(compared(first)),
+        None => Err(DiagnoseError::NothingToCompare {
+            tightenings,
+            reason: "each is faulty or too short; the findings of the dataset say why",
+        }
+        .into()),
+    }
 }
 
 /// The tightenings with the model of every rung: results of the last, with what the first simulates beside it, and shares of all.
