@@ -2,8 +2,8 @@
 
 use clap::{Args, Parser, Subcommand};
 use snug_plant::{
-    CLUSTER_PARTS, Engine, FitSettings, ImproveSettings, Naming, PlantError, Simulation,
-    WorkerSettings,
+    BenchSettings, CLUSTER_PARTS, Engine, FitSettings, ImproveSettings, Naming, PlantError,
+    Simulation, Store, WorkerSettings,
 };
 use snug_study::Study;
 use std::net::{IpAddr, SocketAddr};
@@ -35,6 +35,8 @@ pub enum Command {
     Scheduler(SchedulerOptions),
     /// One of the engine's workers, with Snug's functions registered.
     Worker(WorkerOptions),
+    /// Measures what the engine costs: beside the same in memory, plain reading, workers, memory, a worker's death.
+    Bench(BenchOptions),
     /// Asks a dataset and results: tables tightenings, findings, results.
     Sql(SqlOptions),
     /// What changed, when, in which tools; which differ from their sisters. Tables, JSON and a page.
@@ -290,6 +292,31 @@ impl WorkerOptions {
             cores: self.cores,
             work_dir: self.work_dir.clone(),
         }
+    }
+}
+
+/// Of `bench`.
+#[derive(Debug, Args)]
+pub struct BenchOptions {
+    /// Rows of each dataset that is made; the first is also fitted in memory.
+    #[arg(long, value_delimiter = ',', value_name = "N,…", default_values_t = [10_000, 100_000])]
+    rows: Vec<usize>,
+    /// Samples per second; windows are 0.3 s long.
+    #[arg(long, value_name = "HZ", default_value_t = 2000.0)]
+    rate: f64,
+    /// Where datasets and results go; datasets that are there are taken.
+    #[arg(long, value_name = "URL", default_value = "out/plant-bench")]
+    to: String,
+}
+
+impl BenchOptions {
+    /// What is measured.
+    pub fn settings(&self) -> Result<BenchSettings, PlantError> {
+        Ok(BenchSettings {
+            rows: self.rows.clone(),
+            sample_rate_hz: self.rate,
+            to: Store::open(&self.to)?,
+        })
     }
 }
 

@@ -1,5 +1,6 @@
 #![doc = include_str!("../README.md")]
 
+mod bench;
 mod cluster;
 mod dataset;
 mod engine;
@@ -18,6 +19,7 @@ mod sql;
 mod store;
 mod watch;
 
+pub use bench::{BenchSettings, Figures, bench};
 pub use cluster::{WorkerSettings, scheduler, worker};
 pub use dataset::{Commit, CommittedFile, Dataset, Manifest};
 pub use engine::{CLUSTER_PARTS, Engine};

@@ -4,7 +4,7 @@ mod arguments;
 
 use arguments::{Arguments, Command};
 use clap::Parser;
-use snug_plant::{Improved, PlantError, Store, Tables, WatchSettings, Watched};
+use snug_plant::{Figures, Improved, PlantError, Store, Tables, WatchSettings, Watched};
 use std::io::Write;
 use std::process::ExitCode;
 use tracing_subscriber::EnvFilter;
@@ -101,6 +101,14 @@ async fn work(command: Command) -> Result<String, PlantError> {
         Command::Worker(options) => {
             snug_plant::worker(&options.settings()).await?;
             Ok("the worker has ended".to_owned())
+        }
+        Command::Bench(options) => {
+            let hear = |what: &str| {
+                writeln!(std::io::stderr(), "{what}").ok();
+            };
+            let figures = snug_plant::bench(&options.settings()?, &hear).await?;
+            let told: Vec<String> = figures.iter().map(Figures::told).collect();
+            Ok(told.join("\n"))
         }
         Command::Sql(options) => {
             let open = |url: &Option<String>| url.as_deref().map(Store::open).transpose();

@@ -7,6 +7,7 @@ use super::thresholds::{EACH, FAMILY_Z, FEWEST, MOST, SHOWN_SD, WHERE_IT_SHOWS};
 use crate::PlantError;
 use crate::dataset::{Commit, Dataset, digest};
 use crate::engine::{reading_session, rows_of};
+use crate::fit::reason;
 use crate::partition::Partition;
 use crate::pooled::States;
 use crate::rows;
@@ -103,20 +104,11 @@ pub async fn sample(
     let taken: Vec<(&Partition, &Commit, usize)> = (wanted_of.iter())
         .map(|(&index, &rows)| (&parts[index].0, &parts[index].1, rows))
         .collect();
-    let session = reading_session(&[&data.store]);
-    let named = |name: &str| Expr::Column(Column::from_name(name));
-    let urls = data.urls(taken.iter().map(|(_, commit, _)| *commit));
-    let all = rows_of(&session, urls, &schema::tightenings()).await?;
-    let who = ["key", "day", "tool", "joint", "participant"].map(named);
-    let who = all.clone().select(who.to_vec())?.collect().await?;
-    let keys = second_stage(&who, &taken, seed)?;
-    let wanted_keys = keys.into_iter().map(lit).collect();
-    let rows = all
-        .filter(named("key").in_list(wanted_keys, false))?
-        .collect()
-        .await?;
+    let rows = match drawn(data, &taken, seed).await {
+        Ok(rows) => rows,
+        Err(error) => return Err(unreadable(data, &taken, parts.len()).await.unwrap_or(error)),
+    };
     let failed = PlantError::columns("a sample");
-    let rows = concat_batches(&schema::tightenings(), &rows).map_err(&failed)?;
     let by = ["tool", "day", "file", "number", "key"].iter();
     let by: Vec<SortColumn> = by
         .filter_map(|name| rows.column_by_name(name).cloned())
@@ -144,6 +136,41 @@ pub async fn sample(
         in_states,
         partitions: taken.len(),
     })
+}
+
+/// Partitions that a sample is drawn from, and how many rows of each.
+type Taken<'a> = [(&'a Partition, &'a Commit, usize)];
+
+/// The rows of a sample.
+async fn drawn(data: &Dataset, taken: &Taken<'_>, seed: u64) -> Result<RecordBatch, PlantError> {
+    let session = reading_session(&[&data.store]);
+    let named = |name: &str| Expr::Column(Column::from_name(name));
+    let urls = data.urls(taken.iter().map(|(_, commit, _)| *commit));
+    let all = rows_of(&session, urls, &schema::tightenings()).await?;
+    let who = ["key", "day", "tool", "joint", "participant"].map(named);
+    let who = all.clone().select(who.to_vec())?.collect().await?;
+    let keys = second_stage(&who, &taken, seed)?;
+    let wanted_keys = keys.into_iter().map(lit).collect();
+    let rows = all
+        .filter(named("key").in_list(wanted_keys, false))?
+        .collect()
+        .await?;
+    concat_batches(&schema::tightenings(), &rows).map_err(PlantError::columns("a sample"))
+}
+
+/// The error that names those partitions that cannot be read; `None` where each by itself can be.
+async fn unreadable(data: &Dataset, taken: &Taken<'_>, partitions: usize) -> Option<PlantError> {
+    let mut failed = Vec::new();
+    for (part, commit, _) in taken {
+        let session = reading_session(&[&data.store]);
+        let rows = rows_of(&session, data.urls([*commit]), &schema::tightenings()).await;
+        let read = match rows {
+            Ok(rows) => rows.collect().await.map_err(PlantError::from),
+            Err(error) => Err(error),
+        };
+        failed.extend(read.err().map(|error| (part.to_string(), reason(&error))));
+    }
+    (!failed.is_empty()).then_some(PlantError::Pass { failed, partitions })
 }
 
 /// Last days of so many parts of the time that two rows of every tool come of each; fewer where there are more tools.
@@ -217,7 +244,7 @@ fn first_stage(strata: &[Vec<(usize, usize)>], wanted: usize) -> BTreeMap<usize,
 /// Keys of the rows that are taken: of every partition as many as wanted, joints and persons by turns, which of theirs by lot.
 fn second_stage(
     who: &[RecordBatch],
-    taken: &[(&Partition, &Commit, usize)],
+    taken: &Taken<'_>,
     seed: u64,
 ) -> Result<Vec<String>, PlantError> {
     type Lots = BTreeMap<(Option<String>, Option<String>), Vec<(String, String)>>;
@@ -347,6 +374,7 @@ mod tests {
             .collect();
         let mut sorted = tools.clone();
         sorted.sort_unstable();
-        assert!(sorted.windows(2).all(|pair| pair[1] - pair[0] == 10));
+        sorted.dedup();
+        assert!(sorted.windows(2).all(|pair| pair[1] - pair[0] == 20));
     }
 }
