@@ -7,6 +7,8 @@ mod pass;
 mod question;
 mod solve;
 mod sum;
+#[cfg(test)]
+mod tests;
 mod thresholds;
 
 pub(crate) use fit::{PooledOverAll, pooled_over_all};
