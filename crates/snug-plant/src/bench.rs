@@ -87,6 +87,17 @@ pub async fn bench(
 const TOOLS: usize = 10;
 const DAYS: usize = 10;
 
+/// Parts of a cluster's plans.
+const PARTS: usize = 8;
+
+/// One dataset and what is measured of it.
+struct Bench<'a> {
+    at: Store,
+    data: Dataset,
+    resources: Resources,
+    told: &'a (dyn Fn(&str) + Sync + Send),
+}
+
 async fn figures(
     settings: &BenchSettings,
     rows: usize,
@@ -94,7 +105,7 @@ async fn figures(
     told: &(dyn Fn(&str) + Sync + Send),
 ) -> Result<Figures, PlantError> {
     told(&format!("{rows} rows: making them"));
-    let at = |name: &str| settings.to.below(&format!("{rows}/{name}"));
+    let at = settings.to.below(&rows.to_string())?;
     let simulation = Simulation {
         tools: TOOLS,
         days: DAYS,
@@ -102,89 +113,108 @@ async fn figures(
         sample_rate_hz: settings.sample_rate_hz,
         ..Simulation::default()
     };
-    if Dataset::open(at("data")?, "tightenings", "bench")
-        .await
-        .is_err()
-    {
-        simulate_plant(&simulation, at("data")?).await?;
+    let open = || async { Dataset::open(at.below("data")?, "tightenings", "bench").await };
+    if open().await.is_err() {
+        simulate_plant(&simulation, at.below("data")?).await?;
     }
-    let data = Dataset::open(at("data")?, "tightenings", "bench").await?;
-    let commits = data.partitions().await?;
-    let files = || commits.iter().flat_map(|(_, commit)| &commit.files);
-    let mut found = Figures {
-        rows: files().map(|file| file.rows).sum(),
-        bytes: files().map(|file| file.bytes as u64).sum(),
-        ..Figures::default()
+    let bench = Bench {
+        data: open().await?,
+        at,
+        resources: Resources::of(std::process::id())?,
+        told,
     };
-    let resources = Resources::of(std::process::id())?;
-    told(&format!("{rows} rows: plain reading"));
-    let spent = Spent::since(&resources)?;
-    for file in files() {
-        data.store.get(&file.name).await?;
-    }
-    found.plain_bytes_per_s = found.bytes as f64 / spent.wall_s();
-    told(&format!("{rows} rows: embedded"));
-    let spent = Spent::since(&resources)?;
-    fit(
-        at("data")?,
-        at("embedded")?,
-        &FitSettings::default(),
-        &|_| (),
-    )
-    .await?;
-    let (wall_s, processor_s) = spent.so_far(&resources)?;
-    found.embedded_s = wall_s;
-    found.embedded_per_s = found.rows as f64 / processor_s;
-    found.embedded_bytes_per_s = found.bytes as f64 / processor_s;
-    found.embedded_peak_bytes = resources.peak_bytes()?;
+    let mut found = Figures::default();
+    bench.embedded(&mut found).await?;
     if in_memory {
-        told(&format!("{rows} rows: in memory"));
-        let study = data.study()?;
-        let prepared = in_one_batch(&data).await?;
-        let (identified, fitted) =
-            tokio::task::block_in_place(|| in_memory_rates(&study, &prepared))?;
+        bench.in_memory(&mut found).await?;
+    }
+    bench.on_cluster(&mut found).await?;
+    Ok(found)
+}
+
+impl Bench<'_> {
+    async fn fit(&self, to: &str, settings: &FitSettings) -> Result<(), PlantError> {
+        let to = self.at.below(to)?;
+        fit(self.data.store.clone(), to, settings, &|_| ())
+            .await
+            .map(|_| ())
+    }
+
+    async fn embedded(&self, found: &mut Figures) -> Result<(), PlantError> {
+        let commits = self.data.partitions().await?;
+        let files = || commits.iter().flat_map(|(_, commit)| &commit.files);
+        found.rows = files().map(|file| file.rows).sum();
+        found.bytes = files().map(|file| file.bytes as u64).sum();
+        (self.told)("plain reading");
+        let spent = Spent::since(&self.resources)?;
+        for file in files() {
+            self.data.store.get(&file.name).await?;
+        }
+        found.plain_bytes_per_s = found.bytes as f64 / spent.wall_s();
+        (self.told)("embedded");
+        let spent = Spent::since(&self.resources)?;
+        self.fit("embedded", &FitSettings::default()).await?;
+        let (wall_s, processor_s) = spent.so_far(&self.resources)?;
+        found.embedded_s = wall_s;
+        found.embedded_per_s = found.rows as f64 / processor_s;
+        found.embedded_bytes_per_s = found.bytes as f64 / processor_s;
+        found.embedded_peak_bytes = self.resources.peak_bytes()?;
+        Ok(())
+    }
+
+    async fn in_memory(&self, found: &mut Figures) -> Result<(), PlantError> {
+        (self.told)("in memory");
+        let study = self.data.study()?;
+        let prepared = in_one_batch(&self.data).await?;
+        let rates = || in_memory_rates(&study, &prepared);
+        let (identified, fitted) = tokio::task::block_in_place(rates)?;
         found.identified_in_memory_per_s = Some(identified);
         found.fitted_in_memory_per_s = Some(fitted);
+        Ok(())
     }
-    told(&format!("{rows} rows: one worker"));
-    let cluster = Cluster::start().await?;
-    let first = cluster.worker().await?;
-    let on_cluster = FitSettings {
-        engine: Engine::Cluster {
-            address: cluster.address(),
-            parts: 8,
-        },
-        ..FitSettings::default()
-    };
-    let spent = Spent::since(&resources)?;
-    fit(at("data")?, at("one")?, &on_cluster, &|_| ()).await?;
-    found.one_worker_s = spent.wall_s();
-    told(&format!("{rows} rows: two workers"));
-    let second = cluster.worker().await?;
-    let spent = Spent::since(&resources)?;
-    fit(at("data")?, at("two")?, &on_cluster, &|_| ()).await?;
-    found.two_workers_s = spent.wall_s();
-    found.worker_peak_bytes = first.peak_bytes()?.max(second.peak_bytes()?);
-    told(&format!("{rows} rows: two workers, of which one is killed"));
-    let halfway = Duration::from_secs_f64(0.5 * found.two_workers_s);
-    let death = tokio::spawn(async move {
-        tokio::time::sleep(halfway).await;
-        drop(second);
-    });
-    let spent = Spent::since(&resources)?;
-    let mut fitted = fit(at("data")?, at("death")?, &on_cluster, &|_| ()).await;
-    death.await.ok();
-    if let Err(PlantError::Partitions { .. }) = fitted {
-        let resumed = FitSettings {
-            resume: true,
-            ..on_cluster
+
+    async fn on_cluster(&self, found: &mut Figures) -> Result<(), PlantError> {
+        (self.told)("one worker");
+        let cluster = Cluster::start().await?;
+        let first = cluster.worker().await?;
+        let settings = FitSettings {
+            engine: Engine::Cluster {
+                address: cluster.address(),
+                parts: PARTS,
+            },
+            ..FitSettings::default()
         };
-        fitted = fit(at("data")?, at("death")?, &resumed, &|_| ()).await;
+        let spent = Spent::since(&self.resources)?;
+        self.fit("one", &settings).await?;
+        found.one_worker_s = spent.wall_s();
+        (self.told)("two workers");
+        let second = cluster.worker().await?;
+        let spent = Spent::since(&self.resources)?;
+        self.fit("two", &settings).await?;
+        found.two_workers_s = spent.wall_s();
+        found.worker_peak_bytes = first.peak_bytes()?.max(second.peak_bytes()?);
+        (self.told)("two workers, of which one is killed");
+        let halfway = Duration::from_secs_f64(0.5 * found.two_workers_s);
+        let death = tokio::spawn(async move {
+            tokio::time::sleep(halfway).await;
+            drop(second);
+        });
+        let spent = Spent::since(&self.resources)?;
+        let mut fitted = self.fit("death", &settings).await;
+        death.await.ok();
+        if let Err(PlantError::Partitions { .. }) = fitted {
+            let resumed = FitSettings {
+                resume: true,
+                ..settings
+            };
+            fitted = self.fit("death", &resumed).await;
+        }
+        fitted?;
+        found.with_a_death_s = spent.wall_s();
+        let (whole, death) = (self.at.below("embedded")?, self.at.below("death")?);
+        found.lost_or_doubled = differing(&whole, &death).await?;
+        Ok(())
     }
-    fitted?;
-    found.with_a_death_s = spent.wall_s();
-    found.lost_or_doubled = differing(&at("embedded")?, &at("death")?).await?;
-    Ok(found)
 }
 
 /// Partitions whose results differ in a bit, counted by their rows.

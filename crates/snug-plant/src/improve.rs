@@ -10,11 +10,11 @@ mod whole;
 use crate::dataset::{Commit, Dataset};
 use crate::fit::{FitSettings, Fitted, fit_with};
 use crate::partition::{Partition, date_of};
-use crate::pooled::States;
+use crate::pooled::{State, States};
 use crate::watch::{WatchSettings, Watched, watch};
 use crate::{Engine, PlantError, Store};
 use outputs::{Outputs, written};
-use sample::{SampleSize, sample};
+use sample::{Sample, SampleSize, sample};
 use serde::Serialize;
 use shows::where_it_shows;
 use snug_study::{ProgressEvent, Study, Verb, compared_by, diagnose_prepared};
@@ -170,23 +170,8 @@ pub async fn improve(
     let asked = Asked {
         rows,
         partitions: parts.len(),
-        sample: SampleTold {
-            wanted,
-            formula: FORMULA,
-            taken: drawn.prepared.len(),
-            strata: drawn.strata,
-            parts_of_time: drawn.parts_of_time,
-            in_states: drawn.in_states,
-            partitions: drawn.partitions,
-            seed: settings.seed,
-        },
-        stands_out: (states.0.iter())
-            .map(|(tool, state)| StandsOut {
-                tool: tool.clone(),
-                first_day: date_of(state.first),
-                last_day: state.last.map(date_of),
-            })
-            .collect(),
+        sample: SampleTold::of(wanted, &drawn, settings.seed),
+        stands_out: stands_out(&states),
         ladder: rungs.iter().map(|rung| rung.told(&found)).collect(),
         note: NOTE,
     };
@@ -202,6 +187,30 @@ pub async fn improve(
         improved.watched = Some(results(&data, &to, model, settings, &parts, told).await?);
     }
     Ok(improved)
+}
+
+impl SampleTold {
+    fn of(wanted: SampleSize, drawn: &Sample, seed: u64) -> Self {
+        Self {
+            wanted,
+            formula: FORMULA,
+            taken: drawn.prepared.len(),
+            strata: drawn.strata,
+            parts_of_time: drawn.parts_of_time,
+            in_states: drawn.in_states,
+            partitions: drawn.partitions,
+            seed,
+        }
+    }
+}
+
+fn stands_out(states: &States) -> Vec<StandsOut> {
+    let told = |(tool, state): (&String, &State)| StandsOut {
+        tool: tool.clone(),
+        first_day: date_of(state.first),
+        last_day: state.last.map(date_of),
+    };
+    states.0.iter().map(told).collect()
 }
 
 /// What the sample says.

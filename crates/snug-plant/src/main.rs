@@ -2,7 +2,7 @@
 
 mod arguments;
 
-use arguments::{Arguments, Command};
+use arguments::{Arguments, Command, FitOptions};
 use clap::Parser;
 use snug_plant::{Figures, Improved, PlantError, Store, Tables, WatchSettings, Watched};
 use std::io::Write;
@@ -68,29 +68,9 @@ async fn work(command: Command) -> Result<String, PlantError> {
                 done.rows, done.partitions
             ))
         }
-        Command::Fit(options) => {
-            let (data, to) = (Store::open(&options.data)?, Store::open(&options.to)?);
-            let told = |fitted: &snug_plant::Fitted| {
-                let so_far = (fitted.rows, fitted.partitions);
-                writeln!(
-                    std::io::stderr(),
-                    "{} rows of {} partitions",
-                    so_far.0,
-                    so_far.1
-                )
-                .ok();
-            };
-            let done = snug_plant::fit(data, to, &options.settings(), &told).await?;
-            Ok(format!(
-                "{} tightenings of {} partitions have results now; {} partitions were left as they are",
-                done.rows, done.partitions, done.left
-            ))
-        }
+        Command::Fit(options) => fitted(&options).await,
         Command::Improve(options) => {
             let (data, to) = (Store::open(&options.data)?, Store::open(&options.to)?);
-            let hear = |what: &str| {
-                writeln!(std::io::stderr(), "{what}").ok();
-            };
             let done = snug_plant::improve(data, to, &options.settings(), &hear).await?;
             Ok(improved(&done))
         }
@@ -103,9 +83,6 @@ async fn work(command: Command) -> Result<String, PlantError> {
             Ok("the worker has ended".to_owned())
         }
         Command::Bench(options) => {
-            let hear = |what: &str| {
-                writeln!(std::io::stderr(), "{what}").ok();
-            };
             let figures = snug_plant::bench(&options.settings()?, &hear).await?;
             let told: Vec<String> = figures.iter().map(Figures::told).collect();
             Ok(told.join("\n"))
@@ -128,6 +105,26 @@ async fn work(command: Command) -> Result<String, PlantError> {
             Ok(told(&snug_plant::watch(&settings).await?))
         }
     }
+}
+
+/// What is under way, a line each.
+fn hear(what: &str) {
+    writeln!(std::io::stderr(), "{what}").ok();
+}
+
+async fn fitted(options: &FitOptions) -> Result<String, PlantError> {
+    let (data, to) = (Store::open(&options.data)?, Store::open(&options.to)?);
+    let told = |fitted: &snug_plant::Fitted| {
+        hear(&format!(
+            "{} rows of {} partitions",
+            fitted.rows, fitted.partitions
+        ));
+    };
+    let done = snug_plant::fit(data, to, &options.settings(), &told).await?;
+    Ok(format!(
+        "{} tightenings of {} partitions have results now; {} partitions were left as they are",
+        done.rows, done.partitions, done.left
+    ))
 }
 
 /// What an improvement came to: the verdict, the ladder, the tools.

@@ -290,39 +290,8 @@ struct Size {
 
 /// The sizes that rows share, a row a size, or a size and a group, of every rung.
 fn sizes(rungs: &[Rung]) -> Result<Vec<u8>, PlantError> {
-    let mut all: Vec<Size> = Vec::new();
-    for (number, rung) in (0..).zip(rungs) {
-        let Ok(fit) = &rung.fit else { continue };
-        for (place, shared) in rung.shared.iter().enumerate() {
-            let differs = fit.held.sharing.differs[place];
-            for group in fit.groups.iter().take(if differs { usize::MAX } else { 1 }) {
-                let own = group
-                    .name
-                    .as_ref()
-                    .and_then(|name| fit.held.groups.get(name));
-                let value = own.unwrap_or(&fit.held.all)[place];
-                let factor = fit.held.sharing.factor.as_ref().filter(|_| differs);
-                all.push(Size {
-                    rung: number,
-                    name: shared.name.clone(),
-                    factor: factor.map(|factor| match factor {
-                        Factor::File => PLACE.to_owned(),
-                        other => other.to_string(),
-                    }),
-                    group: group.name.clone().filter(|_| differs),
-                    rows: if differs {
-                        group.members
-                    } else {
-                        fit.totals.members
-                    },
-                    value,
-                    error: group.errors[place],
-                    interval: interval(value, group.errors[place], fit),
-                });
-            }
-        }
-    }
     use DataType::{Float64, UInt32, Utf8};
+    let all = size_rows(rungs);
     let each = || all.iter();
     let rung = each().map(|one| Some(one.rung)).collect::<UInt32Array>();
     table(
@@ -384,4 +353,40 @@ fn sizes(rungs: &[Rung]) -> Result<Vec<u8>, PlantError> {
             ),
         ],
     )
+}
+
+fn size_rows(rungs: &[Rung]) -> Vec<Size> {
+    let mut all: Vec<Size> = Vec::new();
+    for (number, rung) in (0..).zip(rungs) {
+        let Ok(fit) = &rung.fit else { continue };
+        for (place, shared) in rung.shared.iter().enumerate() {
+            let differs = fit.held.sharing.differs[place];
+            for group in fit.groups.iter().take(if differs { usize::MAX } else { 1 }) {
+                let own = group
+                    .name
+                    .as_ref()
+                    .and_then(|name| fit.held.groups.get(name));
+                let value = own.unwrap_or(&fit.held.all)[place];
+                let factor = fit.held.sharing.factor.as_ref().filter(|_| differs);
+                all.push(Size {
+                    rung: number,
+                    name: shared.name.clone(),
+                    factor: factor.map(|factor| match factor {
+                        Factor::File => PLACE.to_owned(),
+                        other => other.to_string(),
+                    }),
+                    group: group.name.clone().filter(|_| differs),
+                    rows: if differs {
+                        group.members
+                    } else {
+                        fit.totals.members
+                    },
+                    value,
+                    error: group.errors[place],
+                    interval: interval(value, group.errors[place], fit),
+                });
+            }
+        }
+    }
+    all
 }

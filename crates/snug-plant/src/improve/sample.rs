@@ -94,9 +94,8 @@ pub async fn sample(
         strata(parts, &times, &is_in),
         strata(parts, &times, &|part| !is_in(part)),
     );
-    let room = |strata: &[Vec<(usize, usize)>]| -> usize {
-        strata.iter().flatten().map(|(_, rows)| rows).sum()
-    };
+    let room =
+        |strata: &[Stratum]| -> usize { strata.iter().flatten().map(|(_, rows)| rows).sum() };
     let half = (WHERE_IT_SHOWS * wanted as f64) as usize;
     let in_states = (half.max(wanted.saturating_sub(room(&elsewhere)))).min(room(&there));
     let mut wanted_of = first_stage(&there, in_states);
@@ -138,6 +137,9 @@ pub async fn sample(
     })
 }
 
+/// Partitions by their places in the list of all, with their rows.
+type Stratum = Vec<(usize, usize)>;
+
 /// Partitions that a sample is drawn from, and how many rows of each.
 type Taken<'a> = [(&'a Partition, &'a Commit, usize)];
 
@@ -149,7 +151,7 @@ async fn drawn(data: &Dataset, taken: &Taken<'_>, seed: u64) -> Result<RecordBat
     let all = rows_of(&session, urls, &schema::tightenings()).await?;
     let who = ["key", "day", "tool", "joint", "participant"].map(named);
     let who = all.clone().select(who.to_vec())?.collect().await?;
-    let keys = second_stage(&who, &taken, seed)?;
+    let keys = second_stage(&who, taken, seed)?;
     let wanted_keys = keys.into_iter().map(lit).collect();
     let rows = all
         .filter(named("key").in_list(wanted_keys, false))?
@@ -188,8 +190,8 @@ fn strata(
     parts: &[(Partition, Commit)],
     times: &[i32],
     wanted: &dyn Fn(&Partition) -> bool,
-) -> Vec<Vec<(usize, usize)>> {
-    let mut strata: BTreeMap<(&str, Option<usize>), Vec<(usize, usize)>> = BTreeMap::new();
+) -> Vec<Stratum> {
+    let mut strata: BTreeMap<(&str, Option<usize>), Stratum> = BTreeMap::new();
     for (index, (part, commit)) in parts.iter().enumerate() {
         let time = (part.days()).map(|day| times.partition_point(|last| *last < day));
         if wanted(part) {
@@ -202,7 +204,7 @@ fn strata(
 
 /// How many rows are taken of which partition: of every stratum as many pairs, evenly spread over its partitions; where one has too few,
 /// the others have more.
-fn first_stage(strata: &[Vec<(usize, usize)>], wanted: usize) -> BTreeMap<usize, usize> {
+fn first_stage(strata: &[Stratum], wanted: usize) -> BTreeMap<usize, usize> {
     let room: Vec<usize> = strata
         .iter()
         .map(|parts| parts.iter().map(|(_, rows)| rows).sum())

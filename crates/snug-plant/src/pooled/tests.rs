@@ -93,7 +93,12 @@ async fn dataset(folder: &std::path::Path, all: &[Tightening]) -> Dataset {
         let rows: Vec<Row> = some.iter().map(row).collect();
         let rows = batch(&part, &rows).unwrap();
         let file = data
-            .write("tightenings", &part, &rows.schema(), &[rows.clone()])
+            .write(
+                "tightenings",
+                &part,
+                &rows.schema(),
+                std::slice::from_ref(&rows),
+            )
             .await;
         let commit = Commit {
             files: vec![file.unwrap()],
