@@ -11,7 +11,7 @@ mod sum;
 mod tests;
 mod thresholds;
 
-pub(crate) use fit::{PooledOverAll, pooled_over_all};
+pub(crate) use fit::{GroupErrors, PooledOverAll, pooled_over_all};
 pub(crate) use function::{block_function, group_function};
 pub(crate) use pass::Pass;
 pub(crate) use question::{Held, Sharing, State, States, Totals};

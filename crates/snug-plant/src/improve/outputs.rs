@@ -2,7 +2,7 @@
 
 use super::whole::Rung;
 use super::{Asked, Improved};
-use crate::pooled::PooledOverAll;
+use crate::pooled::{GroupErrors, PooledOverAll};
 use crate::{PlantError, Store, parquet_file};
 use arrow::array::{ArrayRef, BooleanArray, Float64Array, RecordBatch, StringArray, UInt32Array};
 use arrow::datatypes::{DataType, Field};
@@ -52,6 +52,7 @@ pub(super) async fn written(
         if let Some(rung) = outputs.rungs.last()
             && let Ok(fit) = &rung.fit
         {
+            let smallest_gain = last.diagnosis.search.smallest_gain_at_noise;
             let parameters = diagnosis
                 .added
                 .iter_mut()
@@ -59,7 +60,7 @@ pub(super) async fn written(
             for parameter in parameters {
                 let mut names = rung.shared.iter();
                 if let Some(place) = names.position(|one| one.name == parameter.name) {
-                    take(parameter, fit, place);
+                    take(parameter, fit, place, smallest_gain);
                 }
             }
             hold(&mut last, rung, fit);
@@ -111,8 +112,28 @@ fn interval(value: f64, error: Option<f64>, fit: &PooledOverAll) -> Option<Inter
     })
 }
 
+/// The groups that have an effect: told from nothing with so few false discoveries over the groups, and enough to matter. Of very many
+/// rows what nobody could feel is told from nothing, too.
+fn present(fit: &PooledOverAll, place: usize, smallest_gain: f64) -> Vec<String> {
+    let chance = |group: &GroupErrors| {
+        let own = group
+            .name
+            .as_ref()
+            .and_then(|name| fit.held.groups.get(name));
+        let value = own.unwrap_or(&fit.held.all)[place];
+        let freedom = (group.members - 1.0).max(1.0);
+        group.errors[place].map_or(1.0, |error| student_t_two_sided(value / error, freedom))
+    };
+    let chances: Vec<f64> = fit.groups.iter().map(chance).collect();
+    let adjusted = benjamini_hochberg(&chances).unwrap_or_default();
+    (fit.groups.iter().zip(adjusted))
+        .filter(|(group, p)| *p <= FALSE_DISCOVERIES && group.shares[place] >= smallest_gain)
+        .filter_map(|(group, _)| group.name.clone())
+        .collect()
+}
+
 /// A parameter as all rows put it.
-fn take(parameter: &mut EffectParameter, fit: &PooledOverAll, place: usize) {
+fn take(parameter: &mut EffectParameter, fit: &PooledOverAll, place: usize, smallest_gain: f64) {
     let value = |name: &Option<String>| {
         let own = name.as_ref().and_then(|name| fit.held.groups.get(name));
         own.unwrap_or(&fit.held.all)[place]
@@ -133,14 +154,9 @@ fn take(parameter: &mut EffectParameter, fit: &PooledOverAll, place: usize) {
             })
         });
         sizes.groups = told.collect();
-        let chance = |one: &GroupSize| {
-            let error = one.standard_error.filter(|error| *error > 0.0);
-            let freedom = (one.tightenings as f64 - 1.0).max(1.0);
-            error.map_or(1.0, |error| student_t_two_sided(one.value / error, freedom))
-        };
-        let adjusted = benjamini_hochberg(&sizes.groups.iter().map(chance).collect::<Vec<_>>());
-        for (group, p) in sizes.groups.iter_mut().zip(adjusted.unwrap_or_default()) {
-            group.present = p <= FALSE_DISCOVERIES;
+        let present = present(fit, place, smallest_gain);
+        for group in &mut sizes.groups {
+            group.present = present.contains(&group.group);
         }
         let values: Vec<f64> = sizes.groups.iter().map(|one| one.value).collect();
         parameter.value = mean(&values).unwrap_or(parameter.value);
@@ -285,6 +301,7 @@ struct Size {
     rows: f64,
     value: f64,
     error: Option<f64>,
+    share: f64,
     interval: Option<Interval>,
 }
 
@@ -340,6 +357,12 @@ fn sizes(rungs: &[Rung]) -> Result<Vec<u8>, PlantError> {
                 numbers(each().map(|one| one.error)),
             ),
             (
+                "share",
+                Float64,
+                "by what share of these rows' squared residual it would rise without this size",
+                numbers(each().map(|one| Some(one.share))),
+            ),
+            (
                 "low",
                 Float64,
                 "lower end of the 95 % interval",
@@ -383,6 +406,7 @@ fn size_rows(rungs: &[Rung]) -> Vec<Size> {
                     },
                     value,
                     error: group.errors[place],
+                    share: group.shares[place],
                     interval: interval(value, group.errors[place], fit),
                 });
             }

@@ -40,6 +40,8 @@ pub(crate) struct GroupErrors {
     pub members: f64,
     /// In the order of the model's shared parameters; `None` on a bound, and where nothing is known.
     pub errors: Vec<Option<f64>>,
+    /// By what share of the group's squared residual a size would raise that if it were nothing, likewise.
+    pub shares: Vec<f64>,
 }
 
 impl PooledOverAll {
@@ -158,12 +160,24 @@ fn ended(
     let errors = errors(&here.local, totals.members);
     let is_inside =
         |place: usize| here.at[place] > bounds[place].0 && here.at[place] < bounds[place].1;
-    let groups = (layout.groups.iter().enumerate()).map(|(group, name)| GroupErrors {
-        name: name.clone(),
-        members: here.said.get(name).map_or(0.0, |said| said.members),
-        errors: (layout.places(group).into_iter())
-            .map(|place| errors[place].filter(|error| is_inside(place) && *error > 0.0))
-            .collect(),
+    let groups = (layout.groups.iter().enumerate()).map(|(group, name)| {
+        let places = layout.places(group);
+        let said = here.said.get(name);
+        let removed = |(column, &place): (usize, &usize)| {
+            let said = said.filter(|said| said.cost > 0.0)?;
+            let information = said.curvature[column * places.len() + column];
+            Some(here.at[place].powi(2) * information / (2.0 * said.cost))
+        };
+        GroupErrors {
+            name: name.clone(),
+            members: said.map_or(0.0, |said| said.members),
+            errors: (places.iter())
+                .map(|&place| errors[place].filter(|error| is_inside(place) && *error > 0.0))
+                .collect(),
+            shares: (places.iter().enumerate())
+                .map(|one| removed(one).unwrap_or(0.0))
+                .collect(),
+        }
     });
     PooledOverAll {
         groups: groups.collect(),

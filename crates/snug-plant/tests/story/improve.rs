@@ -68,6 +68,15 @@ async fn an_effect_of_three_tools_is_named_sized_and_dated() {
     assert_eq!(verdict["added"][0]["effect"], "cubic_stiffness");
     assert_eq!(verdict["ladder"][1]["error_over_noise"], errors[1]);
     assert_eq!(verdict["plant"]["ladder"][1]["rows"], 600.0);
+    let groups = &verdict["added"][0]["parameters"][0]["by_group"]["groups"];
+    let present = groups
+        .as_array()
+        .unwrap()
+        .iter()
+        .filter(|one| one["present"] == true);
+    let present: Vec<&str> = present.filter_map(|one| one["group"].as_str()).collect();
+    let since = |tool: &str| format!("{tool} since 2026-03-05");
+    assert_eq!(present, ["T0003", "T0007", "T0010"].map(since));
     let report = fs::read_to_string(plant.path("out/report.html")).unwrap();
     assert!(report.contains("cubic stiffness"));
     // Of three states and twelve tools each has a size of its own: there where it came, nothing elsewhere.
