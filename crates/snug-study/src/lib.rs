@@ -13,7 +13,6 @@ mod init;
 mod output;
 mod position;
 mod prepared;
-mod prepared_diagnosis;
 mod prepared_file;
 mod progress;
 mod recover;
@@ -35,9 +34,6 @@ pub use diagnosis::{DiagnosisSettings, Verb, diagnose};
 pub use error::StudyError;
 pub use init::{Draft, DraftColumn, draft, write_draft};
 pub use prepared::{Prepared, prepare};
-pub use prepared_diagnosis::{
-    Compared, PreparedDiagnosis, compared_by, diagnose_prepared, shared_blocks, shared_parameters,
-};
 pub use progress::ProgressEvent;
 pub use recover::{Recovered, recover};
 pub use rewriting::{rewrite_effects, write_with_effects};
@@ -45,6 +41,9 @@ pub use run::{Outcome, RunSettings, run};
 pub use selection::SelectionSettings;
 pub use snug_preprocess::Preset;
 pub use study::Study;
+pub use tightenings::diagnosed::{
+    Compared, PreparedDiagnosis, compared_by, diagnose_prepared, shared_blocks, shared_parameters,
+};
 pub use tightenings::{
     FileTightenings, FittedTightening, fit_tightenings, fitted_files, read_tightenings, settled,
 };

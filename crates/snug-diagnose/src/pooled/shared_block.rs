@@ -11,7 +11,8 @@ use snug_identify::{FitTask, identify_all};
 use snug_least_squares::{Linearization, PooledResidual, Trial, profile_of};
 use snug_model::{Effect, Model};
 
-/// What one tightening says of the shared sizes; p of them, in the order of [`shared_parameters`].
+/// What one tightening says of the shared sizes; p of them, in the order of [`shared_parameters`]. Squared residuals have no unit, or the
+/// output's squared where the noise is not known; derivatives are by each size in the unit that its name says.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SharedBlock {
     /// Whitened residuals.
@@ -26,7 +27,7 @@ pub struct SharedBlock {
     pub curvature: Vec<f64>,
 }
 
-/// A size that tightenings share.
+/// A size that tightenings share; its numbers are in the unit that its name says.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SharedParameter {
     /// Its name, with unit suffix.

@@ -310,7 +310,6 @@ fn sizes(rungs: &[Rung]) -> Result<Vec<u8>, PlantError> {
     use DataType::{Float64, UInt32, Utf8};
     let all = size_rows(rungs);
     let each = || all.iter();
-    let rung = each().map(|one| Some(one.rung)).collect::<UInt32Array>();
     table(
         "sizes",
         vec![
@@ -318,7 +317,7 @@ fn sizes(rungs: &[Rung]) -> Result<Vec<u8>, PlantError> {
                 "rung",
                 UInt32,
                 "of the ladder; 0 is the model at first",
-                Arc::new(rung),
+                Arc::new(each().map(|one| Some(one.rung)).collect::<UInt32Array>()),
             ),
             (
                 "parameter",

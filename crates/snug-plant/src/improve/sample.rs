@@ -21,7 +21,7 @@ use snug_preprocess::Prepared;
 use snug_statistics::distributions::student_t_quantile;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Why a sample has the size it has.
+/// Why a sample has the size it has; its numbers have no unit.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SampleSize {
     /// Smallest share of the tightenings that have an effect which must not be missed.

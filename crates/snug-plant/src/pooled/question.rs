@@ -81,7 +81,8 @@ impl Held {
     }
 }
 
-/// What rows add up: one list a row, and their sums.
+/// What rows add up: one list a row, and their sums. Counts and squared residuals have no unit (the output's squared where the noise is
+/// not known); derivatives are by each size in the unit that its name says.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Totals {
     /// Rows, those that take no part among them.

@@ -12,7 +12,7 @@ pub struct Layout {
     pub groups: Vec<Option<String>>,
 }
 
-/// What all rows say of the unknowns.
+/// What all rows say of the unknowns, each in the unit that its size's name says; squared residuals have no unit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Local {
     /// Σ ½‖r‖².

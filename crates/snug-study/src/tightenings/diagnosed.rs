@@ -81,7 +81,10 @@ pub fn diagnose_prepared(
 /// # Errors
 /// [`StudyError`] where none can be.
 pub fn compared_by(study: &Study, prepared: &[Prepared]) -> Result<Compared, StudyError> {
-    common(&comparable(cases_of(study, prepared)?).cases, prepared.len())
+    common(
+        &comparable(cases_of(study, prepared)?).cases,
+        prepared.len(),
+    )
 }
 
 fn cases_of(study: &Study, prepared: &[Prepared]) -> Result<Vec<FitTask<'static>>, StudyError> {
