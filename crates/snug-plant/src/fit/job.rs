@@ -3,7 +3,7 @@
 use super::columns;
 use super::function::{TAKEN, function};
 use crate::dataset::{Commit, Dataset};
-use crate::engine::{Engine, rows_of};
+use crate::engine::{Engine, answered, rows_of};
 use crate::partition::{Partition, of_row};
 use crate::schema::{self, IDENTITY};
 use crate::{PlantError, Store};
@@ -200,7 +200,8 @@ impl Work<'_> {
         taken.extend(TAKEN.fields().iter().map(|field| named(field.name())));
         let mut wanted: Vec<Expr> = IDENTITY.iter().map(|(name, ..)| named(name)).collect();
         wanted.push(function().call(taken).alias("fit"));
-        let batches = rows.select(wanted)?.collect().await?;
+        let count = parts.iter().map(|(_, commit)| commit.rows()).sum();
+        let batches = answered(rows.select(wanted)?, count).await?;
         let flat: Vec<RecordBatch> = (batches.iter())
             .map(|batch| flattened(batch, &self.schema))
             .collect::<Result<_, _>>()?;

@@ -5,7 +5,7 @@ use super::question::{Held, Totals};
 use super::sum::sum_function;
 use crate::PlantError;
 use crate::dataset::{Commit, Dataset};
-use crate::engine::rows_of;
+use crate::engine::{answered, rows_of};
 use crate::fit::{jobs, reason};
 use crate::partition::{Partition, of_row};
 use crate::schema;
@@ -133,7 +133,8 @@ impl Pass<'_> {
         ])?;
         let by = vec![named("day"), named("tool"), named("sharing")];
         let sums = vec![sum_function().call(vec![named("said")]).alias("sums")];
-        let batches = said.aggregate(by, sums)?.collect().await?;
+        let count = job.iter().map(|(_, commit)| commit.rows()).sum();
+        let batches = answered(said.aggregate(by, sums)?, count).await?;
         let mut found = Found::new();
         for batch in &batches {
             read(batch, held.all.len(), &mut found)?;
