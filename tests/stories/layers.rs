@@ -63,7 +63,9 @@ const ALLOWED: &[(&str, &[&str])] = &[
         "snug-plant",
         &[
             "snug-campaign",
+            "snug-diagnose",
             "snug-identify",
+            "snug-least-squares",
             "snug-model",
             "snug-preprocess",
             "snug-report",

@@ -51,7 +51,7 @@ pub enum Chore {
     },
     /// How fast Snug is beside bare loops and other programs, in one table.
     Bench {
-        /// Sections, for example base or effects; default all of the engine. By its name only: workbench (clicks in a browser).
+        /// Sections, for example base or effects; default all of the engine. By their names only: workbench (clicks in a browser), plant.
         sections: Vec<String>,
         /// Also what takes minutes: 2687 tightenings, a day's clicks.
         #[arg(long)]

@@ -16,6 +16,7 @@ pub(crate) mod one_machine;
 pub(crate) mod parameter_place;
 mod part;
 mod residual;
+pub(crate) mod shared_block;
 pub(crate) mod sharing;
 pub(crate) mod sizes;
 pub(crate) mod thresholds;

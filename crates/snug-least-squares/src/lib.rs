@@ -10,6 +10,7 @@ mod uncertainty;
 
 pub use conic::constraints::{Affine, Constraints};
 pub use error::{EvaluationError, SolveError};
+pub use pooled_fit::member::profile_of;
 pub use pooled_fit::problem::{
     PooledFit, PooledResidual, PooledSettings, PooledStep, Profile, Trial,
 };

@@ -3,7 +3,8 @@
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 use snug_campaign::words::program;
 use snug_plant::{
-    CLUSTER_PARTS, Engine, FitSettings, Naming, PlantError, Simulation, WorkerSettings,
+    BenchSettings, CLUSTER_PARTS, Engine, FitSettings, ImproveSettings, Naming, PlantError,
+    Simulation, Store, WorkerSettings,
 };
 use snug_study::Study;
 use std::net::{IpAddr, SocketAddr};
@@ -47,10 +48,14 @@ pub enum Command {
     Simulate(SimulateOptions),
     /// Fits every row; results as Parquet.
     Fit(FitOptions),
-    /// The engine's scheduler, with Snug's function registered.
+    /// What is missing, learnt from a sample; how large it is, from all rows; which tools have it, and since when.
+    Improve(ImproveOptions),
+    /// The engine's scheduler, with Snug's functions registered.
     Scheduler(SchedulerOptions),
-    /// One of the engine's workers, with Snug's function registered.
+    /// One of the engine's workers, with Snug's functions registered.
     Worker(WorkerOptions),
+    /// Measures what the engine costs: beside the same in memory, plain reading, workers, memory, a worker's death.
+    Bench(BenchOptions),
     /// Asks a dataset and results: tables tightenings, findings, results.
     Sql(SqlOptions),
     /// What changed, when, in which tools; which differ from their sisters. Tables, JSON and a page.
@@ -173,6 +178,71 @@ pub struct FitOptions {
     /// Effects beside the study's own.
     #[arg(long, value_delimiter = ',', value_name = "EFFECT,…")]
     effects: Vec<String>,
+    #[command(flatten)]
+    engine: EngineOptions,
+}
+
+impl FitOptions {
+    /// How the dataset is fitted.
+    pub fn settings(&self) -> FitSettings {
+        let usual = FitSettings::default();
+        FitSettings {
+            effects: self.effects.clone(),
+            engine: self.engine.engine(),
+            resume: self.engine.resume,
+            rows_per_job: self.engine.rows_per_job.unwrap_or(usual.rows_per_job),
+        }
+    }
+}
+
+/// Of `improve`.
+#[derive(Debug, Args)]
+pub struct ImproveOptions {
+    /// The dataset.
+    #[arg(long, value_name = "URL")]
+    pub data: String,
+    /// Where verdict.json, report.html, study.ron, tables, results and what is watched of them go.
+    #[arg(long, value_name = "URL")]
+    pub to: String,
+    /// Effects with which the model begins, beside the study's own.
+    #[arg(long, value_delimiter = ',', value_name = "EFFECT,…")]
+    effects: Vec<String>,
+    /// Probability with which an effect that --share of the tightenings have is not missed.
+    #[arg(long, default_value_t = 0.9)]
+    power: f64,
+    /// Smallest share of the tightenings that have an effect which must not be missed.
+    #[arg(long, default_value_t = 0.1)]
+    share: f64,
+    /// What decides which rows are in the sample, and everything random in the ranking.
+    #[arg(long, default_value_t = 0)]
+    seed: u64,
+    /// Only what all rows share: no fit of every row, and nothing watched.
+    #[arg(long)]
+    no_results: bool,
+    #[command(flatten)]
+    engine: EngineOptions,
+}
+
+impl ImproveOptions {
+    /// How the dataset is improved on.
+    pub fn settings(&self) -> ImproveSettings {
+        let usual = ImproveSettings::default();
+        ImproveSettings {
+            effects: self.effects.clone(),
+            power: self.power,
+            share: self.share,
+            seed: self.seed,
+            engine: self.engine.engine(),
+            rows_per_job: self.engine.rows_per_job.unwrap_or(usual.rows_per_job),
+            results: !self.no_results,
+            resume: self.engine.resume,
+        }
+    }
+}
+
+/// Where the work is done, and how it is cut.
+#[derive(Debug, Args)]
+pub struct EngineOptions {
     /// Scheduler of a cluster; without it, this process does everything.
     #[arg(long, value_name = "HOST:PORT")]
     cluster: Option<String>,
@@ -187,22 +257,14 @@ pub struct FitOptions {
     rows_per_job: Option<usize>,
 }
 
-impl FitOptions {
-    /// How the dataset is fitted.
-    pub fn settings(&self) -> FitSettings {
-        let engine = match &self.cluster {
+impl EngineOptions {
+    fn engine(&self) -> Engine {
+        match &self.cluster {
             Some(address) => Engine::Cluster {
                 address: address.clone(),
                 parts: self.parts,
             },
             None => Engine::Embedded,
-        };
-        let usual = FitSettings::default();
-        FitSettings {
-            effects: self.effects.clone(),
-            engine,
-            resume: self.resume,
-            rows_per_job: self.rows_per_job.unwrap_or(usual.rows_per_job),
         }
     }
 }
@@ -249,6 +311,31 @@ impl WorkerOptions {
             cores: self.cores,
             work_dir: self.work_dir.clone(),
         }
+    }
+}
+
+/// Of `bench`.
+#[derive(Debug, Args)]
+pub struct BenchOptions {
+    /// Rows of each dataset that is made; the first is also fitted in memory.
+    #[arg(long, value_delimiter = ',', value_name = "N,…", default_values_t = [10_000, 100_000])]
+    rows: Vec<usize>,
+    /// Samples per second; windows are 0.3 s long.
+    #[arg(long, value_name = "HZ", default_value_t = 2000.0)]
+    rate: f64,
+    /// Where datasets and results go; datasets that are there are taken.
+    #[arg(long, value_name = "URL", default_value = "out/plant-bench")]
+    to: String,
+}
+
+impl BenchOptions {
+    /// What is measured.
+    pub fn settings(&self) -> Result<BenchSettings, PlantError> {
+        Ok(BenchSettings {
+            rows: self.rows.clone(),
+            sample_rate_hz: self.rate,
+            to: Store::open(&self.to)?,
+        })
     }
 }
 

@@ -1,7 +1,8 @@
-//! The engine's own processes, with Snug's function registered: a scheduler and as many workers as wanted.
+//! The engine's own processes, with Snug's functions registered: a scheduler and as many workers as wanted.
 
 use crate::PlantError;
-use crate::fit::function::{NAME, function};
+use crate::engine::scalar_functions;
+use crate::pooled::sum_function;
 use ballista_core::registry::BallistaFunctionRegistry;
 use ballista_executor::executor_process::{ExecutorProcessConfig, start_executor_process};
 use ballista_scheduler::cluster::BallistaCluster;
@@ -40,7 +41,10 @@ fn state(config: SessionConfig) -> datafusion::error::Result<SessionState> {
         .with_config(config)
         .with_default_features()
         .build();
-    state.register_udf(Arc::new(function()))?;
+    for one in scalar_functions() {
+        state.register_udf(Arc::new(one))?;
+    }
+    state.register_udaf(Arc::new(sum_function()))?;
     Ok(state)
 }
 
@@ -74,9 +78,13 @@ pub async fn scheduler(address: SocketAddr) -> Result<(), PlantError> {
 /// [`PlantError::Cluster`] where it cannot be bound, or finds no scheduler.
 pub async fn worker(settings: &WorkerSettings) -> Result<(), PlantError> {
     let mut registry = BallistaFunctionRegistry::default();
-    registry
-        .scalar_functions
-        .insert(NAME.to_owned(), Arc::new(function()));
+    for one in scalar_functions() {
+        let name = one.name().to_owned();
+        registry.scalar_functions.insert(name, Arc::new(one));
+    }
+    let sum = sum_function();
+    let name = sum.name().to_owned();
+    registry.aggregate_functions.insert(name, Arc::new(sum));
     let mut config = ExecutorProcessConfig {
         bind_host: settings.bind.to_string(),
         external_host: Some(settings.bind.to_string()),

@@ -1,13 +1,18 @@
 //! The engine: DataFusion in this process on all cores, or the same plans on a Ballista cluster.
 
 use crate::fit::function::function;
+use crate::pooled::{block_function, group_function, sum_function};
 use crate::{PlantError, Store};
+use arrow::array::RecordBatch;
 use ballista::prelude::{SessionConfigExt, SessionContextExt};
+use datafusion::common::DataFusionError;
 use datafusion::dataframe::DataFrame;
 use datafusion::datasource::file_format::options::ParquetReadOptions;
 use datafusion::execution::SessionStateBuilder;
+use datafusion::logical_expr::ScalarUDF;
 use datafusion::prelude::{SessionConfig, SessionContext};
 use std::thread::available_parallelism;
+use std::time::Duration;
 
 /// Rows that an operator hands on at a time: four batches of side-by-side fits, some 3 MB of signals.
 const ROWS_AT_ONCE: usize = 64;
@@ -34,7 +39,7 @@ pub enum Engine {
 }
 
 impl Engine {
-    /// A session that knows Snug's function and reads `stores`.
+    /// A session that knows Snug's functions and reads `stores`.
     ///
     /// # Errors
     /// [`PlantError::Cluster`] where no scheduler can be spoken to.
@@ -59,8 +64,11 @@ impl Engine {
                 })?
             }
         };
-        // A connected session has forgotten what its state knew: the function is told to it afterwards.
-        session.register_udf(function());
+        // A connected session has forgotten what its state knew: the functions are told to it afterwards.
+        scalar_functions()
+            .into_iter()
+            .for_each(|one| session.register_udf(one));
+        session.register_udaf(sum_function());
         register(&session, stores);
         Ok(session)
     }
@@ -73,6 +81,11 @@ pub(crate) fn reading_session(stores: &[&Store]) -> SessionContext {
     let session = SessionContext::new_with_config(config);
     register(&session, stores);
     session
+}
+
+/// Snug's functions of single rows.
+pub(crate) fn scalar_functions() -> [ScalarUDF; 3] {
+    [function(), block_function(), group_function()]
 }
 
 fn register(session: &SessionContext, stores: &[&Store]) {
@@ -105,4 +118,29 @@ pub(crate) async fn rows_of(
 ) -> Result<DataFrame, PlantError> {
     let options = ParquetReadOptions::default().schema(schema);
     Ok(session.read_parquet(urls, options).await?)
+}
+
+/// A job that has not ended after this time, and so much for each of its rows, is given up \[s\]. A scheduler that loses a worker in the
+/// instant in which it hands it work may wait for ever; a row takes 0.08 s with an effect that is tried from several starts.
+const GIVEN_UP_AFTER_S: f64 = 60.0;
+/// See [`GIVEN_UP_AFTER_S`].
+const GIVEN_UP_AFTER_S_PER_ROW: f64 = 1.0;
+
+/// What a job over so many rows answers.
+///
+/// # Errors
+/// [`PlantError::Engine`], also where it does not end.
+pub(crate) async fn answered(
+    frame: DataFrame,
+    rows: usize,
+) -> Result<Vec<RecordBatch>, PlantError> {
+    let longest_s = GIVEN_UP_AFTER_S + GIVEN_UP_AFTER_S_PER_ROW * rows as f64;
+    let longest = Duration::from_secs_f64(longest_s);
+    match tokio::time::timeout(longest, frame.collect()).await {
+        Ok(answer) => Ok(answer?),
+        Err(_) => {
+            let text = format!("the job did not end within {longest_s:.0} s and was given up");
+            Err(DataFusionError::Execution(text).into())
+        }
+    }
 }

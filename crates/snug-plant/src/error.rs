@@ -122,6 +122,24 @@ pub enum PlantError {
         /// How many were to be done.
         partitions: usize,
     },
+    /// Some partitions could not be asked, so that a sum over all rows is none.
+    #[error("{}", not_asked(failed, *partitions))]
+    Pass {
+        /// Each with its reason.
+        failed: Vec<(String, String)>,
+        /// How many were to be asked.
+        partitions: usize,
+    },
+    /// Rows that were lost or came twice.
+    #[error("{partition}: {stored} rows are stored, {came} came back")]
+    Rows {
+        /// The partition.
+        partition: String,
+        /// Rows that its marker names.
+        stored: usize,
+        /// Rows that were counted.
+        came: usize,
+    },
     /// Simulated tightenings that cannot be made.
     #[error(transparent)]
     Synthetic(#[from] snug_synthetic::SyntheticError),
@@ -134,10 +152,22 @@ pub enum PlantError {
 }
 
 fn told(failed: &[(String, String)], partitions: usize) -> String {
-    let mut text = format!(
-        "{} of {partitions} partitions failed and have no results; all others are whole, and `--resume` does only these:",
-        failed.len()
+    let count = failed.len();
+    let text = format!(
+        "{count} of {partitions} partitions failed and have no results; all others are whole, and `--resume` does only these:"
     );
+    listed(text, failed)
+}
+
+fn not_asked(failed: &[(String, String)], partitions: usize) -> String {
+    let count = failed.len();
+    let text = format!(
+        "{count} of {partitions} partitions could not be asked, so that the sizes all rows share are not known; nothing was written of them:"
+    );
+    listed(text, failed)
+}
+
+fn listed(mut text: String, failed: &[(String, String)]) -> String {
     for (partition, reason) in failed.iter().take(NAMED) {
         let _ = write!(text, "\n  {partition}: {reason}");
     }

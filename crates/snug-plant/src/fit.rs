@@ -6,3 +6,4 @@ mod job;
 mod outcome;
 
 pub use job::{FitSettings, Fitted, fit};
+pub(crate) use job::{fit_with, jobs, reason};

@@ -1,14 +1,17 @@
 #![doc = include_str!("../README.md")]
 
+mod bench;
 mod cluster;
 mod dataset;
 mod engine;
 mod error;
 mod fit;
 mod import;
+mod improve;
 mod naming;
 mod parquet_file;
 mod partition;
+mod pooled;
 mod rows;
 mod schema;
 mod simulate;
@@ -16,12 +19,14 @@ mod sql;
 mod store;
 mod watch;
 
+pub use bench::{BenchSettings, Figures, bench};
 pub use cluster::{WorkerSettings, scheduler, worker};
 pub use dataset::{Commit, CommittedFile, Dataset, Manifest};
 pub use engine::{CLUSTER_PARTS, Engine};
 pub use error::PlantError;
 pub use fit::{FitSettings, Fitted, fit};
 pub use import::{Imported, import};
+pub use improve::{ImproveSettings, Improved, improve};
 pub use naming::{Named, Naming};
 pub use partition::Partition;
 pub use schema::SCHEMA_VERSION;

@@ -2,8 +2,8 @@
 
 mod arguments;
 
-use arguments::{Arguments, Command};
-use snug_plant::{PlantError, Store, Tables, WatchSettings, Watched};
+use arguments::{Arguments, Command, FitOptions};
+use snug_plant::{Figures, Improved, PlantError, Store, Tables, WatchSettings, Watched};
 use std::io::Write;
 use std::process::ExitCode;
 use tracing_subscriber::EnvFilter;
@@ -67,23 +67,11 @@ async fn work(command: Command) -> Result<String, PlantError> {
                 done.rows, done.partitions
             ))
         }
-        Command::Fit(options) => {
+        Command::Fit(options) => fitted(&options).await,
+        Command::Improve(options) => {
             let (data, to) = (Store::open(&options.data)?, Store::open(&options.to)?);
-            let told = |fitted: &snug_plant::Fitted| {
-                let so_far = (fitted.rows, fitted.partitions);
-                writeln!(
-                    std::io::stderr(),
-                    "{} rows of {} partitions",
-                    so_far.0,
-                    so_far.1
-                )
-                .ok();
-            };
-            let done = snug_plant::fit(data, to, &options.settings(), &told).await?;
-            Ok(format!(
-                "{} tightenings of {} partitions have results now; {} partitions were left as they are",
-                done.rows, done.partitions, done.left
-            ))
+            let done = snug_plant::improve(data, to, &options.settings(), &hear).await?;
+            Ok(improved(&done))
         }
         Command::Scheduler(options) => {
             snug_plant::scheduler(options.bind).await?;
@@ -92,6 +80,11 @@ async fn work(command: Command) -> Result<String, PlantError> {
         Command::Worker(options) => {
             snug_plant::worker(&options.settings()).await?;
             Ok("the worker has ended".to_owned())
+        }
+        Command::Bench(options) => {
+            let figures = snug_plant::bench(&options.settings()?, &hear).await?;
+            let told: Vec<String> = figures.iter().map(Figures::told).collect();
+            Ok(told.join("\n"))
         }
         Command::Sql(options) => {
             let open = |url: &Option<String>| url.as_deref().map(Store::open).transpose();
@@ -111,6 +104,46 @@ async fn work(command: Command) -> Result<String, PlantError> {
             Ok(told(&snug_plant::watch(&settings).await?))
         }
     }
+}
+
+/// What is under way, a line each.
+fn hear(what: &str) {
+    writeln!(std::io::stderr(), "{what}").ok();
+}
+
+async fn fitted(options: &FitOptions) -> Result<String, PlantError> {
+    let (data, to) = (Store::open(&options.data)?, Store::open(&options.to)?);
+    let told = |fitted: &snug_plant::Fitted| {
+        hear(&format!(
+            "{} rows of {} partitions",
+            fitted.rows, fitted.partitions
+        ));
+    };
+    let done = snug_plant::fit(data, to, &options.settings(), &told).await?;
+    Ok(format!(
+        "{} tightenings of {} partitions have results now; {} partitions were left as they are",
+        done.rows, done.partitions, done.left
+    ))
+}
+
+/// What an improvement came to: the verdict, the ladder, the tools.
+fn improved(done: &Improved) -> String {
+    let mut lines = vec![
+        done.headline.clone(),
+        format!(
+            "learnt from {} of {} tightenings; error over noise of all of them:",
+            done.sampled, done.rows
+        ),
+    ];
+    for (effects, error) in &done.ladder {
+        let effects = match effects.is_empty() {
+            true => "the base model".to_owned(),
+            false => effects.join(" + "),
+        };
+        lines.push(format!("  {error:.4} {effects}"));
+    }
+    lines.extend(done.watched.iter().map(told));
+    lines.join("\n")
 }
 
 /// What was found, a line a tool.

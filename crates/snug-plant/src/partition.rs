@@ -1,6 +1,8 @@
 //! The parts of a dataset that are written, replaced and read whole: one tool's tightenings of one day.
 
 use crate::PlantError;
+use arrow::array::{Array, ArrayRef, AsArray};
+use arrow::datatypes::Date32Type;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
@@ -49,6 +51,16 @@ impl Partition {
     pub fn days(&self) -> Option<i32> {
         days_since_1970(&self.day)
     }
+}
+
+/// The partition of a row, by its columns `day` and `tool`.
+pub fn of_row(days: &ArrayRef, tools: &ArrayRef, row: usize) -> Result<Partition, PlantError> {
+    let days = days.as_primitive::<Date32Type>();
+    let day = match days.is_valid(row) {
+        true => date_of(days.value(row)),
+        false => UNKNOWN.to_owned(),
+    };
+    Partition::new(&day, tools.as_string::<i32>().value(row))
 }
 
 /// Refuses what is no name of a folder everywhere.

@@ -4,7 +4,7 @@ mod decode;
 mod encode;
 mod integrals;
 
-pub(crate) use decode::prepared;
+pub(crate) use decode::{conditions, names_of, prepared};
 pub use encode::batch;
 
 use snug_campaign::{Quantity, Tightening};
@@ -30,6 +30,9 @@ impl Row {
     }
 }
 
+/// Values of which the bytes are put side by side for a checksum.
+const VALUES_AT_ONCE: usize = 256;
+
 /// CRC-32 of a tightening's signals.
 pub(crate) fn checksum(tightening: &Tightening) -> u32 {
     let motion = Quantity::ALL.map(|quantity| tightening.motion.get(quantity).unwrap_or(&[]));
@@ -41,11 +44,13 @@ pub(crate) fn checksum(tightening: &Tightening) -> u32 {
         .chain([force])
     {
         hasher.update(&(signal.len() as u64).to_le_bytes());
-        let bytes: Vec<u8> = signal
-            .iter()
-            .flat_map(|value| value.to_le_bytes())
-            .collect();
-        hasher.update(&bytes);
+        for some in signal.chunks(VALUES_AT_ONCE) {
+            let mut bytes = [0; VALUES_AT_ONCE * size_of::<f64>()];
+            for (place, value) in bytes.chunks_exact_mut(size_of::<f64>()).zip(some) {
+                place.copy_from_slice(&value.to_le_bytes());
+            }
+            hasher.update(&bytes[..size_of_val(some)]);
+        }
     }
     hasher.finalize()
 }

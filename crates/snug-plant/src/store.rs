@@ -60,6 +60,15 @@ impl Store {
         }
     }
 
+    /// A place below this one.
+    ///
+    /// # Errors
+    /// As [`Store::open`].
+    pub(crate) fn below(&self, name: &str) -> Result<Self, PlantError> {
+        let root = self.root.as_str().trim_end_matches('/');
+        Self::open(&format!("{root}/{name}/"))
+    }
+
     /// The place as it is told.
     pub fn url(&self) -> &str {
         self.root.as_str()

@@ -10,6 +10,7 @@ use snug_campaign::words::reason::Reason;
 use snug_files::{Disk, Host};
 use snug_identify::{FitTask, IdentifySettings};
 use snug_ingest::IngestError;
+use snug_preprocess::Prepared;
 use std::borrow::Cow;
 use std::collections::BTreeSet;
 use std::path::PathBuf;
@@ -160,36 +161,43 @@ fn cases_of_file(study: &Study, file: &PreparedFile) -> Result<Vec<FitTask<'stat
     let mut cases = Vec::new();
     for (_, prepared) in &file.recordings {
         for one in &prepared.tightenings {
-            let faulty = one.rejections().contains(&Rejection::DataQuality);
-            if faulty || only_simulated.contains(&one.tightening.id.number) {
-                continue;
-            }
-            let input = input(study, one);
-            let tightening = one.tightening.clone();
-            let fitted = study.identify.fitted_output;
-            // The noise is known of what was measured: that is where model and measurement are best compared.
-            let quantity = tightening
-                .noise
-                .as_ref()
-                .map(|noise| noise.quantity)
-                .filter(|&quantity| tightening.motion.get(quantity).is_some())
-                .unwrap_or(fitted);
-            let settings = IdentifySettings {
-                fitted_output: quantity,
-                constraints: study.identify.constraints.clone(),
-                unscored_samples: study.identify.unscored_samples,
-                ..IdentifySettings::default()
-            };
-            let case = FitTask {
-                model: Cow::Owned(study.model_for(&tightening)?),
-                input: Cow::Owned(input),
-                settings: Cow::Owned(settings),
-                tightening: Cow::Owned(tightening),
-            };
-            if case.measured().len() > case.unscored() + FEWEST_SCORED {
-                cases.push(case);
+            if !only_simulated.contains(&one.tightening.id.number) {
+                cases.extend(case_of(study, one)?);
             }
         }
     }
     Ok(cases)
+}
+
+/// A tightening as it is compared with the model; `None` where it cannot be.
+pub(crate) fn case_of(
+    study: &Study,
+    one: &Prepared,
+) -> Result<Option<FitTask<'static>>, StudyError> {
+    if one.rejections().contains(&Rejection::DataQuality) {
+        return Ok(None);
+    }
+    let input = input(study, one);
+    let tightening = one.tightening.clone();
+    let fitted = study.identify.fitted_output;
+    // The noise is known of what was measured: that is where model and measurement are best compared.
+    let quantity = tightening
+        .noise
+        .as_ref()
+        .map(|noise| noise.quantity)
+        .filter(|&quantity| tightening.motion.get(quantity).is_some())
+        .unwrap_or(fitted);
+    let settings = IdentifySettings {
+        fitted_output: quantity,
+        constraints: study.identify.constraints.clone(),
+        unscored_samples: study.identify.unscored_samples,
+        ..IdentifySettings::default()
+    };
+    let case = FitTask {
+        model: Cow::Owned(study.model_for(&tightening)?),
+        input: Cow::Owned(input),
+        settings: Cow::Owned(settings),
+        tightening: Cow::Owned(tightening),
+    };
+    Ok((case.measured().len() > case.unscored() + FEWEST_SCORED).then_some(case))
 }

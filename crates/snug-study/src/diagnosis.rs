@@ -165,17 +165,42 @@ pub fn diagnose(
     let pool = pool(settings.threads)?;
     let most = study.diagnosis.most_tightenings;
     let (comparable, kept) = pool.install(|| chosen(study, disk, &files, most, &|_| ()))?;
+    if interrupted.load(Ordering::Relaxed) {
+        return Err(StudyError::Interrupted);
+    }
+    if comparable.cases.is_empty() {
+        return nothing_to_compare(study, workplace, settings, progress, interrupted);
+    }
+    let (last, ladder) =
+        pool.install(|| climbed(study, comparable, verb, progress, interrupted))?;
+    // Who ended the search wants to see what it found of all tightenings.
+    let never = AtomicBool::new(false);
+    let interrupted = match interrupted.load(Ordering::Relaxed) {
+        true => &never,
+        false => interrupted,
+    };
+    let task = Task {
+        ladder: Some(ladder),
+        kept,
+        ..Task::of(&last)
+    };
+    run_with(task, workplace, settings, progress, interrupted)
+}
+
+/// What a verb makes of a study with these tightenings, of which there are some: the study with the model of the last rung, and the
+/// ladder up to there.
+pub(crate) fn climbed(
+    study: &Study,
+    comparable: Comparable,
+    verb: &Verb,
+    progress: &(dyn Fn(ProgressEvent<'_>) + Sync),
+    interrupted: &AtomicBool,
+) -> Result<(Study, Ladder), StudyError> {
     let Comparable {
         cases,
         reasons: left_out,
     } = comparable;
-    if interrupted.load(Ordering::Relaxed) {
-        return Err(StudyError::Interrupted);
-    }
-    if cases.is_empty() {
-        return nothing_to_compare(study, workplace, settings, progress, interrupted);
-    }
-    let settled = pool.install(|| settle(study, &cases));
+    let settled = settle(study, &cases);
     let (study, cases, reasons) = match &settled {
         Some(Settled { study, reasons }) => {
             (study, with_settled(study, cases)?, reasons.as_slice())
@@ -197,24 +222,11 @@ pub fn diagnose(
         progress,
         interrupted,
     };
-    let (mut answer, held) = pool.install(|| search.answer(study, &question))?;
+    let (mut answer, held) = search.answer(study, &question)?;
     let study = held.as_ref().unwrap_or(study);
     answer.diagnosis.reasons.extend_from_slice(reasons);
     answer.diagnosis.reasons.extend(left_out);
-    drop(cases);
-    let (last, ladder) = climb(study, answer);
-    // Who ended the search wants to see what it found of all tightenings.
-    let never = AtomicBool::new(false);
-    let interrupted = match interrupted.load(Ordering::Relaxed) {
-        true => &never,
-        false => interrupted,
-    };
-    let task = Task {
-        ladder: Some(ladder),
-        kept,
-        ..Task::of(&last)
-    };
-    run_with(task, workplace, settings, progress, interrupted)
+    Ok(climb(study, answer))
 }
 
 fn goal(study: &Study, verb: &Verb, cases: &[FitTask<'_>]) -> Result<Goal, StudyError> {

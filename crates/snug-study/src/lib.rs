@@ -41,6 +41,9 @@ pub use run::{Outcome, RunSettings, run};
 pub use selection::SelectionSettings;
 pub use snug_preprocess::Preset;
 pub use study::Study;
+pub use tightenings::diagnosed::{
+    Compared, PreparedDiagnosis, compared_by, diagnose_prepared, shared_blocks, shared_parameters,
+};
 pub use tightenings::{
     FileTightenings, FittedTightening, fit_tightenings, fitted_files, read_tightenings, settled,
 };

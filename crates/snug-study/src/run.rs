@@ -14,7 +14,7 @@ use crate::{ProgressEvent, Study, StudyError, statistics};
 use rayon::prelude::*;
 use snug_campaign::words::reason::Reason;
 use snug_campaign::{
-    CampaignResult, Estimate, Finding, Rejection, Severity, TighteningId, TighteningResult,
+    CampaignResult, Estimate, Finding, Rejection, Severity, TighteningId, TighteningResult, Traces,
 };
 use snug_files::{Disk, Host};
 use snug_ingest::Listing;
@@ -101,11 +101,11 @@ impl Outcome {
 
 /// What grows while files are evaluated.
 #[derive(Default)]
-struct Collected {
+pub(crate) struct Collected {
     tightenings: Vec<TighteningResult>,
     findings: Vec<Finding>,
     examples: Examples,
-    here: Vec<(TighteningId, Vec<Rejection>)>,
+    pub here: Vec<(TighteningId, Vec<Rejection>)>,
     there: Vec<(TighteningId, Vec<Rejection>)>,
     rungs: Vec<RungShare>,
 }
@@ -242,10 +242,7 @@ impl Run<'_> {
     fn carry_out(mut self, listing: Listing, mut output: Output) -> Result<Outcome, StudyError> {
         let progress = self.progress;
         let asked_for = self.task.ladder.as_ref().and_then(Ladder::shown);
-        let mut collected = Collected {
-            examples: Examples::with(asked_for.cloned()),
-            ..Collected::default()
-        };
+        let mut collected = Collected::with(Examples::with(asked_for.cloned()));
         collected.note(listing.findings, &mut output)?;
         collected.note(std::mem::take(&mut self.task.notes), &mut output)?;
         let left = self.evaluate(&listing.files, &mut collected, &mut output)?;
@@ -374,6 +371,14 @@ fn not_reached(files: &[PathBuf]) -> Vec<Finding> {
 }
 
 impl Collected {
+    /// Nothing yet, with room for these signals.
+    pub fn with(examples: Examples) -> Self {
+        Self {
+            examples,
+            ..Self::default()
+        }
+    }
+
     /// Records one file's results and keeps what the tables and the report need of them.
     fn take(&mut self, file: FileEvaluation, output: &mut Output) -> Result<(), StudyError> {
         for recording in &file.recordings {
@@ -391,17 +396,24 @@ impl Collected {
             onset,
         } in file.evaluated
         {
-            if let Some(traces) = traces {
-                output.record(|recorder| recorder.tightening(&result, &traces, onset))?;
-                let index = self.tightenings.len();
-                self.examples.offer(index, &result.id, traces);
+            if let Some(traces) = &traces {
+                output.record(|recorder| recorder.tightening(&result, traces, onset))?;
             }
-            self.tightenings.push(result);
+            self.keep(result, traces);
         }
         self.note(file.findings, output)?;
         output.record(Recorder::flush)?;
         output.keep_partial();
         Ok(())
+    }
+
+    /// Keeps what the tables and the report need of one tightening.
+    pub fn keep(&mut self, result: TighteningResult, traces: Option<Traces>) {
+        if let Some(traces) = traces {
+            let index = self.tightenings.len();
+            self.examples.offer(index, &result.id, traces);
+        }
+        self.tightenings.push(result);
     }
 
     /// What was found of everything that is fitted, on average.
@@ -422,7 +434,7 @@ impl Collected {
         Ok(())
     }
 
-    fn result(self, study: &Study, study_ron: String) -> Result<CampaignResult, StudyError> {
+    pub fn result(self, study: &Study, study_ron: String) -> Result<CampaignResult, StudyError> {
         let fitted: Vec<&TighteningResult> = self
             .tightenings
             .iter()

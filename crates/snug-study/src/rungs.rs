@@ -54,24 +54,24 @@ fn with_nothing_usable(verdict: Verdict, headline: Headline) -> (Verdict, Headli
     }
 }
 
-/// The motions that a model simulates, by the number of the tightening within its file.
-pub(crate) struct Simulated(Vec<(u32, Motion)>);
+/// The motions that a model simulates of some tightenings.
+pub(crate) struct Simulated(Vec<(TighteningId, Motion)>);
 
 impl Simulated {
-    /// Of tightenings of one file.
+    /// Of evaluated tightenings.
     pub fn of(evaluated: Vec<Evaluated>) -> Self {
         let motions = evaluated.into_iter().filter_map(|one| {
             let traces = one.traces?;
-            Some((one.result.id.number, traces.simulated))
+            Some((one.result.id, traces.simulated))
         });
         Self(motions.collect())
     }
 
     /// Puts them beside what the last model simulates, as what was before.
     pub fn stand_beside(self, evaluated: &mut [Evaluated]) {
-        for (number, motion) in self.0 {
+        for (id, motion) in self.0 {
             let mut all = evaluated.iter_mut();
-            let same = all.find(|one| one.result.id.number == number);
+            let same = all.find(|one| one.result.id == id);
             if let Some(traces) = same.and_then(|one| one.traces.as_mut()) {
                 traces.before = motion;
             }

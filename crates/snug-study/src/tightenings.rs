@@ -1,6 +1,8 @@
 //! Tightenings by themselves: one file of a study read and prepared, and any of them fitted side by side, for programs that
 //! keep tightenings and results in a place of their own.
 
+pub(crate) mod diagnosed;
+
 use crate::cases::chosen;
 use crate::evaluation::fitted;
 use crate::prepared_file::PreparedFile;

@@ -7,19 +7,39 @@ use std::process::{Command, ExitCode};
 struct Apart {
     section: &'static str,
     cargo: &'static [&'static str],
+    /// What asks for its long rows.
+    long: &'static [&'static str],
 }
 
-const APART: &[Apart] = &[Apart {
-    section: "workbench",
-    cargo: &[
-        "bench",
-        "--package",
-        "snug-workbench",
-        "--bench",
-        "clicks",
-        "--",
-    ],
-}];
+const APART: &[Apart] = &[
+    Apart {
+        section: "workbench",
+        cargo: &[
+            "bench",
+            "--package",
+            "snug-workbench",
+            "--bench",
+            "clicks",
+            "--",
+        ],
+        long: LONG,
+    },
+    Apart {
+        section: "plant",
+        cargo: &[
+            "run",
+            "--quiet",
+            "--release",
+            "--manifest-path",
+            "crates/snug-plant/Cargo.toml",
+            "--",
+            "bench",
+        ],
+        long: &["--rows", "100000"],
+    },
+];
+
+const LONG: &[&str] = &["--long"];
 
 /// The benchmarks of `tests/benches`, in one table: the named sections or all, with the long rows or without; and those named that live
 /// elsewhere.
@@ -29,20 +49,23 @@ pub fn bench(sections: &[String], is_long: bool) -> ExitCode {
         .iter()
         .filter(|section| of_section(section).is_none())
         .collect();
-    let mut commands: Vec<Command> = sections
-        .iter()
-        .filter_map(of_section)
-        .map(|apart| command(apart.cargo))
-        .collect();
+    let mut commands: Vec<Command> = Vec::new();
     if sections.is_empty() || !engine.is_empty() {
-        let mut engine_only = command(&["bench", "--package", "snug-tests", "--bench", "engine"]);
-        engine_only.arg("--").args(engine);
-        commands.insert(0, engine_only);
+        let engine_only = [
+            "bench",
+            "--package",
+            "snug-tests",
+            "--bench",
+            "engine",
+            "--",
+        ];
+        let mut cargo = command(&engine_only, is_long, LONG);
+        cargo.args(engine);
+        commands.push(cargo);
     }
-    for mut cargo in commands {
-        if is_long {
-            cargo.arg("--long");
-        }
+    let apart = sections.iter().filter_map(of_section);
+    commands.extend(apart.map(|apart| command(apart.cargo, is_long, apart.long)));
+    for cargo in commands {
         let code = workspace::run(cargo);
         if code != ExitCode::SUCCESS {
             return code;
@@ -51,8 +74,11 @@ pub fn bench(sections: &[String], is_long: bool) -> ExitCode {
     ExitCode::SUCCESS
 }
 
-fn command(arguments: &[&str]) -> Command {
+fn command(arguments: &[&str], is_long: bool, long: &[&str]) -> Command {
     let mut cargo = workspace::cargo();
     cargo.args(arguments);
+    if is_long {
+        cargo.args(long);
+    }
     cargo
 }

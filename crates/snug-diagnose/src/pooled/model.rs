@@ -33,7 +33,7 @@ pub(crate) struct PooledModel<'a> {
     pub shared_of: Vec<Vec<usize>>,
     /// How much of each; `None` where all count whole.
     pub shares: Option<Vec<Vec<f64>>>,
-    own_sets: Vec<Constraints>,
+    pub(super) own_sets: Vec<Constraints>,
     shared_set: Constraints,
     pub(super) room: Room,
     /// Samples to either side over which residuals are averaged, see [`PooledModel::fit_averaged`].
@@ -354,7 +354,7 @@ impl<'a> PooledModel<'a> {
     }
 
     /// One member's model, everything at these values and what all share held there.
-    fn held(&self, member: usize, own: &[f64], shared: &[f64]) -> Model {
+    pub(super) fn held(&self, member: usize, own: &[f64], shared: &[f64]) -> Model {
         let mut model = self.models[member].clone();
         let values = self.values(member, own, shared);
         for (parameter, value) in model.parameters_mut().iter_mut().zip(values) {

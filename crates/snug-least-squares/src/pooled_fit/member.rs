@@ -3,6 +3,7 @@
 use super::problem::Profile;
 use crate::conic::constraints::Constraints;
 use crate::matrix::{add_scaled, dot, triangularize, upper_transposed_times};
+use crate::pooled_fit::thresholds::LEAST_DAMPING;
 use crate::problem::linearization::Linearization;
 use crate::solver::fit::Work;
 use crate::solver::step::Stepper;
@@ -153,6 +154,28 @@ impl Member {
             curvature,
             gradient: (0..p).map(|j| dot(column(j), reachable)).collect(),
         }
+    }
+}
+
+/// What one member says of the parameters that it shares, its own β_i at their optimum beside these and free to follow: the terms that
+/// a pooled fit adds up over members, for programs that add them up elsewhere.
+///
+/// `here` is linearised over (β_i, α); along an inequality of `set` that β_i presses on it follows, never through it.
+pub fn profile_of(here: Linearization, own: &[f64], set: &Constraints) -> Profile {
+    let p = here.reachable.len() - own.len();
+    let mut member = Member::new(own.to_vec(), (0..p).collect());
+    member.here = here;
+    let shift = vec![0.0; p];
+    member.follow(&shift, LEAST_DAMPING, set, &mut Work::default());
+    member.eliminate(LEAST_DAMPING, set);
+    let Rest { rows, right } = &member.rest;
+    let column = |index: usize| &rows[index * p..][..p];
+    let curvature = (0..p * p).map(|at| dot(column(at / p), column(at % p)));
+    Profile {
+        cost: member.here.cost,
+        curvature: curvature.collect(),
+        gradient: (0..p).map(|j| dot(column(j), right)).collect(),
+        shared: member.shared,
     }
 }
 

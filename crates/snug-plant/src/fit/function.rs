@@ -12,9 +12,9 @@ use datafusion::logical_expr::{
     ColumnarValue, ReturnFieldArgs, ScalarFunctionArgs, ScalarUDF, ScalarUDFImpl, Signature,
     Volatility,
 };
-use snug_identify::SIDE_BY_SIDE;
+use snug_identify::{IdentifyError, SIDE_BY_SIDE};
 use snug_preprocess::Prepared;
-use snug_study::{Study, fit_tightenings};
+use snug_study::{FittedTightening, Study, fit_tightenings};
 use std::path::Path;
 use std::sync::{Arc, LazyLock, Mutex};
 
@@ -74,7 +74,7 @@ impl ScalarUDFImpl for Fit {
             return exec_err!("the first argument of {NAME} is the study, as a literal");
         };
         let study = study(Some(text))?;
-        let batch = taken(&args.args[1..], args.number_rows)?;
+        let batch = taken(&TAKEN, &args.args[1..], args.number_rows)?;
         let prepared = rows::prepared(&batch)?;
         let outcomes = fitted(&study, &prepared)?;
         let fields = columns::outcome(&study).map_err(external)?;
@@ -84,13 +84,17 @@ impl ScalarUDFImpl for Fit {
     }
 }
 
-fn external(error: impl std::error::Error + Send + Sync + 'static) -> DataFusionError {
+pub(crate) fn external(error: impl std::error::Error + Send + Sync + 'static) -> DataFusionError {
     DataFusionError::External(Box::new(error))
 }
 
-/// The batch of what the function was given, in the types that it takes.
-fn taken(args: &[ColumnarValue], rows: usize) -> Result<RecordBatch, DataFusionError> {
-    let columns = args.iter().zip(TAKEN.fields()).map(|(arg, field)| {
+/// The batch of what a function was given, in the types of the columns that it takes.
+pub(crate) fn taken(
+    schema: &SchemaRef,
+    args: &[ColumnarValue],
+    rows: usize,
+) -> Result<RecordBatch, DataFusionError> {
+    let columns = args.iter().zip(schema.fields()).map(|(arg, field)| {
         let array = arg.to_array(rows)?;
         let array: ArrayRef = match array.data_type() == field.data_type() {
             true => array,
@@ -101,33 +105,47 @@ fn taken(args: &[ColumnarValue], rows: usize) -> Result<RecordBatch, DataFusionE
     let columns = columns.collect::<Result<Vec<_>, DataFusionError>>()?;
     let is_null =
         |(field, column): &(&FieldRef, &ArrayRef)| !field.is_nullable() && column.null_count() > 0;
-    if let Some((field, _)) = TAKEN.fields().iter().zip(&columns).find(is_null) {
+    if let Some((field, _)) = schema.fields().iter().zip(&columns).find(is_null) {
         return exec_err!(
             "column {} of the dataset is null, which it may not be",
             field.name()
         );
     }
-    Ok(RecordBatch::try_new(TAKEN.clone(), columns)?)
+    Ok(RecordBatch::try_new(schema.clone(), columns)?)
 }
 
-/// Fits as many side by side as fill the lanes of vector registers, those of about the same length together.
+/// Fits every row.
 fn fitted(study: &Study, prepared: &[Prepared]) -> Result<Vec<Outcome>, DataFusionError> {
+    in_lanes(prepared, |side_by_side| {
+        let outcomes = fit_tightenings(study, side_by_side).map_err(external)?;
+        let outcome = |one: Result<FittedTightening, IdentifyError>| {
+            one.map(|(result, _)| result)
+                .map_err(|error| error.to_string())
+        };
+        Ok(outcomes.into_iter().map(outcome).collect())
+    })
+}
+
+/// What `work` makes of as many side by side as fill the lanes of vector registers, those of about the same length together; in the
+/// order of the rows.
+pub(crate) fn in_lanes<T>(
+    prepared: &[Prepared],
+    work: impl Fn(&[&Prepared]) -> Result<Vec<T>, DataFusionError>,
+) -> Result<Vec<T>, DataFusionError> {
     let mut order: Vec<usize> = (0..prepared.len()).collect();
     order.sort_by_key(|&row| prepared[row].tightening.torque_nm.len());
-    let mut found: Vec<Option<Outcome>> = vec![None; prepared.len()];
+    let mut found: Vec<Option<T>> = prepared.iter().map(|_| None).collect();
     for some in order.chunks(SIDE_BY_SIDE) {
         let side_by_side: Vec<&Prepared> = some.iter().map(|&row| &prepared[row]).collect();
-        let outcomes = fit_tightenings(study, &side_by_side).map_err(external)?;
-        for (&row, outcome) in some.iter().zip(outcomes) {
-            let outcome = outcome.map(|(result, _)| result);
-            found[row] = Some(outcome.map_err(|error| error.to_string()));
+        for (&row, one) in some.iter().zip(work(&side_by_side)?) {
+            found[row] = Some(one);
         }
     }
     Ok(found.into_iter().flatten().collect())
 }
 
 /// The study that a literal says; the latest is kept, as one job asks for it with every batch.
-fn study(literal: Option<&ScalarValue>) -> Result<Arc<Study>, DataFusionError> {
+pub(crate) fn study(literal: Option<&ScalarValue>) -> Result<Arc<Study>, DataFusionError> {
     static LATEST: Mutex<Option<(String, Arc<Study>)>> = Mutex::new(None);
     let Some(Some(text)) = literal.and_then(ScalarValue::try_as_str) else {
         return plan_err!("the first argument of {NAME} is the study, as a literal");

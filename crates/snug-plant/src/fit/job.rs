@@ -3,18 +3,19 @@
 use super::columns;
 use super::function::{TAKEN, function};
 use crate::dataset::{Commit, Dataset};
-use crate::engine::{Engine, rows_of};
-use crate::partition::{Partition, UNKNOWN, date_of};
+use crate::engine::{Engine, answered, rows_of};
+use crate::partition::{Partition, of_row};
 use crate::schema::{self, IDENTITY};
 use crate::{PlantError, Store};
-use arrow::array::{Array, ArrayRef, AsArray, RecordBatch};
+use arrow::array::{ArrayRef, AsArray, RecordBatch};
 use arrow::compute::{
     SortColumn, concat_batches, lexsort_to_indices, partition, take_record_batch,
 };
-use arrow::datatypes::{Date32Type, SchemaRef};
+use arrow::datatypes::SchemaRef;
 use datafusion::common::Column;
 use datafusion::logical_expr::{Expr, lit};
 use datafusion::prelude::SessionContext;
+use snug_study::Study;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Rows of one job, unless told otherwise: some 20 s of one core for three parameters, and 1 GB of signals that are read.
@@ -75,13 +76,24 @@ pub async fn fit(
     let mut study = data.study()?;
     study.check_effects(&settings.effects)?;
     study.model.effects.extend(settings.effects.iter().cloned());
-    let results = Dataset::make(to, "results", &study).await?;
+    fit_with(&data, &study, to, settings, progress).await
+}
+
+/// The same with the model of a study, whatever the settings say of effects.
+pub(crate) async fn fit_with(
+    data: &Dataset,
+    study: &Study,
+    to: Store,
+    settings: &FitSettings,
+    progress: &(dyn Fn(&Fitted) + Sync),
+) -> Result<Fitted, PlantError> {
+    let results = Dataset::make(to, "results", study).await?;
     let session = settings.engine.session(&[&data.store]).await?;
     let work = Work {
-        schema: columns::results(&study)?,
+        schema: columns::results(study)?,
         study: results.manifest.study.clone(),
         session,
-        data: &data,
+        data,
         results: &results,
     };
     let mut fitted = Fitted::default();
@@ -122,7 +134,7 @@ pub async fn fit(
 }
 
 /// Neighbouring partitions with so many rows together, or one that has more.
-fn jobs(parts: &[Part], rows: usize) -> Vec<&[Part]> {
+pub(crate) fn jobs(parts: &[Part], rows: usize) -> Vec<&[Part]> {
     let mut jobs = Vec::new();
     let (mut start, mut sum) = (0, 0);
     for (index, (_, commit)) in parts.iter().enumerate() {
@@ -188,7 +200,8 @@ impl Work<'_> {
         taken.extend(TAKEN.fields().iter().map(|field| named(field.name())));
         let mut wanted: Vec<Expr> = IDENTITY.iter().map(|(name, ..)| named(name)).collect();
         wanted.push(function().call(taken).alias("fit"));
-        let batches = rows.select(wanted)?.collect().await?;
+        let count = parts.iter().map(|(_, commit)| commit.rows()).sum();
+        let batches = answered(rows.select(wanted)?, count).await?;
         let flat: Vec<RecordBatch> = (batches.iter())
             .map(|batch| flattened(batch, &self.schema))
             .collect::<Result<_, _>>()?;
@@ -261,7 +274,7 @@ impl Work<'_> {
 }
 
 /// An error in one line.
-fn reason(error: &PlantError) -> String {
+pub(crate) fn reason(error: &PlantError) -> String {
     let text = error.to_string();
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
@@ -297,14 +310,8 @@ fn by_partition(rows: &RecordBatch) -> Result<BTreeMap<Partition, RecordBatch>, 
         .filter_map(|name| rows.column_by_name(name).cloned())
         .collect();
     let ranges = partition(&places).map_err(PlantError::columns("results"))?;
-    let days = places[0].as_primitive::<Date32Type>();
-    let tools = places[1].as_string::<i32>();
     for range in ranges.ranges() {
-        let day = match days.is_valid(range.start) {
-            true => date_of(days.value(range.start)),
-            false => UNKNOWN.to_owned(),
-        };
-        let part = Partition::new(&day, tools.value(range.start))?;
+        let part = of_row(&places[0], &places[1], range.start)?;
         found.insert(part, rows.slice(range.start, range.len()));
     }
     Ok(found)

@@ -6,7 +6,7 @@ use arrow::array::{
     Array, AsArray, BooleanArray, Float64Array, ListArray, RecordBatch, StringArray, StructArray,
     UInt32Array,
 };
-use arrow::datatypes::{Float64Type, UInt32Type};
+use arrow::datatypes::{Date32Type, Float64Type, UInt32Type};
 use arrow::error::ArrowError;
 use snug_campaign::{
     Conditions, Correction, Motion, NoiseFloor, NoiseSource, Quantity, Rig, Tightening,
@@ -98,6 +98,56 @@ fn ids(batch: &RecordBatch) -> Result<Vec<TighteningId>, ArrowError> {
         number: numbers.value(row),
     };
     Ok((0..batch.num_rows()).map(id).collect())
+}
+
+/// Names of the files that rows are known by where many days of many tools are asked together, one for every row: those that `name`
+/// gives to its tool and its day (days since 1970-01-01, `None` for an unknown day).
+///
+/// # Errors
+/// A column that is missing or of another type.
+pub(crate) fn names_of(
+    batch: &RecordBatch,
+    name: &dyn Fn(&str, Option<i32>) -> String,
+) -> Result<Vec<String>, ArrowError> {
+    let columns = Columns(batch);
+    let days = typed(
+        "day",
+        columns.column("day")?.as_primitive_opt::<Date32Type>(),
+    )?;
+    let tools = columns.texts("tool")?;
+    let day = |row: usize| days.is_valid(row).then(|| days.value(row));
+    Ok((0..batch.num_rows())
+        .map(|row| name(tools.value(row), day(row)))
+        .collect())
+}
+
+/// Tightenings of which only conditions and target torque are known, of a batch that has these columns.
+///
+/// # Errors
+/// A column that is missing or of another type.
+pub(crate) fn conditions(batch: &RecordBatch) -> Result<Vec<Tightening>, ArrowError> {
+    let columns = Columns(batch);
+    let [participants, strategies, joints] =
+        ["participant", "strategy", "joint"].map(|name| columns.texts(name));
+    let (participants, strategies, joints) = (participants?, strategies?, joints?);
+    let paces = columns.numbers("pace_per_min")?;
+    let targets = columns.numbers("target_torque_nm")?;
+    let rig = Rig {
+        lever_arm_m: 1.0,
+        known_inertia_kg_m2: 0.0,
+    };
+    let of_row = |row: usize| {
+        let mut one = Tightening::from_torque(rig, 1.0, Vec::new());
+        one.conditions = Conditions {
+            participant: text(participants, row),
+            strategy: text(strategies, row),
+            joint: text(joints, row),
+            pace_per_min: number(paces, row),
+        };
+        one.target_torque_nm = targets.value(row);
+        one
+    };
+    Ok((0..batch.num_rows()).map(of_row).collect())
 }
 
 /// The prepared tightenings of a batch that has the columns of the table `tightenings`, but for key, day, tool and station.

@@ -7,7 +7,7 @@ use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
 /// A process that ends with the test.
-struct Process(Child);
+pub struct Process(Child);
 
 impl Drop for Process {
     fn drop(&mut self) {
@@ -28,13 +28,14 @@ fn started(arguments: &[String]) -> Process {
     Process(command.spawn().unwrap())
 }
 
-struct Cluster {
+/// A scheduler.
+pub struct Cluster {
     port: u16,
     _scheduler: Process,
 }
 
 impl Cluster {
-    fn start() -> Self {
+    pub fn start() -> Self {
         let port = free_port();
         let address = format!("127.0.0.1:{port}");
         let scheduler = started(&["scheduler".into(), "--bind".into(), address]);
@@ -45,7 +46,11 @@ impl Cluster {
         }
     }
 
-    fn worker(&self) -> Process {
+    pub fn address(&self) -> String {
+        format!("127.0.0.1:{}", self.port)
+    }
+
+    pub fn worker(&self) -> Process {
         let (port, command_port) = (free_port(), free_port());
         let worker = started(&[
             "worker".into(),
@@ -62,7 +67,7 @@ impl Cluster {
         FitSettings {
             effects: vec!["backlash".into()],
             engine: Engine::Cluster {
-                address: format!("127.0.0.1:{}", self.port),
+                address: self.address(),
                 parts: 4,
             },
             ..FitSettings::default()

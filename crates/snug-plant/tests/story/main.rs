@@ -4,5 +4,6 @@
 mod cluster;
 mod faults;
 mod import;
+mod improve;
 mod plant;
 mod watch;
