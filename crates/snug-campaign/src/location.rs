@@ -65,13 +65,13 @@ pub struct ForceMap {
 pub struct ResidualCorrelation {
     /// How much later \[s\], from one sample on.
     pub lag_s: Vec<f64>,
-    /// Correlation of the residual with itself that much later, −1 to 1; 0 of white noise.
+    /// Correlation of the residual with itself that much later, −1 to 1, no unit; 0 of white noise.
     pub own: Vec<f64>,
     /// How much later than the torque \[s\]; below 0 how much earlier.
     pub torque_lag_s: Vec<f64>,
-    /// Correlation of the residual with the torque, −1 to 1; 0 where nothing of the torque is left unexplained.
+    /// Correlation of the residual with the torque, −1 to 1, no unit; 0 where nothing of the torque is left unexplained.
     pub with_torque: Vec<f64>,
-    /// Half width of the band that 95 % of white noise's correlations are in.
+    /// Half width of the band that 95 % of white noise's correlations are in, no unit.
     pub half_width: f64,
 }
 

@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
+mod correlation;
 mod drift;
 
 use super::missing_force::missing_force_n;

@@ -257,18 +257,7 @@ impl<'a, 'h> Scorer<'a, 'h> {
                 let uncounted = z.iter_mut().zip(&counted[member]).filter(|(_, is)| !**is);
                 uncounted.for_each(|(z, _)| *z = 0.0);
             }
-            let (mut scores, mut variances) = (Vec::new(), Vec::new());
-            let mut information = 0.0;
-            for range in self.clusters.ranges(count) {
-                let (z, r) = (&z[range.clone()], &residual[range.clone()]);
-                let along = bias
-                    .as_ref()
-                    .map_or(0.0, |bias| dot(z, &bias[range.clone()]));
-                let squares = dot(z, z);
-                scores.push(dot(z, r));
-                variances.push(squares + along * along);
-                information += squares;
-            }
+            let (scores, variances, information) = self.of_clusters(&z, residual, bias.as_deref());
             // The Jacobian is that of the residual: minus the output's.
             let cross: Vec<f64> = shared
                 .chunks_exact(count)
@@ -301,6 +290,25 @@ impl<'a, 'h> Scorer<'a, 'h> {
             contribution.control = draws;
         }
         contribution
+    }
+
+    /// s and its variance of each cluster, and Σ I, of one signature as far as nothing imitates it.
+    fn of_clusters(
+        &self,
+        z: &[f64],
+        residual: &[f64],
+        bias: Option<&[f64]>,
+    ) -> (Vec<f64>, Vec<f64>, f64) {
+        let (mut scores, mut variances, mut information) = (Vec::new(), Vec::new(), 0.0);
+        for range in self.clusters.ranges(z.len()) {
+            let (z, r) = (&z[range.clone()], &residual[range.clone()]);
+            let along = bias.map_or(0.0, |bias| dot(z, &bias[range]));
+            let squares = dot(z, z);
+            scores.push(dot(z, r));
+            variances.push(squares + along * along);
+            information += squares;
+        }
+        (scores, variances, information)
     }
 
     /// What one tightening says of its shared parameters, told of all of them where they are taken out together.

@@ -3,7 +3,7 @@
 use snug_campaign::words::remark::{Remark, Times};
 use snug_campaign::{
     Aspect, CampaignResult, Comparison, Drift, ForceCurve, ForceMap, Interval, Location, Misfit,
-    Share, TighteningMisfit,
+    ResidualCorrelation, Share, TighteningMisfit,
 };
 
 const ROWS: usize = 14;
@@ -63,6 +63,17 @@ fn location(size: f64, repeatable: f64, remarks: Vec<Remark>) -> Location {
             8.0 * (-(from - 0.06).powi(2) / 8e-4).exp(),
         )
     };
+    let ringing = |lag_s: f64| 0.6 * size * (-lag_s / 0.03).exp() * (60.0 * lag_s).cos();
+    let lags = |from: i32| (from..=60).map(|step| f64::from(step) * 1.5e-3);
+    let correlation = ResidualCorrelation {
+        lag_s: lags(1).collect(),
+        own: lags(1).map(ringing).collect(),
+        torque_lag_s: lags(-60).collect(),
+        with_torque: lags(-60)
+            .map(|lag_s| 0.5 * ringing((lag_s - 0.03).abs()))
+            .collect(),
+        half_width: 0.01,
+    };
     Location {
         aspects: vec![
             aspect("time_since_onset_s", (0..15).map(time).collect()),
@@ -109,6 +120,7 @@ fn location(size: f64, repeatable: f64, remarks: Vec<Remark>) -> Location {
         ],
         force_over_time: force_over_time(size),
         force_map: force_map(size),
+        correlation: Some(correlation),
         repeatable_share: Some(repeatable),
         remarks,
     }

@@ -22,10 +22,11 @@ fn main() {
     let is_long = std::env::args().any(|argument| argument == "--long");
     let runtime = tokio::runtime::Runtime::new().unwrap();
     runtime.block_on(async {
-        latency::of_clicks(&program, 1).await;
-        latency::of_clicks(&program, 10).await;
+        // First: what is left of a larger campaign would count as memory of the day's.
         if is_long {
             day::of_use(&program).await;
         }
+        latency::of_clicks(&program, 1).await;
+        latency::of_clicks(&program, 10).await;
     });
 }

@@ -1,6 +1,6 @@
 //! The mystery solved with a mouse: the error falls on screen, and what is saved can be run.
 
-use crate::browser::{Headless, LOADING, installed};
+use crate::browser::{Headless, LOADING, Tab, installed};
 use crate::server::{Server, study_in};
 use serde_json::Value;
 use snug_study::{RunSettings, Study, run};
@@ -73,31 +73,7 @@ async fn the_mystery_is_solved_by_clicking() {
     assert_eq!(tab.text("tested").await, "Tested: stretch reflex is real.");
     assert_eq!(tab.text("usable").await, "usable tightenings: 7 → 24 of 24");
 
-    // A stretch of time is brushed, and counts alone.
-    tab.drag(0.3, 0.6).await;
-    tab.click("[data-brush]").await;
-    tab.until("document.querySelector('[data-closer]').textContent.includes('from ')")
-        .await;
-    tab.click("[data-everything]").await;
-    tab.until("document.querySelector('[data-closer]').textContent === ''")
-        .await;
-
-    // A cell of the map of the missing force is chosen by keyboard, and counts alone.
-    tab.until("document.querySelectorAll('[data-cell]').length > 1")
-        .await;
-    let first_cell = tab.page.find_element("[data-cell][tabindex='0']").await;
-    first_cell.unwrap().focus().await.unwrap();
-    tab.press("ArrowRight").await;
-    tab.press("Enter").await;
-    tab.until(
-        "document.querySelector('[data-closer]').textContent.includes('where the grip is at')",
-    )
-    .await;
-    let is_kept = tab.value("location.search.includes('cell=')").await;
-    assert_eq!(is_kept, Value::Bool(true));
-    tab.click("[data-everything]").await;
-    tab.until("document.querySelector('[data-closer]').textContent === ''")
-        .await;
+    look_closer(&tab).await;
 
     // A number follows the keyboard, and the curve the number.
     tab.page
@@ -141,6 +117,33 @@ async fn the_mystery_is_solved_by_clicking() {
     tab.was_well(server.port);
     browser.close().await;
     server.end();
+}
+
+/// A stretch of time is brushed, and a cell of the map of the missing force chosen by keyboard: each counts alone.
+async fn look_closer(tab: &Tab) {
+    tab.drag(0.3, 0.6).await;
+    tab.click("[data-brush]").await;
+    tab.until("document.querySelector('[data-closer]').textContent.includes('from ')")
+        .await;
+    tab.click("[data-everything]").await;
+    tab.until("document.querySelector('[data-closer]').textContent === ''")
+        .await;
+
+    tab.until("document.querySelectorAll('[data-cell]').length > 1")
+        .await;
+    let first_cell = tab.page.find_element("[data-cell][tabindex='0']").await;
+    first_cell.unwrap().focus().await.unwrap();
+    tab.press("ArrowRight").await;
+    tab.press("Enter").await;
+    tab.until(
+        "document.querySelector('[data-closer]').textContent.includes('where the grip is at')",
+    )
+    .await;
+    let is_kept = tab.value("location.search.includes('cell=')").await;
+    assert_eq!(is_kept, Value::Bool(true));
+    tab.click("[data-everything]").await;
+    tab.until("document.querySelector('[data-closer]').textContent === ''")
+        .await;
 }
 
 const ON: &str = "[...document.querySelectorAll('.switch[aria-checked=true]')].map(on => on.closest('li').dataset.effect)";
