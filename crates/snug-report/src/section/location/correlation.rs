@@ -9,7 +9,7 @@ pub fn figures(correlation: &ResidualCorrelation) -> Markup {
     html! {
         h4 { "Is what is left noise?" }
         p { "Of white noise nearly all correlations stay within the band. Where the residual follows the torque later, the model lacks \
-            something that the torque sets going; where it goes before the torque, a channel is late or the hand answers." }
+            something that the torque sets going; where it goes before the torque, the torque is logged late or answers the motion." }
         div.figures { (drawings(correlation)) }
     }
 }
