@@ -45,9 +45,11 @@ impl IntoResponse for WorkbenchError {
         let status = match &self {
             Self::StillReading => StatusCode::SERVICE_UNAVAILABLE,
             Self::NotFitted | Self::NoTightening { .. } | Self::NoResults => StatusCode::NOT_FOUND,
-            Self::NoGroup { .. } | Self::NoStretch { .. } | Self::NoNumbers { .. } => {
-                StatusCode::BAD_REQUEST
-            }
+            Self::NoGroup { .. }
+            | Self::NoStretch { .. }
+            | Self::NoCell { .. }
+            | Self::StretchAndCell
+            | Self::NoNumbers { .. } => StatusCode::BAD_REQUEST,
             Self::Study(error) if error.is_bad_argument() => StatusCode::BAD_REQUEST,
             _ => StatusCode::INTERNAL_SERVER_ERROR,
         };
