@@ -1,4 +1,4 @@
-//! The tightenings of a question, the work done with them, and how they stand side by side.
+//! The tightenings of a question, the work done with them and who watches it, and how they stand side by side.
 
 pub(crate) mod cases;
 pub(crate) mod clusters;
@@ -6,3 +6,4 @@ pub(crate) mod follower;
 pub(crate) mod machine;
 pub(crate) mod simulation;
 pub(crate) mod thresholds;
+pub(crate) mod watch;

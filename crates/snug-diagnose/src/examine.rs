@@ -2,6 +2,7 @@
 
 use crate::data::cases::{Cases, Tally};
 use crate::data::clusters::Clusters;
+use crate::data::watch::Watch;
 use crate::error::DiagnoseError;
 use crate::pooled::decimated::decimated;
 use crate::pooled::one_machine::one_machine_or_several;
@@ -11,7 +12,6 @@ use crate::selection::path::SelectionPath;
 use crate::settings::DiagnoseSettings;
 use crate::verdict::answer::{Answer, Examination};
 use crate::verdict::units::in_other_units;
-use crate::watch::Watch;
 
 /// Answers a question.
 ///

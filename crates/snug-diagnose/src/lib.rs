@@ -14,9 +14,9 @@ mod settings;
 #[cfg(test)]
 mod tests;
 mod verdict;
-mod watch;
 
 pub use data::follower::FitStep;
+pub use data::watch::{Pieces, Watch};
 pub use error::DiagnoseError;
 pub use examine::examine;
 pub use live::by_hand::{ByHand, HandNumber};
@@ -32,4 +32,3 @@ pub use question::{Goal, Question};
 pub use ranking::free_run::is_followed_with_an_effect;
 pub use settings::DiagnoseSettings;
 pub use verdict::answer::{Answer, RungModel};
-pub use watch::{Pieces, Watch};

@@ -3,12 +3,12 @@
 use super::cases::LiveCases;
 use super::fit::LiveFit;
 use crate::data::cases::Tally;
+use crate::data::watch::Watch;
 use crate::error::DiagnoseError;
 use crate::ranking::applicability::candidates;
 use crate::ranking::rank::rank;
 use crate::selection::path::{misfits, twins};
 use crate::selection::thresholds::EQUAL;
-use crate::watch::Watch;
 use snug_model::Effect;
 
 /// What tightenings that took no part say of one effect beside a model without it.

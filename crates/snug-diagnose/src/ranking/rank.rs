@@ -2,6 +2,7 @@
 
 use crate::data::cases::Cases;
 use crate::data::clusters::Clusters;
+use crate::data::watch::{Pieces, Watch};
 use crate::error::DiagnoseError;
 use crate::library::is_unlisted;
 use crate::pooled::fit::fit_effects;
@@ -23,7 +24,6 @@ use crate::ranking::thresholds::{
 };
 use crate::ranking::where_it_shows::best_where_it_shows;
 use crate::settings::DiagnoseSettings;
-use crate::watch::{Pieces, Watch};
 use rayon::prelude::*;
 use snug_model::{Effect, Law};
 

@@ -6,6 +6,7 @@
 
 use crate::data::cases::Cases;
 use crate::data::clusters::Clusters;
+use crate::data::watch::Watch;
 use crate::error::DiagnoseError;
 use crate::pooled::fit::{fit_effects, fit_part};
 use crate::pooled::fitted::Fitted;
@@ -18,7 +19,6 @@ use crate::ranking::refit::{possible, refit};
 use crate::ranking::score_test::{Control, Scorer};
 use crate::ranking::thresholds::{BEST, BEYOND_THE_QUIET, CANDIDATE, FEWEST_WHERE_IT_SHOWS};
 use crate::settings::DiagnoseSettings;
-use crate::watch::Watch;
 use rayon::prelude::*;
 use snug_model::{Effect, Law};
 use snug_statistics::descriptive::{median, standard_deviation};

@@ -62,9 +62,9 @@ impl ModelSelection<'_> {
 mod tests {
     use super::*;
     use crate::data::cases::{Cases, Tally};
+    use crate::data::watch::Watch;
     use crate::pooled::sharing::Sharing;
     use crate::tests::made_up::{WHOLE, close, noisy, quick};
-    use crate::watch::Watch;
     use snug_identify::FitTask;
     use snug_model::Effect::{self, CubicStiffness};
     use std::sync::atomic::{AtomicBool, Ordering};

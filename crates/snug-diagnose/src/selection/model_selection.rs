@@ -2,6 +2,7 @@
 
 use crate::data::cases::Cases;
 use crate::data::clusters::Clusters;
+use crate::data::watch::Watch;
 use crate::error::DiagnoseError;
 use crate::library::is_unlisted;
 use crate::pooled::fit::{fit_effects, fit_part, fit_sharing};
@@ -18,7 +19,6 @@ use crate::selection::thresholds::{
     SEEDS,
 };
 use crate::settings::DiagnoseSettings;
-use crate::watch::Watch;
 use snug_least_squares::PooledSettings;
 use snug_model::Effect;
 

@@ -1,11 +1,11 @@
 //! Made-up tightenings, candidates and rankings for tests: of a few numbers, small enough to be worked out by hand.
 
 use crate::data::clusters::Clusters;
+use crate::data::watch::Watch;
 use crate::library::terms;
 use crate::pooled::fitted::Fitted;
 use crate::ranking::rank::{Candidate, Ranking};
 use crate::settings::DiagnoseSettings;
-use crate::watch::Watch;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};

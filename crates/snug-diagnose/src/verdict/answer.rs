@@ -2,6 +2,7 @@
 
 use crate::data::cases::Cases;
 use crate::data::clusters::Clusters;
+use crate::data::watch::Watch;
 use crate::error::DiagnoseError;
 use crate::library::{declaration, is_unlisted};
 use crate::locate::{compare, drifts, locate};
@@ -23,7 +24,6 @@ use crate::verdict::thresholds::{BESIDE_EFFECTS, MOSTLY_EXPLAINED, REPEATS, WHIT
 use crate::verdict::tightening_fits::TighteningFits;
 use crate::verdict::trend::trends;
 use crate::verdict::{detectability, floor, in_some_groups, ladder, preparation};
-use crate::watch::Watch;
 use snug_campaign::words::explained::Explained;
 use snug_campaign::words::statement;
 use snug_campaign::words::suspicion::{FailedFit, OtherUnits, Suspicion};
