@@ -43,12 +43,12 @@ pub enum Counted {
 }
 
 impl Counted {
-    /// Of every sample of a tightening's window whether it counts; `None` where all do.
-    fn of(&self, task: &FitTask<'_>) -> Option<Vec<bool>> {
-        let samples = task.measured().len();
+    /// Of every sample of a tightening's window whether it counts.
+    fn of(&self, task: &FitTask<'_>) -> Vec<bool> {
+        let samples = 0..task.measured().len();
         match self {
-            Self::All => None,
-            Self::Stretch(stretch) => Some((0..samples).map(|at| stretch.contains(&at)).collect()),
+            Self::All => samples.map(|_| true).collect(),
+            Self::Stretch(stretch) => samples.map(|at| stretch.contains(&at)).collect(),
             Self::Cell { x_m, v_m_per_s } => {
                 let (motion, l) = (&task.tightening.motion, task.tightening.rig.lever_arm_m);
                 let measured = |signal: &Option<Vec<f64>>, at: usize| -> Option<f64> {
@@ -59,7 +59,7 @@ impl Counted {
                     let v = measured(&motion.velocity_rad_per_s, at);
                     x.is_some_and(|x| x_m.contains(&x)) && v.is_some_and(|v| v_m_per_s.contains(&v))
                 };
-                Some((0..samples).map(is_there).collect())
+                samples.map(is_there).collect()
             }
         }
     }
@@ -68,13 +68,11 @@ impl Counted {
 /// The tightenings of a focus, with two models as they are on these.
 pub struct CloserLook {
     cases: LiveCases,
-    /// Of every residual of each tightening whether it counts; `None` where all do.
-    counted: Option<Vec<Vec<bool>>>,
-    base: Fitted,
+    /// Of every residual of each tightening whether it counts.
+    counted: Vec<Vec<bool>>,
     now: Fitted,
-    /// Σ r² that each leaves, and of how many.
+    /// Σ r² of those residuals that each leaves, the first and the present one.
     left: [f64; 2],
-    count: usize,
 }
 
 impl LiveCases {
@@ -92,34 +90,25 @@ impl LiveCases {
         base: &LiveFit,
         now: &LiveFit,
     ) -> Result<CloserLook, DiagnoseError> {
-        let members = &focus.members;
-        let cases = self.some(members)?;
-        let fits = [base, now].map(|fit| cases.as_fitted(&fit.fitted, members));
-        let [base, now] = fits;
-        let (base, now) = (base?, now?);
-        let counted = cases.residuals_that_count(&focus.counted, &base)?;
-        let is_counted = |member: usize| counted.as_ref().map(|all| all[member].as_slice());
-        let mut left = [0.0; 2];
-        let mut count = 0;
-        for (sum, fitted) in left.iter_mut().zip([&base, &now]) {
-            (*sum, count) = cases.squares(fitted, is_counted)?;
-        }
-        let needed = base.own.first().map_or(1, |own| own.len().max(1));
-        if count <= needed {
-            return Err(IdentifyError::TooShort {
+        let cases = self.some(&focus.members)?;
+        let (base, counted) = cases.as_fitted(&base.fitted, focus)?;
+        let (now, _) = cases.as_fitted(&now.fitted, focus)?;
+        let look = CloserLook {
+            left: [base.squares, now.squares],
+            now: now.fitted,
+            cases,
+            counted,
+        };
+        let (count, own) = (look.samples(), base.fitted.own.first());
+        let needed = own.map_or(1, |own| own.len().max(1));
+        match count > needed {
+            true => Ok(look),
+            false => Err(IdentifyError::TooShort {
                 residuals: count,
                 parameters: needed,
             }
-            .into());
+            .into()),
         }
-        Ok(CloserLook {
-            cases,
-            counted,
-            base,
-            now,
-            left,
-            count,
-        })
     }
 
     fn some(&self, members: &[usize]) -> Result<Self, DiagnoseError> {
@@ -136,69 +125,57 @@ impl LiveCases {
         })
     }
 
-    /// `fitted`, of which these tightenings are the numbers `members`, as it is on these.
-    fn as_fitted(&self, fitted: &Fitted, members: &[usize]) -> Result<Fitted, DiagnoseError> {
+    /// `fitted`, of which these tightenings are the members of a focus, as it is on these; and which residuals of each count.
+    fn as_fitted(
+        &self,
+        fitted: &Fitted,
+        focus: &Focus,
+    ) -> Result<(Standing, Vec<Vec<bool>>), DiagnoseError> {
         let tally = Tally::default();
         let mut pooled =
             PooledModel::shared_by(self.counted(&tally), &fitted.effects, &fitted.sharing)?;
-        let there = fitted.start_of(&pooled, members);
+        let there = fitted.start_of(&pooled, &focus.members);
         let no_step = PooledSettings {
             max_iterations: 0,
             ..PooledSettings::default()
         };
         let stays = pooled.fit(&there, &no_step)?;
-        Ok(Fitted::new(&pooled, stays, &self.clusters))
-    }
-
-    fn residuals_that_count(
-        &self,
-        counted: &Counted,
-        fitted: &Fitted,
-    ) -> Result<Option<Vec<Vec<bool>>>, DiagnoseError> {
-        let tally = Tally::default();
-        let pooled =
-            PooledModel::shared_by(self.counted(&tally), &fitted.effects, &fitted.sharing)?;
-        let of_one = |(member, task): (usize, &FitTask<'_>)| {
-            let mut samples = counted.of(task)?;
-            // A residual stands for the last sample that it is made of.
-            Some(samples.split_off(samples.len() - pooled.residual_count(member)))
-        };
-        Ok(self.cases.iter().enumerate().map(of_one).collect())
-    }
-
-    /// Σ r² of the residuals that count, and how many those are.
-    fn squares<'m>(
-        &self,
-        fitted: &Fitted,
-        is_counted: impl Fn(usize) -> Option<&'m [bool]>,
-    ) -> Result<(f64, usize), DiagnoseError> {
-        let tally = Tally::default();
-        let pooled =
-            PooledModel::shared_by(self.counted(&tally), &fitted.effects, &fitted.sharing)?;
-        let (mut squares, mut count, mut room) = (0.0, 0, Room::default());
-        for (member, own) in fitted.own.iter().enumerate() {
+        let fitted = Fitted::new(&pooled, stays, &self.clusters);
+        let (mut squares, mut counted, mut room) = (0.0, Vec::new(), Room::default());
+        for (member, (task, own)) in self.cases.iter().zip(&fitted.own).enumerate() {
             let values = pooled.values(member, own, &fitted.shared);
             let (residual, _) = pooled.weighted(member, &values, &[], &mut room);
-            for (at, r) in residual.iter().enumerate() {
-                if is_counted(member).is_none_or(|counted| counted[at]) {
-                    squares += r * r;
-                    count += 1;
-                }
-            }
+            let mut samples = focus.counted.of(task);
+            // A residual stands for the last sample that it is made of.
+            let counts = samples.split_off(samples.len() - residual.len());
+            let those = residual.iter().zip(&counts).filter(|(_, counts)| **counts);
+            squares += those.map(|(r, _)| r * r).sum::<f64>();
+            counted.push(counts);
         }
-        Ok((squares, count))
+        Ok((Standing { fitted, squares }, counted))
     }
+}
+
+/// A model on some tightenings.
+struct Standing {
+    fitted: Fitted,
+    /// Σ r² of those residuals that count.
+    squares: f64,
 }
 
 impl CloserLook {
     /// Root mean square of what the models leave there, in the unit of [`LiveFit::error`]: the first, and the present one.
     pub fn errors(&self) -> [f64; 2] {
-        (self.left).map(|squares| (squares / self.count as f64).sqrt())
+        (self.left).map(|squares| (squares / self.samples() as f64).sqrt())
     }
 
     /// How many samples count, of all tightenings together.
     pub fn samples(&self) -> usize {
-        self.count
+        self.counted
+            .iter()
+            .flatten()
+            .filter(|counts| **counts)
+            .count()
     }
 
     /// As [`LiveCases::promises`], of what is left there: what each candidate takes there in the size that the whole windows predict.
@@ -209,22 +186,11 @@ impl CloserLook {
         let (tally, now) = (Tally::default(), &self.now);
         let cases = self.cases.counted(&tally);
         let pooled = PooledModel::shared_by(cases, &now.effects, &now.sharing)?;
-        let scored = |counted: &[Vec<bool>]| {
-            let scorer = Scorer::new(&pooled, now, self.cases.clusters, Control::default());
-            Ok::<_, DiagnoseError>(scorer.counting(counted).score(candidates)?.columns)
-        };
-        let all: Vec<Vec<bool>> = (0..self.cases.cases.len())
-            .map(|member| vec![true; pooled.residual_count(member)])
-            .collect();
-        let whole = scored(&all)?;
-        let part = match &self.counted {
-            Some(counted) => scored(counted)?,
-            None => whole.clone(),
-        };
-        let gains = (whole.iter().zip(&part))
-            .map(|(whole, part)| (whole.effect, whole.predicted_gain_in(part)));
-        let noise = match self.base.is_weighted {
-            true => self.count as f64,
+        let scorer = Scorer::new(&pooled, now, self.cases.clusters, Control::default());
+        let columns = scorer.counting(&self.counted).score(candidates)?.columns;
+        let gains = (columns.iter()).map(|column| (column.effect, column.predicted_gain_counted()));
+        let noise = match now.is_weighted {
+            true => self.samples() as f64,
             false => 0.0,
         };
         Ok(shares(candidates, gains, self.left[0] - noise))

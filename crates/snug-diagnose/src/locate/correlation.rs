@@ -14,14 +14,16 @@ use super::residual::{Residuals, White};
 use crate::locate::thresholds::{CORRELATED_SHARE, CORRELATION_LAGS};
 use snug_campaign::{NORMAL_95, ResidualCorrelation};
 
-/// `None` without a residual of two samples.
+/// `None` without a residual, or one so short that it has no lag.
 pub fn correlation(residuals: &Residuals<'_>) -> Option<ResidualCorrelation> {
     let all: Vec<Pair> = residuals.all.iter().filter_map(Pair::of).collect();
     let shortest = all.iter().map(|pair| pair.w.len()).min()?;
     let samples: usize = all.iter().map(|pair| pair.w.len()).sum();
     let interval_s = all.first()?.interval_s;
     let lags = lags((shortest as f64 * CORRELATED_SHARE) as usize);
-    let last = *lags.last()?;
+    if lags.is_empty() {
+        return None;
+    }
     let mean = |of: &dyn Fn(&Pair) -> f64| {
         let weighted = all.iter().map(|pair| of(pair) * pair.w.len() as f64);
         weighted.sum::<f64>() / samples as f64
@@ -40,7 +42,6 @@ pub fn correlation(residuals: &Residuals<'_>) -> Option<ResidualCorrelation> {
         with_torque: with_torque.collect(),
         half_width: NORMAL_95 / (samples as f64).sqrt(),
     })
-    .filter(|_| last > 0)
 }
 
 /// Lags \[samples\] from 1 to the longest, each longer than the one before by the same factor: neighbours matter most.

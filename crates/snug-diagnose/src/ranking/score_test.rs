@@ -55,6 +55,8 @@ struct Contribution {
     /// Column by column: s of each cluster.
     scores: Vec<Vec<f64>>,
     variances: Vec<Vec<f64>>,
+    /// The three of those residuals that count; none where no part is told apart.
+    counted: Vec<(Vec<f64>, Vec<f64>, f64)>,
     information: Vec<f64>,
     cross: Vec<Vec<f64>>,
     gram: Option<SymmetricMatrix>,
@@ -86,8 +88,8 @@ impl<'a, 'h> Scorer<'a, 'h> {
         }
     }
 
-    /// The same with nothing counted but some residuals of each tightening. What the model's own parameters can imitate is taken out over
-    /// the whole window all the same, and what all share tightening by tightening, too.
+    /// The same, told apart what some residuals of each tightening say. What the model's own parameters can imitate is taken out over the
+    /// whole window all the same, and what all share tightening by tightening, too.
     pub fn counting(self, counted: &'h [Vec<bool>]) -> Self {
         Self {
             counted: Some(counted),
@@ -124,6 +126,11 @@ impl<'a, 'h> Scorer<'a, 'h> {
                 column.scores.extend(&contribution.scores[index]);
                 column.variances.extend(&contribution.variances[index]);
                 column.information += contribution.information[index];
+                if let Some((scores, variances, information)) = contribution.counted.get(index) {
+                    column.counted.scores.extend(scores);
+                    column.counted.variances.extend(variances);
+                    column.counted.information += information;
+                }
                 let cross = &contribution.cross[index];
                 column.cross.resize(cross.len(), 0.0);
                 for (sum, more) in column.cross.iter_mut().zip(cross) {
@@ -253,10 +260,6 @@ impl<'a, 'h> Scorer<'a, 'h> {
         for signature in of_columns {
             let mut z = pooled.weigh_signal(member, signature);
             nuisance.project(&mut z);
-            if let Some(counted) = self.counted {
-                let uncounted = z.iter_mut().zip(&counted[member]).filter(|(_, is)| !**is);
-                uncounted.for_each(|(z, _)| *z = 0.0);
-            }
             let (scores, variances, information) = self.of_clusters(&z, residual, bias.as_deref());
             // The Jacobian is that of the residual: minus the output's.
             let cross: Vec<f64> = shared
@@ -267,6 +270,11 @@ impl<'a, 'h> Scorer<'a, 'h> {
             contribution.scores.push(scores);
             contribution.variances.push(variances);
             contribution.information.push(information);
+            if let Some(counted) = self.counted {
+                let z = only(&z, &counted[member]);
+                let there = self.of_clusters(&z, residual, bias.as_deref());
+                contribution.counted.push(there);
+            }
             if self.control.campaigns > 0 {
                 along_bias.push(bias.as_ref().map_or(0.0, |bias| dot(&z, bias)));
             }
@@ -384,6 +392,14 @@ impl<'a, 'h> Scorer<'a, 'h> {
         }
         columns.iter_mut().for_each(Column::bound);
     }
+}
+
+/// A signature of which nothing is left but where it counts.
+fn only(signature: &[f64], counted: &[bool]) -> Vec<f64> {
+    let pairs = signature.iter().zip(counted);
+    pairs
+        .map(|(z, counts)| if *counts { *z } else { 0.0 })
+        .collect()
 }
 
 #[cfg(test)]

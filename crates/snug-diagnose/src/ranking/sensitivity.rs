@@ -28,9 +28,22 @@ pub(crate) struct Column {
     lengths: [f64; 2],
     /// Variance of s of each cluster under noise alone.
     pub variances: Vec<f64>,
+    /// What of it those residuals say that count, where a part is told apart.
+    pub counted: CountedPart,
     /// Σ I.
     pub information: f64,
     pub cross: Vec<f64>,
+}
+
+/// What some residuals of each tightening say of a column.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct CountedPart {
+    /// s of each cluster.
+    pub scores: Vec<f64>,
+    /// Its variance under noise alone.
+    pub variances: Vec<f64>,
+    /// Σ I.
+    pub information: f64,
 }
 
 impl Column {
@@ -155,24 +168,25 @@ impl Column {
         }
     }
 
-    /// Predicted decrease of Σ r² of the residuals that `part` counts, with the size that all of them predict: s̃ and Ĩ of the part give
+    /// Predicted decrease of Σ r² of those residuals that count, with the size that all of them predict: s̃ and Ĩ of what counts give
     /// 2 β s̃ − β² Ĩ, β = Σ s / Σ I; what a size of its own would do there is no promise.
-    pub fn predicted_gain_in(&self, part: &Self) -> f64 {
-        let gain = |score: f64, information: f64, part_score: f64, part_information: f64| {
+    pub fn predicted_gain_counted(&self) -> f64 {
+        let gain = |score: f64, information: f64, counted: f64, known: f64| {
             let size = score / information;
             match information > 0.0 && self.may_be(size) {
-                true => size * (2.0 * part_score - size * part_information),
+                true => size * (2.0 * counted - size * known),
                 false => 0.0,
             }
         };
+        let there = &self.counted;
         if !self.own {
-            let [all, there] = [self, part].map(|of| of.scores.iter().sum::<f64>());
-            return gain(all, self.information, there, part.information);
+            let [all, counted] = [&self.scores, &there.scores].map(|of| of.iter().sum::<f64>());
+            return gain(all, self.information, counted, there.information);
         }
         let all = self.scores.iter().zip(&self.variances);
-        let there = part.scores.iter().zip(&part.variances);
-        all.zip(there)
-            .map(|((s, v), (part_s, part_v))| gain(*s, *v, *part_s, *part_v))
+        let counted = there.scores.iter().zip(&there.variances);
+        all.zip(counted)
+            .map(|((s, v), (counted, known))| gain(*s, *v, *counted, *known))
             .sum()
     }
 
@@ -205,6 +219,7 @@ pub(crate) fn directions(effect: Effect, ranges: &[PlausibleRange], whole: bool)
         bounded: Vec::new(),
         lengths: [0.0; 2],
         variances: Vec::new(),
+        counted: CountedPart::default(),
         information: 0.0,
         cross: Vec::new(),
     };

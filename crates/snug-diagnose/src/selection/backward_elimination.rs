@@ -26,11 +26,11 @@ pub(crate) fn try_removals(
             continue;
         };
         let losses = gains(&without.heldout_beyond_torque_noise(), &full);
-        let growth = losses.iter().sum::<f64>() / full.squares();
-        let hardly_matters = growth < without.smallest_gain(selection.settings);
+        let loss: f64 = losses.iter().sum();
+        let hardly_matters = loss / full.squares() < without.smallest_gain(selection.settings);
         match hardly_matters || clearness(&losses, full.scale()) < 1.0 {
-            true => path.take_out(effect, without),
-            false => path.keep(effect, &without),
+            true => path.take_out(effect, without, loss),
+            false => path.keep(effect, loss),
         }
     }
     if path.attempts.iter().any(|attempt| attempt.removed) {
@@ -66,7 +66,8 @@ pub(crate) fn take_out_what_may_be_nothing(
         let Some((effect, without)) = least else {
             return Ok(());
         };
-        path.take_out(effect, without);
+        let losses = gains(&without.heldout_beyond_torque_noise(), &full);
+        path.take_out(effect, without, losses.iter().sum());
     }
     Ok(())
 }

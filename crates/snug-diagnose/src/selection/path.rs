@@ -5,7 +5,7 @@ use crate::error::DiagnoseError;
 use crate::library::is_unlisted;
 use crate::pooled::fitted::Fitted;
 use crate::ranking::kin::is_simpler;
-use crate::ranking::paired_gain::{agreement, gains};
+use crate::ranking::paired_gain::agreement;
 use crate::ranking::rank::{Candidate, Ranking};
 use crate::selection::thresholds::{
     AS_MUCH, EQUAL, GOOD_PART, MATTERS, MOST, NO_OTHER, PLAINLY_MORE, PROMISING_P, SMALL, TRIFLE,
@@ -84,9 +84,9 @@ impl SelectionPath {
         self.stand_on(fitted);
     }
 
-    /// One rung down: the last model does `without` an effect that was added.
-    pub fn take_out(&mut self, effect: Effect, without: Fitted) {
-        self.attempts.push(self.attempt(effect, &without, true));
+    /// One rung down: the last model does `without` an effect that was added, and loses so much.
+    pub fn take_out(&mut self, effect: Effect, without: Fitted, loss: f64) {
+        self.attempts.push(self.attempt(effect, loss, true));
         self.additions.retain(|one| one.effect != effect);
         self.stand_on(without);
         if let [only] = self.additions.as_slice() {
@@ -94,11 +94,19 @@ impl SelectionPath {
         }
     }
 
-    /// The last model keeps an effect that was added: it explains at least what is lost `without` it, whatever it took first.
-    pub fn keep(&mut self, effect: Effect, without: &Fitted) {
-        let attempt = self.attempt(effect, without, false);
-        self.explains(effect, attempt.loss / misfit(&self.rungs[0]));
-        self.attempts.push(attempt);
+    /// The last model keeps an effect that was added: it explains at least what is lost without it, whatever it took first.
+    pub fn keep(&mut self, effect: Effect, loss: f64) {
+        self.explains(effect, loss / misfit(&self.rungs[0]));
+        self.attempts.push(self.attempt(effect, loss, false));
+    }
+
+    fn attempt(&self, effect: Effect, loss: f64, removed: bool) -> Attempt {
+        Attempt {
+            effect,
+            removed,
+            loss,
+            growth: loss / self.last().squares(),
+        }
     }
 
     /// Without an effect that was added the last model is nothing: it explains all that all of them do.
@@ -110,18 +118,6 @@ impl SelectionPath {
         let mut additions = self.additions.iter_mut();
         if let Some(one) = additions.find(|one| one.effect == effect) {
             one.share_of_first = one.share_of_first.max(share);
-        }
-    }
-
-    fn attempt(&self, effect: Effect, without: &Fitted, removed: bool) -> Attempt {
-        let full = self.last();
-        let losses = gains(&without.heldout_beyond_torque_noise(), full);
-        let loss: f64 = losses.iter().sum();
-        Attempt {
-            effect,
-            removed,
-            loss,
-            growth: loss / full.squares(),
         }
     }
 
