@@ -106,6 +106,18 @@ impl<'a> FitTask<'a> {
         Whitening::of(&self.tightening, self.quantity())
     }
 
+    /// Σ (measured − simulated)² of its scored samples, in the output's unit squared, where `model` has these values of all its
+    /// parameters.
+    ///
+    /// # Errors
+    /// What the model refuses.
+    pub fn squares_left(&self, model: &Model, values: &[f64]) -> Result<f64, ModelError> {
+        let mut simulated = vec![0.0; self.measured().len()];
+        model.output(values, &self.input, self.quantity(), &mut simulated)?;
+        let scored = simulated.iter().zip(self.measured()).skip(self.unscored());
+        Ok(scored.map(|(s, y)| (y - s).powi(2)).sum())
+    }
+
     /// Its first `samples` samples.
     pub fn beginning(&self, samples: usize) -> FitTask<'static> {
         let mut tightening = self.tightening.clone().into_owned();

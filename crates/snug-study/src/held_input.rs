@@ -58,13 +58,7 @@ fn squares_left(cases: &[FitTask<'_>]) -> Option<f64> {
     let mut squares = 0.0;
     for (estimate, case) in identify_all(cases).into_iter().zip(cases) {
         let values: Vec<f64> = estimate.ok()?.parameters.iter().map(|p| p.value).collect();
-        let mut output = vec![0.0; case.measured().len()];
-        let quantity = case.quantity();
-        (case.model)
-            .output(&values, &case.input, quantity, &mut output)
-            .ok()?;
-        let pairs = output.iter().zip(case.measured()).skip(case.unscored());
-        squares += pairs.map(|(s, y)| (y - s).powi(2)).sum::<f64>();
+        squares += case.squares_left(&case.model, &values).ok()?;
     }
     Some(squares)
 }

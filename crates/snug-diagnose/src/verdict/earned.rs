@@ -109,11 +109,7 @@ fn from_the_spectra(cases: &[FitTask<'_>]) -> Option<f64> {
     let mut left = 0.0;
     for case in cases {
         let base = case.model.with_effects(&[]).ok()?;
-        let mut simulated = vec![0.0; case.measured().len()];
-        base.output(&start.values, &case.input, case.quantity(), &mut simulated)
-            .ok()?;
-        let pairs = simulated.iter().zip(case.measured()).skip(case.unscored());
-        left += pairs.map(|(s, y)| (y - s).powi(2)).sum::<f64>();
+        left += case.squares_left(&base, &start.values).ok()?;
     }
     Some(1.0 - left / power(cases)).filter(|share| share.is_finite())
 }

@@ -62,13 +62,10 @@ fn rms_residual(cases: &[FitTask<'_>], fitted: &Fitted) -> f64 {
             continue;
         };
         let values: Vec<f64> = model.parameters().iter().map(|p| p.value).collect();
-        let mut output = vec![0.0; case.measured().len()];
-        model
-            .output(&values, &case.input, case.quantity(), &mut output)
+        squares += case
+            .squares_left(&model, &values)
             .expect("the input of a case is as long as what was measured");
-        let scored = output.iter().zip(case.measured()).skip(case.unscored());
-        squares += scored.map(|(s, m)| (m - s).powi(2)).sum::<f64>();
-        count += output.len() - case.unscored();
+        count += case.measured().len() - case.unscored();
     }
     (squares / count.max(1) as f64).sqrt()
 }

@@ -141,19 +141,20 @@ impl Member {
         let size = n + p;
         // The last p rows of the factor: R_αα.
         let column = |index: usize| &self.here.factor[(n + index) * size + n..][..p];
-        let reachable = &self.here.reachable[n..];
-        let mut curvature = vec![0.0; p * p];
-        for j in 0..p {
-            for i in 0..p {
-                curvature[j * p + i] = dot(column(i), column(j));
-            }
-        }
-        Profile {
-            cost: self.here.cost,
-            shared: self.shared.clone(),
-            curvature,
-            gradient: (0..p).map(|j| dot(column(j), reachable)).collect(),
-        }
+        told(self, column, &self.here.reachable[n..])
+    }
+}
+
+/// Cost, gradient and curvature over the shared parameters, of a member's triangular columns over them and what they reach.
+fn told<'c>(member: &Member, column: impl Fn(usize) -> &'c [f64], reachable: &[f64]) -> Profile {
+    let p = member.shared.len();
+    Profile {
+        cost: member.here.cost,
+        shared: member.shared.clone(),
+        curvature: (0..p * p)
+            .map(|at| dot(column(at % p), column(at / p)))
+            .collect(),
+        gradient: (0..p).map(|j| dot(column(j), reachable)).collect(),
     }
 }
 
@@ -169,14 +170,7 @@ pub fn profile_of(here: Linearization, own: &[f64], set: &Constraints) -> Profil
     member.follow(&shift, LEAST_DAMPING, set, &mut Work::default());
     member.eliminate(LEAST_DAMPING, set);
     let Rest { rows, right } = &member.rest;
-    let column = |index: usize| &rows[index * p..][..p];
-    let curvature = (0..p * p).map(|at| dot(column(at / p), column(at % p)));
-    Profile {
-        cost: member.here.cost,
-        curvature: curvature.collect(),
-        gradient: (0..p).map(|j| dot(column(j), right)).collect(),
-        shared: member.shared,
-    }
+    told(&member, |index| &rows[index * p..][..p], right)
 }
 
 /// The least-squares problem in α alone, every β_i following: what all leave to it, stacked and triangularised; first those
