@@ -5,21 +5,9 @@ mod programs;
 mod workspace;
 
 use chores::Chore;
-use clap::{Parser, Subcommand};
-use snug_cli::{EXAMPLES, Front, LogOptions, complain, exit};
+use clap::Subcommand;
+use snug_cli::Front;
 use std::process::ExitCode;
-
-/// Snug identifies the hand–arm model of a nutrunner from measured tightenings.
-#[derive(Debug, Parser)]
-#[command(version, after_help = EXAMPLES)]
-struct Arguments {
-    /// What to do.
-    #[command(subcommand)]
-    verb: Verb,
-    /// How log lines are written.
-    #[command(flatten)]
-    log: LogOptions,
-}
 
 /// What to do.
 #[derive(Debug, Subcommand)]
@@ -50,13 +38,8 @@ fn main() -> ExitCode {
         workbench: programs::workbench,
         plant: programs::plant,
     };
-    let arguments: Arguments = front.parse();
-    if let Err(error) = snug_cli::start_log(&arguments.log) {
-        complain(&error);
-        return exit::bad_arguments();
-    }
-    match arguments.verb {
+    front.run(|verb| match verb {
         Verb::Snug(verb) => verb.run(&front),
         Verb::Chore(chore) => chore.run(),
-    }
+    })
 }

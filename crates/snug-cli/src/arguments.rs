@@ -1,13 +1,26 @@
 //! Options of the command line; the comments here are what `--help` prints. The verbs stand in `verbs.rs`.
 
 use crate::effect_names::EffectNames;
-use clap::{Args, ValueEnum};
+use crate::front::EXAMPLES;
+use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 use std::time::Duration;
 
+/// Snug identifies the hand–arm model of a nutrunner from measured tightenings.
+#[derive(Debug, Parser)]
+#[command(version, after_help = EXAMPLES)]
+pub(crate) struct Arguments<V: Subcommand> {
+    /// What to do.
+    #[command(subcommand)]
+    pub verb: V,
+    /// How log lines are written.
+    #[command(flatten)]
+    pub log: LogOptions,
+}
+
 /// Options of the log; every verb takes them.
 #[derive(Debug, Args)]
-pub struct LogOptions {
+pub(crate) struct LogOptions {
     /// Log lines for people or, one JSON object a line, for machines (on standard error).
     #[arg(long, global = true, value_enum, default_value_t = LogFormat::Text)]
     pub log: LogFormat,
@@ -18,7 +31,7 @@ pub struct LogOptions {
 
 /// Form of the log.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum LogFormat {
+pub(crate) enum LogFormat {
     /// For people.
     Text,
     /// One JSON object a line.

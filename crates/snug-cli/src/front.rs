@@ -1,8 +1,10 @@
 //! What differs between the programs that offer Snug's verbs: their name, their campaign, and how they start other programs.
 
-use crate::arguments::WorkbenchOptions;
+use crate::arguments::{Arguments, WorkbenchOptions};
 use crate::error::CliError;
-use clap::{Command, Parser};
+use crate::terminal::complain;
+use crate::{exit, logging};
+use clap::{Command, CommandFactory, FromArgMatches, Subcommand};
 use snug_campaign::words::program::set_program;
 use std::ffi::OsString;
 use std::path::PathBuf;
@@ -27,18 +29,26 @@ pub struct Front {
 }
 
 impl Front {
-    /// The program's arguments as typed; texts recommend its name from now on. Ends the program where they are wrong.
-    pub fn parse<A: Parser>(&self) -> A {
+    /// Does what was typed with one of the verbs `V`; texts recommend the program's name from now on. Ends the program where the
+    /// arguments are wrong.
+    pub fn run<V: Subcommand>(&self, act: impl FnOnce(V) -> ExitCode) -> ExitCode {
         set_program(self.program);
-        let mut command = self.command::<A>();
+        let mut command = self.command::<V>();
         let mut matches = command.get_matches_mut();
-        A::from_arg_matches_mut(&mut matches)
-            .unwrap_or_else(|error| error.format(&mut command).exit())
+        let arguments = Arguments::<V>::from_arg_matches_mut(&mut matches)
+            .unwrap_or_else(|error| error.format(&mut command).exit());
+        if let Err(error) = logging::start(&arguments.log) {
+            complain(&error);
+            return exit::bad_arguments();
+        }
+        act(arguments.verb)
     }
 
-    /// The command line of `A` under the program's name, every word in braces filled in.
-    pub fn command<A: Parser>(&self) -> Command {
-        let command = A::command().name(self.program).bin_name(self.program);
+    /// The command line with the verbs `V` under the program's name, every word in braces filled in.
+    pub fn command<V: Subcommand>(&self) -> Command {
+        let command = Arguments::<V>::command()
+            .name(self.program)
+            .bin_name(self.program);
         self.filled(command)
             .mut_subcommands(|verb| self.filled(verb))
     }
@@ -64,7 +74,7 @@ impl Front {
 }
 
 /// What every program's help ends with.
-pub const EXAMPLES: &str = "\
+pub(crate) const EXAMPLES: &str = "\
 Examples:
   {program} run                              the embedded campaign, into out/
   {program} run --data DIR                   your folder of MAT files (or a folder of recordings)

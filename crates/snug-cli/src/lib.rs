@@ -15,12 +15,9 @@ mod summary;
 mod terminal;
 mod verbs;
 
-pub use arguments::{
-    ChangeOptions, LogFormat, LogOptions, PresetName, RunOptions, WorkbenchOptions,
-};
+pub use arguments::{ChangeOptions, PresetName, RunOptions, WorkbenchOptions};
 pub use embedded::campaign;
 pub use error::CliError;
-pub use front::{EXAMPLES, Front, Notify};
-pub use logging::start as start_log;
+pub use front::{Front, Notify};
 pub use terminal::{complain, say};
 pub use verbs::{Verb, refused, study};

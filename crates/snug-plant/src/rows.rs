@@ -7,6 +7,9 @@ mod integrals;
 pub(crate) use decode::{conditions, names_of, prepared};
 pub use encode::batch;
 
+use arrow::array::RecordBatch;
+use arrow::compute::{SortColumn, lexsort_to_indices, take_record_batch};
+use arrow::error::ArrowError;
 use snug_campaign::{Quantity, Tightening};
 use snug_preprocess::Prepared;
 
@@ -28,6 +31,17 @@ impl Row {
     pub fn key(&self) -> String {
         format!("{}-{}", self.source, self.prepared.tightening.id.number)
     }
+}
+
+/// Rows in the order of these columns, the first counting most.
+pub(crate) fn sorted(rows: &RecordBatch, by: &[&str]) -> Result<RecordBatch, ArrowError> {
+    let columns = by.iter().filter_map(|name| rows.column_by_name(name));
+    let columns = columns.map(|values| SortColumn {
+        values: values.clone(),
+        options: None,
+    });
+    let order = lexsort_to_indices(&columns.collect::<Vec<_>>(), None)?;
+    take_record_batch(rows, &order)
 }
 
 /// Values of which the bytes are put side by side for a checksum.

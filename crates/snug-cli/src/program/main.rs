@@ -4,24 +4,12 @@ mod completions;
 mod plant;
 mod workbench;
 
-use clap::{Parser, Subcommand};
+use clap::Subcommand;
 use clap_complete::CompleteEnv;
 use completions::Shell;
 use snug_campaign::words::program;
-use snug_cli::{EXAMPLES, Front, LogOptions, complain, exit};
+use snug_cli::Front;
 use std::process::ExitCode;
-
-/// Snug identifies the hand–arm model of a nutrunner from measured tightenings.
-#[derive(Debug, Parser)]
-#[command(version, after_help = EXAMPLES)]
-struct Arguments {
-    /// What to do.
-    #[command(subcommand)]
-    verb: Verb,
-    /// How log lines are written.
-    #[command(flatten)]
-    log: LogOptions,
-}
 
 /// What to do.
 #[derive(Debug, Subcommand)]
@@ -62,16 +50,11 @@ fn main() -> ExitCode {
         workbench: workbench::open,
         plant: plant::start,
     };
-    CompleteEnv::with_factory(|| front.command::<Arguments>())
+    CompleteEnv::with_factory(|| front.command::<Verb>())
         .var(completions::VARIABLE)
         .complete();
-    let arguments: Arguments = front.parse();
-    if let Err(error) = snug_cli::start_log(&arguments.log) {
-        complain(&error);
-        return exit::bad_arguments();
-    }
-    match arguments.verb {
+    front.run(|verb| match verb {
         Verb::Snug(verb) => verb.run(&front),
         Verb::Completions { shell } => completions::print(shell),
-    }
+    })
 }

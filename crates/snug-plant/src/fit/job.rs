@@ -5,12 +5,11 @@ use super::function::{TAKEN, function};
 use crate::dataset::{Commit, Dataset};
 use crate::engine::{Engine, answered, rows_of};
 use crate::partition::{Partition, of_row};
+use crate::rows;
 use crate::schema::{self, IDENTITY};
 use crate::{PlantError, Store};
 use arrow::array::{ArrayRef, AsArray, RecordBatch};
-use arrow::compute::{
-    SortColumn, concat_batches, lexsort_to_indices, partition, take_record_batch,
-};
+use arrow::compute::{concat_batches, partition};
 use arrow::datatypes::SchemaRef;
 use datafusion::common::Column;
 use datafusion::logical_expr::{Expr, lit};
@@ -207,16 +206,7 @@ impl Work<'_> {
             .collect::<Result<_, _>>()?;
         let failed = PlantError::columns("results");
         let all = concat_batches(&self.schema, &flat).map_err(&failed)?;
-        let by: Vec<SortColumn> = ["day", "tool", "file", "number", "key"]
-            .iter()
-            .filter_map(|name| all.column_by_name(name).cloned())
-            .map(|values| SortColumn {
-                values,
-                options: None,
-            })
-            .collect();
-        let order = lexsort_to_indices(&by, None).map_err(&failed)?;
-        take_record_batch(&all, &order).map_err(&failed)
+        rows::sorted(&all, &["day", "tool", "file", "number", "key"]).map_err(&failed)
     }
 
     /// Writes each partition's results and makes them count, if they are of every row once.

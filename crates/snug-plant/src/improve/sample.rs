@@ -13,7 +13,7 @@ use crate::pooled::States;
 use crate::rows;
 use crate::schema;
 use arrow::array::{Array, AsArray, RecordBatch};
-use arrow::compute::{SortColumn, concat_batches, lexsort_to_indices, take_record_batch};
+use arrow::compute::concat_batches;
 use datafusion::common::Column;
 use datafusion::logical_expr::{Expr, lit};
 use serde::Serialize;
@@ -108,16 +108,8 @@ pub async fn sample(
         Err(error) => return Err(unreadable(data, &taken, parts.len()).await.unwrap_or(error)),
     };
     let failed = PlantError::columns("a sample");
-    let by = ["tool", "day", "file", "number", "key"].iter();
-    let by: Vec<SortColumn> = by
-        .filter_map(|name| rows.column_by_name(name).cloned())
-        .map(|values| SortColumn {
-            values,
-            options: None,
-        })
-        .collect();
-    let order = lexsort_to_indices(&by, None).map_err(&failed)?;
-    let rows = take_record_batch(&rows, &order).map_err(&failed)?;
+    let by = ["tool", "day", "file", "number", "key"];
+    let rows = rows::sorted(&rows, &by).map_err(&failed)?;
     let mut prepared = rows::prepared(&rows).map_err(&failed)?;
     let names = rows::names_of(&rows, &|tool, day| states.name(tool, day)).map_err(&failed)?;
     let mut counts: BTreeMap<String, u32> = BTreeMap::new();
