@@ -17,6 +17,14 @@ pub enum DiagnoseError {
         /// Why not.
         reason: &'static str,
     },
+    /// So few samples count that a model's own parameters could follow them.
+    #[error("{samples} samples lie there, more than {own} are needed to tell anything")]
+    FewSamples {
+        /// Samples that count.
+        samples: usize,
+        /// Parameters that a tightening has of its own.
+        own: usize,
+    },
     /// Whoever watches ended it.
     #[error("interrupted before there was a result")]
     Interrupted,

@@ -49,7 +49,7 @@ pub enum SyntheticError {
         tries: usize,
     },
     /// A file could not be written.
-    #[error("cannot write {path}")]
+    #[error("cannot write {path}: {source}")]
     Write {
         /// Where.
         path: PathBuf,

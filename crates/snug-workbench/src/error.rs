@@ -69,7 +69,7 @@ pub enum WorkbenchError {
     },
     /// A cell of the map of the missing force that is none.
     #[error(
-        "cell = {given:?} is no cell of the map: four numbers are needed, lower and upper edge of the grip's displacement in m and of its velocity in m/s, with commas between them"
+        "cell = {given:?} is no cell of the map: four finite numbers are needed, lower and upper edge of the grip's displacement in m and of its velocity in m/s, with commas between them"
     )]
     NoCell {
         /// What was given instead.

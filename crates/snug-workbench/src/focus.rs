@@ -115,11 +115,15 @@ impl Closer {
             given: self.cell.chars().take(120).collect(),
         };
         let edges: Result<Vec<f64>, _> = self.cell.split(',').map(str::parse).collect();
-        match edges.map_err(|_| wrong())?.as_slice() {
-            &[left, right, slow, fast] if left < right && slow < fast => Ok(Some(Cell {
-                x_m: left..=right,
-                v_m_per_s: slow..=fast,
-            })),
+        let edges = edges.map_err(|_| wrong())?;
+        let are_finite = edges.iter().all(|edge| edge.is_finite());
+        match edges.as_slice() {
+            &[left, right, slow, fast] if are_finite && left < right && slow < fast => {
+                Ok(Some(Cell {
+                    x_m: left..=right,
+                    v_m_per_s: slow..=fast,
+                }))
+            }
             _ => Err(wrong()),
         }
     }

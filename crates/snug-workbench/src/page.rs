@@ -146,7 +146,7 @@ fn centre(campaign: &Campaign) -> Markup {
             (viewer(&nothing, &["Model and measurement", "What is left over: measured − simulated"]))
             section.force aria-labelledby="force-title" {
                 h3 id="force-title" { "The missing force, and whether the rest is noise" }
-                p.note { "Click a cell of the map, or go there with the arrows and press Enter, and candidates are ranked by what is left \
+                p.note data-cells-say="" hidden { "Click a cell of the map, or go there with the arrows and press Enter, and candidates are ranked by what is left \
                     over there." }
                 div data-force="" aria-live="off" {}
             }

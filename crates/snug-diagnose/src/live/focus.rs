@@ -12,7 +12,7 @@ use crate::error::DiagnoseError;
 use crate::pooled::fitted::Fitted;
 use crate::pooled::model::{PooledModel, Room};
 use crate::ranking::score_test::{Control, Scorer};
-use snug_identify::{FitTask, IdentifyError};
+use snug_identify::FitTask;
 use snug_least_squares::PooledSettings;
 use snug_model::Effect;
 use std::ops::{Range, RangeInclusive};
@@ -79,8 +79,8 @@ impl LiveCases {
     /// A closer look at what `base` and `now` leave, which were fitted to all tightenings: no number of them changes.
     ///
     /// # Errors
-    /// [`DiagnoseError::NothingToCompare`] without tightenings, [`DiagnoseError::Identify`] where fewer samples count than a tightening
-    /// has parameters of its own, and what the model refuses.
+    /// [`DiagnoseError::NothingToCompare`] without tightenings, [`DiagnoseError::FewSamples`] where no more samples count than a
+    /// tightening has parameters of its own, and what the model refuses.
     ///
     /// # Panics
     /// Where there is no such tightening.
@@ -99,15 +99,11 @@ impl LiveCases {
             cases,
             counted,
         };
-        let (count, own) = (look.samples(), base.fitted.own.first());
-        let needed = own.map_or(1, |own| own.len().max(1));
-        match count > needed {
+        let samples = look.samples();
+        let own = base.fitted.own.first().map_or(1, |own| own.len().max(1));
+        match samples > own {
             true => Ok(look),
-            false => Err(IdentifyError::TooShort {
-                residuals: count,
-                parameters: needed,
-            }
-            .into()),
+            false => Err(DiagnoseError::FewSamples { samples, own }),
         }
     }
 

@@ -227,6 +227,8 @@ const force = async () => {
 const cells = () => [...one('force').querySelectorAll('[data-cell]')];
 const cellsOf = map => [...map.querySelectorAll('[data-cell]')];
 const choosableCells = () => {
+  // A rig without a measured angle has no map.
+  one('cells-say').hidden = !cells().length;
   // The map is there twice, for wide screens and for narrow ones.
   new Set(cells().map(cell => cell.closest('svg'))).forEach(map => {
     map.setAttribute('role', 'group');

@@ -237,8 +237,14 @@ fn what_is_not_there_is_said_in_a_sentence() {
         400,
     );
     assert!(never.contains("the first below the second"), "{never}");
-    let no_cell = sentence(get(port, "/api/events?session=one&cell=1,2,3"), 400);
-    assert!(no_cell.contains("four numbers are needed"), "{no_cell}");
+    for cell in ["1,2,3", "-inf,inf,-inf,inf"] {
+        let events = format!("/api/events?session=one&cell={cell}");
+        let no_cell = sentence(get(port, &events), 400);
+        assert!(
+            no_cell.contains("four finite numbers are needed"),
+            "{no_cell}"
+        );
+    }
     let both = "/api/events?session=one&cell=-1,1,-1,1&from_s=0.1&to_s=0.2";
     let both = sentence(get(port, both), 400);
     assert!(both.contains("not at both"), "{both}");
