@@ -138,6 +138,10 @@ macro_rules! forward {
             )+)+
 
             fn wavelength(&self) -> Option<usize> {
+                if let Self::Custom(law) = self {
+                    // One that stands in for one of the catalogue's, on a rig of another scale, is of its kind.
+                    return Self::named(law.description().name)?.wavelength();
+                }
                 catalogue!(ask, self, law => law.wavelength())
             }
 

@@ -10,6 +10,7 @@ pub(crate) mod model;
 pub(crate) mod plant;
 pub(crate) mod record;
 pub(crate) mod response;
+pub(crate) mod run;
 pub(crate) mod runge_kutta;
 pub(crate) mod sensors;
 pub(crate) mod side_by_side;

@@ -5,7 +5,7 @@
 //! the response and all three derivatives; higher derivatives follow from the two equations themselves.
 
 use crate::numeric::matrix_exponential::exponential;
-use crate::numeric::real::Real;
+use crate::numeric::number::Real;
 use crate::simulate::inputs::SimulationInputs;
 
 /// The base model in the form the recursion uses.

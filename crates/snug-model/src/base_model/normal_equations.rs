@@ -6,7 +6,8 @@
 //! almost for nothing through the adders beside them and spare the covariance a sweep of its own.
 
 use crate::base_model::sweep::{BLOCK, Lane, Sweep};
-use crate::numeric::real::{Real, Task};
+use crate::numeric::lanewise::Task;
+use crate::numeric::number::Real;
 use snug_campaign::Quantity;
 
 /// Cost, gradient and curvature of ½‖r‖² over m, c, k.

@@ -2,7 +2,8 @@
 
 use crate::base_model::exact::{Constants, Oscillator, Recursion};
 use crate::input::torque::Input;
-use crate::numeric::real::{Real, Task};
+use crate::numeric::lanewise::Task;
+use crate::numeric::number::Real;
 use snug_campaign::{Quantity, Rig};
 use std::borrow::Cow;
 use std::ops::Range;

@@ -4,7 +4,6 @@ use crate::custom::expression;
 use crate::custom::expression::{Program, Surroundings};
 use crate::custom::settings::{CustomEffectSettings, Place};
 use crate::description::{ActsOn, Description, Kind, ParameterSpec, Scope};
-use crate::effects::Effect;
 use crate::error::ModelError;
 use crate::law::{Instant, Kinematics, Law};
 use crate::numeric::number::Number;
@@ -105,11 +104,6 @@ impl Law for CustomEffect {
     #[inline(always)]
     fn torque<N: Number>(&self, p: &[N], at: &Instant<N>) -> Option<N> {
         (self.settings.place == Place::Torque).then(|| self.value(p, at))
-    }
-
-    /// A law that stands in for one of the catalogue's, on a rig of another scale, is of its kind.
-    fn wavelength(&self) -> Option<usize> {
-        Effect::named(self.description.name)?.wavelength()
     }
 
     #[inline(always)]

@@ -14,8 +14,8 @@
 
 use crate::description::{ActsOn, Description, Kind, OnMachine, ParameterSpec, Scope, state};
 use crate::law::{Instant, Law};
+use crate::numeric::lanewise::Lanewise;
 use crate::numeric::number::Number;
-use crate::numeric::real::Real;
 
 state! {
     summary: "Soft tissue sticks first and then gives way at a constant force, with a loop at every reversal.",

@@ -10,8 +10,8 @@
 
 use crate::description::{ActsOn, Description, Kind, ParameterSpec, Scope, state};
 use crate::law::{Instant, Law};
+use crate::numeric::lanewise::Lanewise;
 use crate::numeric::number::Number;
-use crate::numeric::real::Real;
 
 state! {
     summary: "The hand damps the way back differently from the way out.",

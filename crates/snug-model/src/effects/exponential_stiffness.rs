@@ -10,8 +10,8 @@
 
 use crate::description::{ActsOn, Description, Kind, OnMachine, ParameterSpec, Scope, state};
 use crate::law::{Instant, Law};
+use crate::numeric::lanewise::Lanewise;
 use crate::numeric::number::Number;
-use crate::numeric::real::Real;
 
 state! {
     summary: "The hand is a spring that stiffens ever faster the further it is pulled, as tissue does.",

@@ -12,8 +12,8 @@
 
 use crate::description::{ActsOn, Description, Kind, OnMachine, ParameterSpec, Scope, state};
 use crate::law::{Instant, Law};
+use crate::numeric::lanewise::Lanewise;
 use crate::numeric::number::Number;
-use crate::numeric::real::Real;
 
 state! {
     summary: "Dry friction holds more firmly at low speed and gives way as the motion gets faster.",

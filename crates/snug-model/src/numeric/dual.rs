@@ -1,7 +1,6 @@
 //! Numbers that carry partial derivatives: every law gets its sensitivities from them.
 
-use crate::numeric::number::{Number, OfOne};
-use crate::numeric::real::Real;
+use crate::numeric::number::{Number, OfOne, Real};
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
 /// A value with its partial derivatives with respect to `P` parameters (forward differentiation, exact to rounding).

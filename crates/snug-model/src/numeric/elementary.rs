@@ -6,7 +6,7 @@
 //! x = q π/2 + r with a whole q and |r| ≤ π/4; sin r and cos r are their Taylor series, and q mod 4 says which is which. Source of the
 //! three parts of π/2: Cody and Waite, Software Manual for the Elementary Functions (1980).
 
-use crate::numeric::real::{Real, Task};
+use crate::numeric::lanewise::{Lanewise, Task};
 
 /// ln 2 in two parts; the first has few enough digits that k times it is exact.
 const LN_2: [f64; 2] = [0.693_147_180_369_123_8, 1.908_214_929_270_587_7e-10];
@@ -46,8 +46,8 @@ const fn alternating_reciprocals(s: f64) -> [f64; 8] {
 
 /// The value of a polynomial whose coefficients begin with the constant.
 #[inline(always)]
-fn polynomial<R: Real>(coefficients: &[f64; 8], x: R) -> R {
-    let mut value = x.constant(coefficients[7]);
+fn polynomial<R: Lanewise>(coefficients: &[f64; 8], x: R) -> R {
+    let mut value = x.splat(coefficients[7]);
     for &coefficient in coefficients[..7].iter().rev() {
         value = value * x + coefficient;
     }
@@ -55,7 +55,7 @@ fn polynomial<R: Real>(coefficients: &[f64; 8], x: R) -> R {
 }
 
 /// sin x and cos x to 2⁻⁵² and what x itself is uncertain by.
-pub fn sine_and_cosine<R: Real>(x: R) -> (R, R) {
+pub fn sine_and_cosine<R: Lanewise>(x: R) -> (R, R) {
     out_of_line(
         x,
         #[inline(always)]
@@ -69,7 +69,7 @@ pub fn sine_and_cosine<R: Real>(x: R) -> (R, R) {
             let cosine = square * polynomial(&COSINE, square) + 1.0;
             // q mod 4, from −2 to 2.
             let quarter = q - (q * 0.25).nearest() * 4.0;
-            let one = x.constant(1.0);
+            let one = x.splat(1.0);
             let is_odd = (-((quarter.magnitude() - 1.0).magnitude()) + 0.5).is_positive();
             let sine_is_kept = one.is_above((quarter - 0.5).magnitude());
             let cosine_is_kept = one.is_above((quarter + 0.5).magnitude());
@@ -87,7 +87,7 @@ pub fn sine_and_cosine<R: Real>(x: R) -> (R, R) {
 
 /// k, r and R.
 #[inline(always)]
-fn reduce<R: Real>(x: R) -> (R, R, R) {
+fn reduce<R: Lanewise>(x: R) -> (R, R, R) {
     let k = (x * std::f64::consts::LOG2_E).nearest();
     let r = x - k * LN_2[0] - k * LN_2[1];
     let square = r * r;
@@ -97,7 +97,7 @@ fn reduce<R: Real>(x: R) -> (R, R, R) {
 }
 
 /// e^x to a unit in the last place or so.
-pub fn exponential_function<R: Real>(x: R) -> R {
+pub fn exponential_function<R: Lanewise>(x: R) -> R {
     out_of_line(
         x,
         #[inline(always)]
@@ -114,7 +114,7 @@ pub fn exponential_function<R: Real>(x: R) -> R {
 /// tanh x = (e^2x − 1)/(e^2x + 1) to 1e−15 of its value.
 ///
 /// With s = 2^k it is ((s − 1) R + (s + 1) r)/((s + 1) R + (s − 1) r): one division, and no digits lost near 0, where s is 1.
-pub fn hyperbolic_tangent<R: Real>(x: R) -> R {
+pub fn hyperbolic_tangent<R: Lanewise>(x: R) -> R {
     out_of_line(
         x,
         #[inline(always)]
@@ -130,7 +130,7 @@ pub fn hyperbolic_tangent<R: Real>(x: R) -> R {
 
 struct Function<R, F>(R, F);
 
-impl<R: Real, T, F: Fn(R) -> T> Task for Function<R, F> {
+impl<R: Lanewise, T, F: Fn(R) -> T> Task for Function<R, F> {
     type Output = T;
     #[inline(always)]
     fn run(self) -> T {
@@ -140,7 +140,7 @@ impl<R: Real, T, F: Fn(R) -> T> Task for Function<R, F> {
 
 /// Within the equations of motion these functions would cost every effect registers, used or not.
 #[inline(never)]
-fn out_of_line<R: Real, T>(x: R, function: impl Fn(R) -> T) -> T {
+fn out_of_line<R: Lanewise, T>(x: R, function: impl Fn(R) -> T) -> T {
     x.vectorize(Function(x, function))
 }
 

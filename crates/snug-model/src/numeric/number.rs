@@ -1,27 +1,15 @@
 //! The arithmetic that laws are written in, over plain numbers and over those that carry derivatives.
 
+use crate::numeric::arithmetic::Arithmetic;
 use crate::numeric::elementary::{exponential_function, hyperbolic_tangent, sine_and_cosine};
-use crate::numeric::real::Real;
-use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
+use crate::numeric::lanewise::Lanewise;
 
 /// What a physical law may compute with: real numbers, or a [`Dual`](crate::Dual) that carries partial derivatives along;
 /// of one tightening, or of several side by side.
 ///
 /// A law written once over `N: Number` gives its value and, with the same lines, its sensitivities. It may not branch on
 /// a value, since that differs from lane to lane: [`Number::select`] takes one of two.
-pub trait Number:
-    Copy
-    + From<Self::Real>
-    + Add<Output = Self>
-    + Add<f64, Output = Self>
-    + Sub<Output = Self>
-    + Sub<f64, Output = Self>
-    + Mul<Output = Self>
-    + Mul<f64, Output = Self>
-    + Div<Output = Self>
-    + Neg<Output = Self>
-    + AddAssign
-{
+pub trait Number: Arithmetic + From<Self::Real> {
     /// What value and derivatives consist of.
     type Real: Real;
 
@@ -38,7 +26,7 @@ pub trait Number:
         slopes: &[Self::Real; K],
     ) -> Self;
     /// `yes` where the condition holds, else `no`.
-    fn select(condition: <Self::Real as Real>::Mask, yes: Self, no: Self) -> Self;
+    fn select(condition: <Self::Real as Lanewise>::Mask, yes: Self, no: Self) -> Self;
     /// This number and a known one.
     fn plus(self, known: Self::Real) -> Self;
     /// This number times a known one.
@@ -68,7 +56,10 @@ pub trait Number:
     fn sqrt(self) -> Self {
         let root = self.value().root();
         let (half, zero) = (root.constant(0.5), root.constant(0.0));
-        self.chain(root, Real::choose(root.is_positive(), half / root, zero))
+        self.chain(
+            root,
+            Lanewise::choose(root.is_positive(), half / root, zero),
+        )
     }
     /// Exponential function.
     #[inline(always)]
@@ -118,7 +109,7 @@ pub trait Number:
     fn step(self) -> Self {
         let value = self.value();
         let (one, zero) = (value.constant(1.0), value.constant(0.0));
-        Self::from(Real::choose(value.is_positive(), one, zero))
+        Self::from(Lanewise::choose(value.is_positive(), one, zero))
     }
     /// This number to a whole power.
     #[inline(always)]
@@ -144,7 +135,7 @@ pub trait Number:
     fn power_of(self, exponent: Self) -> Self {
         let value = self.value();
         let (power, slope) = real_power(value, exponent.value());
-        let by_exponent = Real::choose(
+        let by_exponent = Lanewise::choose(
             power.is_positive(),
             power * value.each(f64::ln),
             power.constant(0.0),
@@ -159,6 +150,12 @@ pub trait Number:
         self.chain(u * u * (u * -2.0 + 3.0), u * rest * 6.0)
     }
 }
+
+/// Numbers without derivatives: one (`f64`), or one of every tightening that stands side by side with others in a vector
+/// register.
+pub trait Real: Lanewise + Number<Real = Self> {}
+
+impl Real for f64 {}
 
 /// A number that depends on one parameter only: to compute with it spares the zeros among its derivatives.
 #[derive(Debug, Clone, Copy)]
@@ -200,10 +197,10 @@ fn real_power<R: Real>(value: R, exponent: R) -> (R, R) {
     let raised = |to: R| value.lane_by_lane(|lane| value.lanes()[lane].powf(to.lanes()[lane]));
     let (zero, one) = (value.constant(0.0), value.constant(1.0));
     let slope = exponent * raised(exponent - 1.0);
-    let at_zero = Real::choose(one.is_above(exponent), zero, slope);
+    let at_zero = Lanewise::choose(one.is_above(exponent), zero, slope);
     (
         raised(exponent),
-        Real::choose(value.is_positive(), slope, at_zero),
+        Lanewise::choose(value.is_positive(), slope, at_zero),
     )
 }
 

@@ -3,8 +3,8 @@
 //! What is computed for eight tightenings, each in its own lane, costs little more than for one. The `pulp` crate knows the
 //! registers; here its operations become a [`Real`].
 
-use crate::numeric::number::{Number, OfOne};
-use crate::numeric::real::{Real, Task, WHOLE, exponent_bits};
+use crate::numeric::lanewise::{Lanewise, Task, WHOLE, exponent_bits};
+use crate::numeric::number::{Number, OfOne, Real};
 use pulp::bytemuck::{Zeroable, cast_slice, cast_slice_mut};
 use pulp::{Arch, Simd, WithSimd};
 use std::borrow::Cow;
@@ -21,7 +21,7 @@ pub trait LaneTask {
 /// Does `task` with as many numbers side by side as the processor has room for: 8 with AVX-512, 4 with AVX2, 2 on
 /// ARM, else 1.
 ///
-/// The task itself is compiled for every processor; what is hot in it goes through [`Real::vectorize`].
+/// The task itself is compiled for every processor; what is hot in it goes through [`Lanewise::vectorize`].
 pub fn in_lanes<T: LaneTask>(task: T) -> T::Output {
     match Arch::new() {
         #[cfg(target_arch = "x86_64")]
@@ -175,9 +175,16 @@ impl<S: Simd, A: Alignment> Number for Lanes<S, A> {
     }
 }
 
-impl<S: Simd, A: Alignment> Real for Lanes<S, A> {
+impl<S: Simd, A: Alignment> Real for Lanes<S, A> {}
+
+impl<S: Simd, A: Alignment> Lanewise for Lanes<S, A> {
     const LANES: usize = S::F64_LANES;
     type Mask = S::m64s;
+
+    #[inline(always)]
+    fn splat(self, value: f64) -> Self {
+        Self::new(self.simd, value)
+    }
 
     #[inline(always)]
     fn lane_by_lane(self, mut of: impl FnMut(usize) -> f64) -> Self {

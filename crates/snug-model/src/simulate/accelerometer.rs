@@ -1,8 +1,8 @@
 //! An accelerometer with cross-sensitivities and a lag, and the velocity and displacement integrated from its signal.
 
 use crate::law::Kinematics;
+use crate::numeric::lanewise::Lanewise;
 use crate::numeric::number::Number;
-use crate::numeric::real::Real;
 
 /// What an accelerometer with cross-sensitivities and a lag makes of the motion, and what its integrated signals then show.
 ///

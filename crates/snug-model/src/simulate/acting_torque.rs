@@ -3,8 +3,7 @@
 use crate::assembly::layout::Part;
 use crate::input::torque::Earlier;
 use crate::law::{Instant, Law, LoggedTorque};
-use crate::numeric::number::Number;
-use crate::numeric::real::Real;
+use crate::numeric::number::{Number, Real};
 use crate::simulate::inputs::SimulationInputs;
 
 /// The torque that acts on the joint, from the one that is logged.

@@ -10,8 +10,8 @@ use crate::input::torque::Input;
 use crate::law::Instant;
 use crate::simulate::acting_torque::ActingTorque;
 use crate::simulate::inputs::SimulationInputs;
-use crate::simulate::model::check_length;
 use crate::simulate::plant::Plant;
+use crate::simulate::run::check_length;
 
 /// Any mass: what acts does not depend on it.
 const SOME_MASS_KG: f64 = 1.0;

@@ -1,7 +1,7 @@
 //! The motion so far, at any time between grid points, with the derivative to the delay: for laws that look back.
 
+use crate::numeric::lanewise::Lanewise;
 use crate::numeric::number::Number;
-use crate::numeric::real::Real;
 
 /// The displacement as it was, noted at every grid point: what a delayed law looks back on.
 ///

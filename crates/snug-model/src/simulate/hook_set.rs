@@ -3,8 +3,8 @@
 use crate::assembly::layout::Part;
 use crate::effects::Effect;
 use crate::law::{AnsweredHooks, hooks};
+use crate::numeric::lanewise::{Lanewise, Task};
 use crate::numeric::number::Number;
-use crate::numeric::real::{Real, Task};
 use std::ops::Range;
 
 /// One effect with what is its own.

@@ -3,7 +3,7 @@
 use crate::assembly::layout::Assembly;
 use crate::input::torque::Input;
 use crate::law::Corner;
-use crate::numeric::real::Real;
+use crate::numeric::number::Real;
 use std::borrow::Cow;
 
 /// What is given from outside, lane by lane: rig and input of every tightening that is simulated side by side.

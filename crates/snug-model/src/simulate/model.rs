@@ -4,7 +4,8 @@ use crate::ModelError;
 use crate::assembly::model::Model;
 use crate::input::torque::Input;
 use crate::simulate::inputs::SimulationInputs;
-use crate::simulate::side_by_side::{Run, simulate_side_by_side};
+use crate::simulate::run::Run;
+use crate::simulate::side_by_side::simulate_side_by_side;
 use snug_campaign::{Motion, Quantity};
 
 impl Model {
@@ -36,15 +37,6 @@ impl Model {
             velocity_rad_per_s: Some(velocity),
             acceleration_rad_per_s2: Some(acceleration),
         })
-    }
-
-    /// Checks what a simulation is given.
-    ///
-    /// # Errors
-    /// As [`Model::simulate`].
-    pub(crate) fn check_simulation(&self, values: &[f64], input: &Input) -> Result<(), ModelError> {
-        check_length("values", values, self.parameters().len())?;
-        input.check()
     }
 
     /// One measured quantity into `output` (one value per sample).
@@ -85,24 +77,5 @@ impl Model {
             sensitivity,
         }];
         simulate_side_by_side(&mut alone, free)
-    }
-}
-
-/// Checks that what is called `what` is as long as it must be.
-///
-/// # Errors
-/// [`ModelError::Length`].
-pub(crate) fn check_length(
-    what: &'static str,
-    found: &[f64],
-    expected: usize,
-) -> Result<(), ModelError> {
-    match found.len() {
-        found if found == expected => Ok(()),
-        found => Err(ModelError::Length {
-            what,
-            found,
-            expected,
-        }),
     }
 }

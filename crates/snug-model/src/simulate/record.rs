@@ -1,7 +1,7 @@
 //! Sorts what is simulated side by side into the output and the sensitivities of each run.
 
-use crate::numeric::real::Real;
-use crate::simulate::side_by_side::Run;
+use crate::numeric::number::Real;
+use crate::simulate::run::Run;
 
 /// Samples that are kept together until each lane's go where they belong: writing every lane of every sample to its own
 /// place would take longer than to compute it.

@@ -7,51 +7,13 @@ use crate::base_model::exact;
 use crate::input::torque::Input;
 use crate::law::Kinematics;
 use crate::numeric::dual::Dual;
-use crate::numeric::number::Number;
-use crate::numeric::real::{Real, Task};
+use crate::numeric::lanewise::Task;
+use crate::numeric::number::{Number, Real};
 use crate::numeric::simd::{LaneTask, in_lanes};
 use crate::simulate::inputs::SimulationInputs;
-use crate::simulate::model::check_length;
 use crate::simulate::record::Record;
+use crate::simulate::run::Run;
 use snug_campaign::Quantity;
-
-/// One of several simulations that run side by side.
-pub struct Run<'a> {
-    /// Rig and effects.
-    pub model: &'a Model,
-    /// All parameters of the model, each in its unit.
-    pub values: &'a [f64],
-    /// The torque.
-    pub input: &'a Input,
-    /// What is measured.
-    pub quantity: Quantity,
-    /// Gets the measured quantity, one value per sample, in its unit \[rad\], \[rad/s\] or \[rad/s²\].
-    pub output: &'a mut [f64],
-    /// Gets ∂output/∂values\[free\[j\]\], column-major, samples × free, in the quantity's unit per the
-    /// parameter's.
-    pub sensitivity: &'a mut [f64],
-}
-
-impl Run<'_> {
-    /// Checks values, input and the room for the answer, before anything is simulated.
-    fn check(&self, free: &[usize]) -> Result<(), ModelError> {
-        self.model.check_simulation(self.values, self.input)?;
-        let (samples, parameters) = (self.input.samples(), self.values.len());
-        check_length("output", self.output, samples)?;
-        check_length("sensitivity", self.sensitivity, samples * free.len())?;
-        match free.iter().find(|&&index| index >= parameters) {
-            Some(&index) => Err(ModelError::ParameterIndex { index, parameters }),
-            None => Ok(()),
-        }
-    }
-
-    /// Whether the two take the same steps with the same laws, in which case one vector register can hold both.
-    fn is_alike(&self, other: &Run<'_>) -> bool {
-        SimulationInputs::<f64>::are_alike(self.input, other.input)
-            && self.quantity == other.quantity
-            && self.model.effects().eq(other.model.effects())
-    }
-}
 
 /// The measured quantity of every run and its sensitivities to the parameters number `free`.
 ///

@@ -1,8 +1,8 @@
 //! Counts a simulated displacement from where preprocessing took the zero of the measured one.
 
 use crate::law::Kinematics;
+use crate::numeric::lanewise::Lanewise;
 use crate::numeric::number::Number;
-use crate::numeric::real::Real;
 use crate::simulate::inputs::SimulationInputs;
 
 /// Repeats on the simulated displacement what preprocessing did to the measured one: its value at one sample is taken off

@@ -1,7 +1,7 @@
 //! The variables and functions that an expression may name.
 
+use crate::numeric::lanewise::Lanewise;
 use crate::numeric::number::Number;
-use crate::numeric::real::Real;
 
 /// A quantity of the motion that an expression may use.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

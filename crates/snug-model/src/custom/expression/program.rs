@@ -3,8 +3,8 @@
 use super::name::{Function, Variable};
 use super::tree::{Binary, Tree};
 use crate::law::Instant;
+use crate::numeric::lanewise::{Lanewise, Task};
 use crate::numeric::number::Number;
-use crate::numeric::real::{Real, Task};
 
 /// Intermediate results a program may keep at a time.
 pub const MAXIMUM_TEMPORARIES: usize = 16;

@@ -1,19 +1,21 @@
 //! Real numbers, one or several side by side, whose every operation has the same bits on every processor.
 
-use crate::numeric::number::Number;
+use crate::numeric::arithmetic::Arithmetic;
 use std::borrow::Cow;
 
-/// Real numbers that are computed with at once: one (`f64`), or one of every tightening that stands side by side with
-/// others in a vector register.
+/// Numbers that are computed with at once, lane by lane: one (`f64`), or one of every tightening that stands side by side
+/// with others in a vector register.
 ///
 /// No operation mixes lanes, none is fused and none depends on the processor, so that a tightening has the same bits
 /// however many stand beside it.
-pub trait Real: Number<Real = Self> + std::fmt::Debug {
+pub trait Lanewise: Arithmetic + std::fmt::Debug {
     /// How many there are.
     const LANES: usize;
     /// The outcome of a comparison, lane by lane.
     type Mask: Copy;
 
+    /// `value` in every lane of such a number.
+    fn splat(self, value: f64) -> Self;
     /// `of(lane)` in every lane.
     fn lane_by_lane(self, of: impl FnMut(usize) -> f64) -> Self;
     /// The lanes' values.
@@ -43,7 +45,7 @@ pub trait Real: Number<Real = Self> + std::fmt::Debug {
     /// self > 0.
     #[inline(always)]
     fn is_positive(self) -> Self::Mask {
-        self.is_above(self.constant(0.0))
+        self.is_above(self.splat(0.0))
     }
 
     /// True in one lane only.
@@ -56,15 +58,15 @@ pub trait Real: Number<Real = Self> + std::fmt::Debug {
     /// −1, 0 or 1.
     #[inline(always)]
     fn sign_of(self) -> Self {
-        let zero = self.constant(0.0);
-        let below = Self::choose(zero.is_above(self), self.constant(-1.0), zero);
-        Self::choose(self.is_positive(), self.constant(1.0), below)
+        let zero = self.splat(0.0);
+        let below = Self::choose(zero.is_above(self), self.splat(-1.0), zero);
+        Self::choose(self.is_positive(), self.splat(1.0), below)
     }
 
     /// Not below `least`, not above `most`.
     #[inline(always)]
     fn within(self, least: f64, most: f64) -> Self {
-        let (least, most) = (self.constant(least), self.constant(most));
+        let (least, most) = (self.splat(least), self.splat(most));
         let low = Self::choose(least.is_above(self), least, self);
         Self::choose(low.is_above(most), most, low)
     }
@@ -91,7 +93,7 @@ fn only_when_asked(of: &impl Fn(f64) -> f64, value: f64) -> f64 {
     of(value)
 }
 
-/// Work for [`Real::vectorize`].
+/// Work for [`Lanewise::vectorize`].
 pub trait Task {
     /// What it gives.
     type Output;
@@ -108,10 +110,14 @@ pub(crate) fn exponent_bits(whole: u64) -> u64 {
     whole.wrapping_add(1023) << 52
 }
 
-impl Real for f64 {
+impl Lanewise for f64 {
     const LANES: usize = 1;
     type Mask = bool;
 
+    #[inline(always)]
+    fn splat(self, value: f64) -> Self {
+        value
+    }
     #[inline(always)]
     fn lane_by_lane(self, mut of: impl FnMut(usize) -> f64) -> Self {
         of(0)
