@@ -8,8 +8,10 @@
 
 mod array;
 mod element;
+mod field_names;
+mod header;
 mod inflater;
-mod structure;
+mod numeric;
 mod text;
 
 use super::MatFormat;
