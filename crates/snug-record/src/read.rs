@@ -6,7 +6,8 @@
 //! No length in a file is believed: memory follows the bytes that are there, and ends at a limit that callers can set.
 
 pub(crate) mod budget;
-mod chunk;
+mod channel;
+pub(crate) mod chunk;
 mod collector;
 pub(crate) mod content;
 mod decoded;
@@ -20,9 +21,8 @@ mod ros;
 pub(crate) mod stream;
 mod unpack;
 
-pub use numeric::{
-    NumericChannel, NumericChannels, UnreadableChannel, numeric_channels, numeric_channels_within,
-};
+pub use channel::{NumericChannel, NumericChannels, UnreadableChannel};
+pub use numeric::{numeric_channels, numeric_channels_within};
 pub use recordings::{Extent, RecordedCampaign, RecordedFile, recordings, recordings_within};
 pub use stream::Completeness;
 

@@ -9,7 +9,9 @@ pub use recovery::{LeftOut, Recovery};
 
 use crate::RecordError;
 use crate::read::budget::{Budget, Limits};
-use crate::read::records::{Found, Place, Stop, walk};
+use crate::read::chunk::Place;
+use crate::read::fault::Stop;
+use crate::read::records::{Found, walk};
 use crate::read::stream::{check_magic, completeness};
 use crate::read::{Completeness, DEFAULT_LIMIT_BYTES};
 use contents::Contents;

@@ -1,13 +1,22 @@
 //! Chunks: what their header says, whether it is right, and their content piece by piece.
 
 use super::budget::{Budget, Exhausted, Limits};
-use super::fault::Fault;
-use super::records::{Place, Stop};
+use super::fault::{Fault, Stop};
 use super::unpack::{Unpacker, Unpacking};
 use crate::wire::{take_fixed32, take_fixed64, take_framed};
 
 /// Least that is unpacked at once \[bytes\].
 pub(super) const PIECE_BYTES: usize = 128 << 10;
+
+/// Where a record stands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Place {
+    File,
+    /// A whole chunk whose checksum is right, or that has none.
+    Chunk,
+    /// The beginning of a chunk whose end is missing, and with it the means to check it.
+    TornChunk,
+}
 
 /// Records of a chunk as they stand in the file, and what its header says of them.
 pub(super) struct Chunk<'a> {

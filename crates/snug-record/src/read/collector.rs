@@ -1,8 +1,8 @@
 //! Values of numeric channels as they come, message by message.
 
 use super::budget::{Budget, Exhausted};
+use super::channel::{NumericChannel, NumericChannels, UnreadableChannel};
 use super::decoded::{LONGEST_SCHEMA_BYTES, WORK_SPENT};
-use super::numeric::{NumericChannel, NumericChannels, UnreadableChannel};
 use super::stream::{Channel, Completeness, Schema};
 use super::{json, protobuf, ros};
 use std::borrow::Cow;

@@ -1,5 +1,6 @@
-//! What can be wrong with a record or chunk.
+//! What can be wrong with a record or chunk, and why reading ended.
 
+use super::budget::Exhausted;
 use thiserror::Error;
 
 /// A fault in the file's framing or in a record that is used.
@@ -24,4 +25,27 @@ pub(crate) enum Fault {
     UnpackedLength { expected: u64, found: u64 },
     #[error("message {sequence} belongs to channel {channel}, which is not declared")]
     UnknownChannel { channel: u16, sequence: u32 },
+}
+
+/// Why reading ended before the footer.
+#[derive(Debug)]
+pub(crate) enum Stop {
+    /// The bytes end within a record.
+    Truncated,
+    /// A record is damaged.
+    Fault(Fault),
+    /// The content costs more than the caller allows.
+    TooLarge,
+}
+
+impl From<Fault> for Stop {
+    fn from(fault: Fault) -> Self {
+        Self::Fault(fault)
+    }
+}
+
+impl From<Exhausted> for Stop {
+    fn from(_: Exhausted) -> Self {
+        Self::TooLarge
+    }
 }

@@ -3,47 +3,14 @@
 //! The walk is done here rather than by the MCAP library, whose reader believes the lengths that a file claims. A whole
 //! chunk is checked before anything of it is given.
 
-use super::budget::{Budget, Exhausted, Limits};
-use super::chunk::{Chunk, PIECE_BYTES, Pieces};
-use super::fault::Fault;
+use super::budget::{Budget, Limits};
+use super::chunk::{Chunk, PIECE_BYTES, Pieces, Place};
+use super::fault::{Fault, Stop};
 use crate::wire::{take, take_fixed64};
 use mcap::records::op;
 
 /// Operation code and length.
 const FRAME_BYTES: usize = 9;
-
-/// Why reading ended before the footer.
-#[derive(Debug)]
-pub(crate) enum Stop {
-    /// The bytes end within a record.
-    Truncated,
-    /// A record is damaged.
-    Fault(Fault),
-    /// The content costs more than the caller allows.
-    TooLarge,
-}
-
-impl From<Fault> for Stop {
-    fn from(fault: Fault) -> Self {
-        Self::Fault(fault)
-    }
-}
-
-impl From<Exhausted> for Stop {
-    fn from(_: Exhausted) -> Self {
-        Self::TooLarge
-    }
-}
-
-/// Where a record stands.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Place {
-    File,
-    /// A whole chunk whose checksum is right, or that has none.
-    Chunk,
-    /// The beginning of a chunk whose end is missing, and with it the means to check it.
-    TornChunk,
-}
 
 /// What the walk comes to.
 pub(crate) enum Found<'a> {

@@ -2,8 +2,8 @@
 
 use super::budget::{Budget, Limits};
 use super::content;
-use super::fault::Fault;
-use super::records::{Found, Stop, walk};
+use super::fault::{Fault, Stop};
+use super::records::{Found, walk};
 use crate::RecordError;
 use std::collections::HashMap;
 use std::ops::ControlFlow;

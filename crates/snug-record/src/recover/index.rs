@@ -1,7 +1,7 @@
 //! Whether a file's own index is there and right.
 
 use super::Recovery;
-use crate::read::records::Place;
+use crate::read::chunk::Place;
 use crate::wire::{take, take_fixed16, take_fixed32, take_fixed64};
 use mcap::records::op;
 
