@@ -2,7 +2,7 @@
 
 use crate::changes::EffectSet;
 use crate::error::WorkbenchError;
-use crate::focus::{Group, groups};
+use crate::groups::{Group, groups};
 use snug_campaign::words::effect_name::effect_name;
 use snug_campaign::words::number::significant;
 use snug_campaign::words::vocabulary::Vocabulary;
@@ -121,6 +121,15 @@ impl Campaign {
             true => Ok(number - 1),
             false => Err(WorkbenchError::NoTightening { number, count }),
         }
+    }
+
+    /// The group with this key.
+    pub fn group(&self, key: &str) -> Result<&Group, WorkbenchError> {
+        let found = self.groups.iter().find(|group| group.key == key);
+        found.ok_or_else(|| WorkbenchError::NoGroup {
+            key: key.to_owned(),
+            keys: self.groups.iter().map(|group| group.key.clone()).collect(),
+        })
     }
 
     /// One tightening as measured and as models have it, for the viewer; `signature` is drawn beside what is left over.

@@ -28,20 +28,6 @@ pub(crate) struct Look {
     signature: Option<String>,
 }
 
-/// Tightenings that were looked at, under their models: dragging a number asks for the same again and again.
-#[derive(Default)]
-pub(crate) struct Looks(Vec<(EffectSet, usize, Arc<LiveTightening>)>);
-
-/// Looks that are kept; one takes 24 kB per 3000 samples. Chosen.
-const MOST: usize = 60;
-
-impl Looks {
-    /// Forgets all: a model ended elsewhere.
-    pub fn forget(&mut self) {
-        self.0.clear();
-    }
-}
-
 /// A model, and the tightening under it.
 struct Under {
     fit: Arc<LiveFit>,
@@ -119,20 +105,12 @@ impl Bench {
     ) -> Result<Under, WorkbenchError> {
         let never = AtomicBool::new(false);
         let fit = self.fitted_now(campaign, effects, &never)?;
-        let known = {
-            let looks = locked(&self.looks);
-            let found = (looks.0.iter()).find(|(set, of, _)| *of == member && set == effects);
-            found.map(|(_, _, seen)| Arc::clone(seen))
-        };
+        let known = locked(&self.looks).get(effects, member);
         let seen = match known {
             Some(seen) => seen,
             None => {
                 let seen = Arc::new(campaign.prepared.live.tightening(&fit, member)?);
-                let mut looks = locked(&self.looks);
-                if looks.0.len() >= MOST {
-                    looks.0.remove(0);
-                }
-                looks.0.push((effects.clone(), member, Arc::clone(&seen)));
+                locked(&self.looks).keep(effects.clone(), member, Arc::clone(&seen));
                 seen
             }
         };

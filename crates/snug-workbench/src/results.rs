@@ -8,16 +8,6 @@ use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;
 use tempfile::TempDir;
 
-/// Results that were made, by their models; the folders go with the workbench.
-#[derive(Default)]
-pub(crate) struct Results {
-    made: Vec<(usize, EffectSet, TempDir)>,
-    count: usize,
-}
-
-/// Results that are kept; a report and a recording of 24 tightenings take 3 MB. Chosen.
-const MOST: usize = 8;
-
 /// What may be had of them, and what that is.
 pub(crate) const FILES: [(&str, &str); 2] = [
     ("report.html", "text/html; charset=utf-8"),
@@ -31,11 +21,7 @@ impl Bench {
     pub(crate) fn make_results(&self, effects: &EffectSet) -> Result<usize, WorkbenchError> {
         let campaign = self.campaign()?;
         campaign.prepared.named(effects.names())?;
-        let known = {
-            let results = locked(&self.results);
-            let found = results.made.iter().find(|(_, known, _)| known == effects);
-            found.map(|(number, _, _)| *number)
-        };
+        let known = locked(&self.results).number(effects);
         if let Some(number) = known {
             return Ok(number);
         }
@@ -53,14 +39,7 @@ impl Bench {
                 run(&study, &settings, &|_| (), &never)?
             }
         };
-        let mut results = locked(&self.results);
-        results.count += 1;
-        let number = results.count;
-        if results.made.len() >= MOST {
-            results.made.remove(0);
-        }
-        results.made.push((number, effects.clone(), folder));
-        Ok(number)
+        Ok(locked(&self.results).keep(effects.clone(), folder))
     }
 
     /// Where a file of results stands, and what it is.
@@ -70,10 +49,10 @@ impl Bench {
         name: &str,
     ) -> Result<(PathBuf, &'static str), WorkbenchError> {
         let results = locked(&self.results);
-        let folder = results.made.iter().find(|(known, _, _)| *known == number);
+        let folder = results.folder(number);
         let file = FILES.iter().find(|(known, _)| *known == name);
         match (folder, file) {
-            (Some((_, _, folder)), Some((name, kind))) => Ok((folder.path().join(name), kind)),
+            (Some(folder), Some((name, kind))) => Ok((folder.join(name), kind)),
             _ => Err(WorkbenchError::NoResults),
         }
     }
