@@ -1,7 +1,6 @@
 //! Options of the command line; the comments here are what `--help` prints. The verbs stand in `verbs.rs`.
 
 use crate::effect_names::EffectNames;
-use crate::front::EXAMPLES;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 use std::time::Duration;
@@ -123,3 +122,25 @@ pub struct WorkbenchOptions {
     #[arg(long)]
     pub no_open: bool,
 }
+
+/// What every program's help ends with.
+const EXAMPLES: &str = "\
+Examples:
+  {program} run                              the embedded campaign, into out/
+  {program} run --data DIR                   your folder of MAT files (or a folder of recordings)
+  {program} run --data DIR --preset thesis   the same, as the original program did it
+  {program} run --study rig.ron              any rig described in a study file
+  {program} init DIR                         a study for files of any other rig, in rig.ron
+  {program} compare --data DIR               where the model fails
+  {program} diagnose --data DIR              which physical effect is missing
+  {program} add coulomb_friction --data DIR  the error before and after
+  {program} improve --data DIR               all of that, until only noise is left
+  {program} effects cubic_stiffness          one effect of the catalogue in full
+  {program} workbench --data DIR             a page on this machine: click an effect, the error falls
+
+  {program} plant --help                     thousands of tools: Parquet, one machine or many, what changed when
+
+  {program} recover FILE.mcap                a recording that was cut short, made whole
+
+Exit codes: 0 done, 1 failed or nothing was identified, 2 bad arguments, 130 stopped by Ctrl-C or a signal;
+with --strict 3 when some data was left out (findings.json says which).";
