@@ -3,8 +3,9 @@
 //! Compared with a snapshot that is committed (`fixtures/advisories.toml`), for the check needs no network: what was
 //! published after the snapshot, it cannot know.
 
-use crate::check::{Error, Outcome, Problem, read_toml};
 use crate::lockfile::{Locked, Lockfile};
+use crate::outcome::{Outcome, Problem};
+use crate::reading::{Error, read_toml};
 use semver::VersionReq;
 use serde::Deserialize;
 use std::collections::BTreeSet;

@@ -2,7 +2,8 @@
 //!
 //! Counted over normal dependencies, macros and what they are made of included (`cargo tree -p xtask -e normal -d`).
 
-use crate::check::{Error, Outcome, Problem, tree};
+use crate::outcome::{Outcome, Problem};
+use crate::reading::{Error, tree};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 

@@ -3,7 +3,7 @@
 //! Whoever opens a file among hundreds learns from its first line whether it is the one. Of a crate's root, that is its
 //! README (`#![doc = include_str!(…)]`).
 
-use crate::check::{Outcome, Problem};
+use crate::outcome::{Outcome, Problem};
 use crate::source_files::SourceFile;
 
 /// Refuses files without a first line that says something.

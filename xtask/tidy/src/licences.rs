@@ -1,7 +1,8 @@
 //! Licences and sources: everything comes from crates.io, under a licence that lets Snug be passed on under its own.
 
-use crate::check::{Error, Outcome, Problem, tree};
 use crate::lockfile::Lockfile;
+use crate::outcome::{Outcome, Problem};
+use crate::reading::{Error, tree};
 use spdx::{Expression, LicenseReq, ParseMode};
 use std::collections::BTreeSet;
 use std::path::Path;

@@ -1,6 +1,6 @@
 //! Cargo.lock: every package that any platform may need, at its exact version.
 
-use crate::check::{Error, read_toml};
+use crate::reading::{Error, read_toml};
 use semver::Version;
 use serde::Deserialize;
 use std::path::Path;

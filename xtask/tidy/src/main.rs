@@ -6,13 +6,15 @@ mod duplicates;
 mod headers;
 mod licences;
 mod lockfile;
+mod outcome;
 mod packages;
+mod reading;
 mod sizes;
 mod source_files;
 mod units;
 mod unused;
 
-use check::Outcome;
+use outcome::Outcome;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;

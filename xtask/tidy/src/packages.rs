@@ -1,6 +1,6 @@
 //! Packages: whoever takes one crate alone gets its licence and its README, and words to find it by.
 
-use crate::check::{Outcome, Problem};
+use crate::outcome::{Outcome, Problem};
 use cargo_metadata::{Metadata, Package};
 
 /// A package that may be published.

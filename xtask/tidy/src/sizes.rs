@@ -3,7 +3,7 @@
 //! Functions are found by their indentation, which holds for sources that rustfmt has been over: from the line with `fn`
 //! to the first closing brace that stands as far in as that line.
 
-use crate::check::{Outcome, Problem};
+use crate::outcome::{Outcome, Problem};
 use crate::source_files::SourceFile;
 use std::collections::BTreeMap;
 

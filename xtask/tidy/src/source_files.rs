@@ -1,6 +1,6 @@
 //! Every Rust file of the workspace with its text, for the checks of what people read.
 
-use crate::check::{Error, read};
+use crate::reading::{Error, read};
 use std::path::{Path, PathBuf};
 
 /// One Rust file.

@@ -3,7 +3,7 @@
 //! Looked at are floating-point fields of public structs in the libraries (`crates/*/src`). Fields without documentation
 //! are passed over: those that another crate can see, the compiler denies (`missing_docs`).
 
-use crate::check::{Outcome, Problem};
+use crate::outcome::{Outcome, Problem};
 use crate::source_files::SourceFile;
 
 /// Crates whose numbers belong to no field of engineering, each with the reason.

@@ -3,7 +3,8 @@
 //! The search is textual: a dependency is used where its name stands as a path (`name::`), an import (`use name`) or a macro
 //! (`name!`), outside comments. That finds what nobody names; a name of the same spelling may hide one.
 
-use crate::check::{Error, Outcome, Problem, read, read_toml};
+use crate::outcome::{Outcome, Problem};
+use crate::reading::{Error, read, read_toml};
 use cargo_metadata::{DependencyKind, Metadata, Package, TargetKind};
 use serde::Deserialize;
 use std::collections::{BTreeMap, BTreeSet};
