@@ -1,11 +1,11 @@
 //! Which column is taken for what: by its name, or by its numbers.
 
 use super::events::Pulse;
-use super::numbers::{derivative, is_constant, median_step, rises, runs_away, work};
+use super::numbers::{derivative, is_constant, median_step, rises, runs_away, short, work};
 use super::roles::{self, Meaning};
 use super::units::{self, unit_of};
-use super::{DraftColumn, text, told_place};
-use crate::{Study, StudyError};
+use super::{DraftColumn, told_place};
+use crate::StudyError;
 use snug_campaign::Quantity;
 use snug_ingest::csv::TimeUnit;
 use snug_ingest::survey::{Survey, SurveyedColumn, SurveyedFormat};
@@ -123,7 +123,7 @@ impl Choice {
                 (None, None) => (TimeUnit::default(), "; no unit given: s".to_owned()),
             };
             let step_s = median_step(&column(place).values) * unit.seconds();
-            self.whys[place] = format!("time, {why}: {} Hz{unit_told}", text::short(1.0 / step_s));
+            self.whys[place] = format!("time, {why}: {} Hz{unit_told}", short(1.0 / step_s));
             self.clock = Clock::Column(Box::new(column(place).clone()), unit);
             return;
         }
@@ -138,7 +138,7 @@ impl Choice {
         self.clock = match rate {
             Some((hz, why)) => {
                 self.notes
-                    .push(format!("Sampled at {} Hz: {why}.", text::short(hz)));
+                    .push(format!("Sampled at {} Hz: {why}.", short(hz)));
                 Clock::Rate { hz, why }
             }
             None => {
@@ -170,12 +170,6 @@ impl Choice {
             Clock::Column(column, unit) => Some(median_step(&column.values) * unit.seconds()),
             Clock::Rate { hz, .. } => (*hz != 1.0).then(|| 1.0 / hz),
         }
-    }
-
-    /// The study as it would be written for data at the path that stands for none.
-    pub(super) fn study(&self) -> Result<Study, StudyError> {
-        let text = text::study(self, "", &[], "");
-        Study::parse(&text, Path::new("study.ron"))
     }
 
     /// The motions that are taken, in the order of preference for the fit.
@@ -285,7 +279,7 @@ impl Choice {
             Some(ratio) => {
                 self.notes.push(format!(
                     "{other} goes like the derivative of {one} but {} times as large: check the units.",
-                    text::short(1.0 / ratio)
+                    short(1.0 / ratio)
                 ));
             }
             None => {}

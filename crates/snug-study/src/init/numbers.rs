@@ -113,3 +113,9 @@ pub(super) fn largest(values: &[f64]) -> f64 {
         .filter(|value| value.is_finite())
         .fold(0.0, |most, value| value.abs().max(most))
 }
+
+/// A number in four digits.
+pub(super) fn short(value: f64) -> String {
+    let rounded: f64 = format!("{value:.3e}").parse().unwrap_or(value);
+    rounded.to_string()
+}

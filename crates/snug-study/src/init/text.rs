@@ -2,6 +2,7 @@
 
 use super::choice::{Choice, Clock, Taken};
 use super::events::Pulse;
+use crate::{Study, StudyError};
 use snug_campaign::words::program::program;
 use snug_ingest::Signal;
 use snug_ingest::csv::Column;
@@ -51,6 +52,14 @@ pub(super) fn study(choice: &Choice, path: &str, files: &[String], title: &str) 
         "        fitted_output: {fitted:?},\n        constraints: [Positive],\n    ),\n)"
     );
     text
+}
+
+impl Choice {
+    /// The study as it would be written for data at the path that stands for none.
+    pub(super) fn study(&self) -> Result<Study, StudyError> {
+        let text = study(self, "", &[], "");
+        Study::parse(&text, Path::new("study.ron"))
+    }
 }
 
 fn channel(taken: &Taken) -> String {
@@ -137,12 +146,6 @@ fn one_line(text: &str) -> String {
     text.chars()
         .map(|letter| if letter.is_control() { ' ' } else { letter })
         .collect()
-}
-
-/// A number in four digits.
-pub(super) fn short(value: f64) -> String {
-    let rounded: f64 = format!("{value:.3e}").parse().unwrap_or(value);
-    rounded.to_string()
 }
 
 /// The data's path as the study file names it: from its own folder where they lie below it, else in full.
