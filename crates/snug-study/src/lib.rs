@@ -18,8 +18,10 @@ mod progress;
 mod recover;
 mod rewriting;
 mod run;
+mod run_settings;
 mod rungs;
 mod selection;
+mod settings;
 mod settling;
 mod statistics;
 mod study;
@@ -30,15 +32,18 @@ mod validation;
 pub use cases::FilesRead;
 #[doc(hidden)]
 pub use cases::cases;
-pub use diagnosis::{DiagnosisSettings, Verb, diagnose};
+pub use diagnosis::{Verb, diagnose};
 pub use error::StudyError;
 pub use init::{Draft, DraftColumn, draft, write_draft};
 pub use prepared::{Prepared, prepare};
 pub use progress::ProgressEvent;
 pub use recover::{Recovered, recover};
 pub use rewriting::{rewrite_effects, write_with_effects};
-pub use run::{Outcome, RunSettings, run};
+pub use run::{Outcome, run};
+pub use run_settings::RunSettings;
 pub use selection::SelectionSettings;
+pub use settings::diagnosis::DiagnosisSettings;
+pub use settings::validation::ValidationSettings;
 pub use snug_preprocess::Preset;
 pub use study::Study;
 pub use tightenings::diagnosed::{
@@ -47,4 +52,3 @@ pub use tightenings::diagnosed::{
 pub use tightenings::{
     FileTightenings, FittedTightening, fit_tightenings, fitted_files, read_tightenings, settled,
 };
-pub use validation::ValidationSettings;

@@ -7,6 +7,7 @@ use crate::examples::Examples;
 use crate::file_evaluation::{FileEvaluation, Purpose, evaluate_file, other, outcomes};
 use crate::output::{Output, Workplace};
 use crate::prepared_file::KeptFiles;
+use crate::run_settings::RunSettings;
 use crate::rungs::{Ladder, RungShare};
 use crate::settling::{leaves_open, settle};
 use crate::validation::mean_estimate;
@@ -16,41 +17,11 @@ use snug_campaign::words::reason::Reason;
 use snug_campaign::{
     CampaignResult, Estimate, Finding, Rejection, Severity, TighteningId, TighteningResult, Traces,
 };
-use snug_files::{Disk, Host};
 use snug_ingest::Listing;
 use snug_record::Recorder;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-
-/// How a study is run, beside what it says itself.
-#[derive(Debug, Clone)]
-pub struct RunSettings {
-    /// Folder for the results; made if it is not there.
-    pub out: PathBuf,
-    /// Threads; `None` for one a core. Results do not depend on it.
-    pub threads: Option<usize>,
-    /// The file that the study was read from, which is never written over.
-    pub study_file: Option<PathBuf>,
-    /// Whether to wait for another run that has the folder.
-    pub wait: bool,
-    /// The file system.
-    pub disk: Arc<dyn Disk>,
-}
-
-impl RunSettings {
-    /// Results into `out`, everything else as by default.
-    pub fn new(out: impl Into<PathBuf>) -> Self {
-        Self {
-            out: out.into(),
-            threads: None,
-            study_file: None,
-            wait: false,
-            disk: Arc::new(Host),
-        }
-    }
-}
 
 /// What a run came to.
 #[derive(Debug, Clone)]

@@ -1,7 +1,9 @@
 //! The study file: the settings of every crate under one roof, read and written as RON, checked before work starts.
 
 use crate::position::Position;
-use crate::{DiagnosisSettings, StudyError, syntax};
+use crate::settings::diagnosis::DiagnosisSettings;
+use crate::settings::validation::ValidationSettings;
+use crate::{StudyError, syntax};
 use ron::extensions::Extensions;
 use serde::{Deserialize, Serialize};
 use snug_campaign::{Factor, Intersample, Quantity, Rig, Tightening};
@@ -13,7 +15,6 @@ use snug_record::RecordSettings;
 use std::path::{Path, PathBuf};
 
 use crate::selection::SelectionSettings;
-use crate::validation::ValidationSettings;
 
 /// A study: which data, how they are prepared, which model is fitted how, and what is reported.
 ///
