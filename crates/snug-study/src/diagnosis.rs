@@ -1,14 +1,16 @@
 //! A study diagnosed: tightenings to the diagnosis, its models back into the study, every rung of the ladder evaluated.
 
-use crate::cases::{chosen, with_settled};
-use crate::comparable::Comparable;
-use crate::held_input;
-use crate::output::Workplace;
+use crate::error::StudyError;
+use crate::evaluation::rungs::Ladder;
+use crate::progress::ProgressEvent;
+use crate::run::output::Workplace;
+use crate::run::settings::RunSettings;
 use crate::run::{Outcome, Task, pool, run_with};
-use crate::run_settings::RunSettings;
-use crate::rungs::Ladder;
-use crate::settling::{Settled, settle};
-use crate::{ProgressEvent, Study, StudyError};
+use crate::study::Study;
+use crate::tasks::cases::{chosen, with_settled};
+use crate::tasks::comparable::Comparable;
+use crate::tasks::held_input;
+use crate::tasks::settling::{Settled, settle};
 use snug_campaign::words::number::significant;
 use snug_campaign::{GroupSize, GroupSizes};
 use snug_diagnose::{Answer, DiagnoseError, Goal, Pieces, Question, RungModel, Watch, examine};

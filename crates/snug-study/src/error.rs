@@ -1,6 +1,6 @@
 //! Every error that ends a study, which of them are the user's to mend, and where in the study file to mend them.
 
-use crate::position;
+use crate::syntax::position;
 use snug_campaign::did_you_mean;
 use snug_campaign::words::program::program;
 use snug_diagnose::DiagnoseError;

@@ -9,7 +9,8 @@ mod text;
 mod trials;
 mod units;
 
-use crate::{Study, StudyError};
+use crate::error::StudyError;
+use crate::study::Study;
 use choice::Choice;
 use events::{Flanks, Pulse};
 use snug_campaign::Recording;

@@ -1,6 +1,6 @@
 //! A recording that was cut short, made whole in its place.
 
-use crate::StudyError;
+use crate::error::StudyError;
 use snug_files::{Disk, FilesError, Host, Lock, WholeFile};
 use snug_record::Recovery;
 use std::fmt;

@@ -1,17 +1,25 @@
 //! The order of work: list, evaluate file by file, record, and at the end tables and report.
 
-use crate::campaign_result::{meanings, preset_summary, vocabulary};
-use crate::cases::chosen;
-use crate::evaluation::Evaluated;
-use crate::examples::Examples;
-use crate::file_evaluation::{FileEvaluation, Purpose, evaluate_file, other, outcomes};
-use crate::output::{Output, Workplace};
-use crate::prepared_file::KeptFiles;
-use crate::run_settings::RunSettings;
-use crate::rungs::{Ladder, RungShare};
-use crate::settling::{leaves_open, settle};
-use crate::validation::mean_estimate;
-use crate::{ProgressEvent, Study, StudyError, statistics};
+pub(crate) mod campaign_result;
+pub(crate) mod examples;
+pub(crate) mod output;
+pub(crate) mod settings;
+
+use crate::error::StudyError;
+use crate::evaluation::file::{FileEvaluation, Purpose, evaluate_file, other, outcomes};
+use crate::evaluation::prepared_file::KeptFiles;
+use crate::evaluation::rungs::{Ladder, RungShare};
+use crate::evaluation::tightening::Evaluated;
+use crate::evaluation::validation::mean_estimate;
+use crate::progress::ProgressEvent;
+use crate::run::campaign_result::{meanings, preset_summary, vocabulary};
+use crate::run::examples::Examples;
+use crate::run::output::{Output, Workplace};
+use crate::run::settings::RunSettings;
+use crate::statistics;
+use crate::study::Study;
+use crate::tasks::cases::chosen;
+use crate::tasks::settling::{leaves_open, settle};
 use rayon::prelude::*;
 use snug_campaign::words::reason::Reason;
 use snug_campaign::{

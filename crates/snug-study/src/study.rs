@@ -1,9 +1,12 @@
 //! The study file: the settings of every crate under one roof, read and written as RON, checked before work starts.
 
-use crate::position::Position;
+pub(crate) mod rewriting;
+
+use crate::error::StudyError;
 use crate::settings::diagnosis::DiagnosisSettings;
 use crate::settings::validation::ValidationSettings;
-use crate::{StudyError, syntax};
+use crate::syntax;
+use crate::syntax::position::Position;
 use ron::extensions::Extensions;
 use serde::{Deserialize, Serialize};
 use snug_campaign::{Factor, Intersample, Quantity, Rig, Tightening};
@@ -14,7 +17,7 @@ use snug_preprocess::{PreprocessSettings, Preset};
 use snug_record::RecordSettings;
 use std::path::{Path, PathBuf};
 
-use crate::selection::SelectionSettings;
+use crate::settings::selection::SelectionSettings;
 
 /// A study: which data, how they are prepared, which model is fitted how, and what is reported.
 ///

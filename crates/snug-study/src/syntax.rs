@@ -1,6 +1,8 @@
 //! What is wrong with the text of a study file, in plain words: field, what was found, what is allowed.
 
-use crate::position::{self, Position};
+pub(crate) mod position;
+
+use crate::syntax::position::Position;
 use snug_campaign::{did_you_mean, excerpt};
 
 /// What `error`, which the reader of RON raised at `place` of `text`, says to someone who wrote a study.
@@ -124,7 +126,7 @@ fn one_of(names: &[&str]) -> String {
 
 #[cfg(test)]
 mod tests {
-    use crate::Study;
+    use crate::study::Study;
     use std::path::Path;
 
     fn told(text: &str) -> String {

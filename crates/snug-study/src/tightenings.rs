@@ -2,12 +2,14 @@
 //! keep tightenings and results in a place of their own.
 
 pub(crate) mod diagnosed;
+pub(crate) mod prepared;
 
-use crate::cases::chosen;
-use crate::evaluation::fitted;
-use crate::prepared_file::PreparedFile;
-use crate::settling::{leaves_open, settle};
-use crate::{Study, StudyError};
+use crate::error::StudyError;
+use crate::evaluation::prepared_file::PreparedFile;
+use crate::evaluation::tightening::fitted;
+use crate::study::Study;
+use crate::tasks::cases::chosen;
+use crate::tasks::settling::{leaves_open, settle};
 use snug_campaign::{Finding, TighteningResult, Traces};
 use snug_files::Host;
 use snug_identify::IdentifyError;

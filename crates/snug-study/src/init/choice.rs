@@ -5,7 +5,7 @@ use super::numbers::{derivative, is_constant, median_step, rises, runs_away, sho
 use super::roles::{self, Meaning};
 use super::units::{self, unit_of};
 use super::{DraftColumn, told_place};
-use crate::StudyError;
+use crate::error::StudyError;
 use snug_campaign::Quantity;
 use snug_ingest::csv::TimeUnit;
 use snug_ingest::survey::{Survey, SurveyedColumn, SurveyedFormat};

@@ -2,7 +2,8 @@
 
 use super::choice::{Choice, Clock, Taken};
 use super::events::Pulse;
-use crate::{Study, StudyError};
+use crate::error::StudyError;
+use crate::study::Study;
 use snug_campaign::words::program::program;
 use snug_ingest::Signal;
 use snug_ingest::csv::Column;

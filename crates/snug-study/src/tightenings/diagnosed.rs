@@ -1,15 +1,18 @@
 //! Tightenings that were prepared before and are kept in a place of their own: a sample of them diagnosed, and all of them asked, one by
 //! one, of the sizes that they share.
 
-use crate::cases::case_of;
-use crate::comparable::comparable;
+use crate::diagnosis::Verb;
 use crate::diagnosis::{climbed, effects};
-use crate::evaluation::{Evaluated, fitted};
-use crate::examples::Examples;
-use crate::file_evaluation::outcomes;
+use crate::error::StudyError;
+use crate::evaluation::file::outcomes;
+use crate::evaluation::rungs::{RungShare, Simulated};
+use crate::evaluation::tightening::{Evaluated, fitted};
+use crate::progress::ProgressEvent;
+use crate::run::examples::Examples;
 use crate::run::{Collected, pool};
-use crate::rungs::{RungShare, Simulated};
-use crate::{ProgressEvent, Study, StudyError, Verb};
+use crate::study::Study;
+use crate::tasks::cases::case_of;
+use crate::tasks::comparable::comparable;
 use serde::{Deserialize, Serialize};
 use snug_campaign::{CampaignResult, Quantity, Tightening};
 use snug_diagnose::{DiagnoseError, SharedBlock, SharedParameter};

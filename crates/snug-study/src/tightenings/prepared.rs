@@ -1,11 +1,12 @@
 //! A study's tightenings, read, prepared and settled once, for models to be tried on them by hand.
 
-use crate::campaign_result::vocabulary;
-use crate::cases::{FilesRead, chosen, with_settled};
 use crate::diagnosis::effects;
-use crate::evaluation::is_usable;
-use crate::settling::{Settled, settle};
-use crate::{Study, StudyError};
+use crate::error::StudyError;
+use crate::evaluation::tightening::is_usable;
+use crate::run::campaign_result::vocabulary;
+use crate::study::Study;
+use crate::tasks::cases::{FilesRead, chosen, with_settled};
+use crate::tasks::settling::{Settled, settle};
 use snug_campaign::SignalUnits;
 use snug_campaign::words::vocabulary::Vocabulary;
 use snug_diagnose::{DiagnoseError, Goal, LiveCases, LiveFit, Question};

@@ -1,6 +1,6 @@
 //! What is kept for validation: how well the parameters of the others predict it.
 
-use crate::Study;
+use crate::study::Study;
 use snug_campaign::{
     Estimate, FitStatus, Prediction, Quantity, RestartedPrediction, Tightening, Traces, Validation,
 };

@@ -1,7 +1,7 @@
 //! The rungs of a diagnosis' ladder, each evaluated on every file while the file is at hand.
 
-use crate::Study;
-use crate::evaluation::Evaluated;
+use crate::evaluation::tightening::Evaluated;
+use crate::study::Study;
 use snug_campaign::words::headline::Headline;
 use snug_campaign::{Diagnosis, Motion, Rejection, Rung, TighteningId, Verdict};
 use snug_statistics::descriptive::median;

@@ -1,9 +1,10 @@
 //! Tightenings as the diagnosis takes them.
 
-use crate::comparable::{Comparable, comparable};
-use crate::evaluation::input;
-use crate::prepared_file::{KeptFiles, PreparedFile};
-use crate::{Study, StudyError};
+use crate::error::StudyError;
+use crate::evaluation::prepared_file::{KeptFiles, PreparedFile};
+use crate::evaluation::tightening::input;
+use crate::study::Study;
+use crate::tasks::comparable::{Comparable, comparable};
 use rayon::prelude::*;
 use snug_campaign::Rejection;
 use snug_campaign::words::reason::Reason;

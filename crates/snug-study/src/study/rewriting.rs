@@ -1,7 +1,8 @@
 //! Changes a study file's list of effects and leaves everything else, comments too, as it is.
 
+use crate::error::StudyError;
+use crate::study::Study;
 use crate::study::{options, text_of};
-use crate::{Study, StudyError};
 use snug_files::Host;
 use snug_model::CustomEffectSettings;
 use std::path::Path;

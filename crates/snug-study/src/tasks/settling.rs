@@ -1,9 +1,9 @@
 //! What a study leaves to the tool on a rig that is no hand on a nutrunner: the scale of its effects, and whether the
 //! model runs freely over a long record.
 
-use crate::Study;
-use crate::cases::with_settled;
-use crate::validation::every_s_of;
+use crate::evaluation::validation::every_s_of;
+use crate::study::Study;
+use crate::tasks::cases::with_settled;
 use snug_campaign::Quantity;
 use snug_campaign::words::reason::Reason;
 use snug_diagnose::is_followed_with_an_effect;

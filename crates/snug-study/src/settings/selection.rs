@@ -1,6 +1,6 @@
 //! Which fitted tightenings count in the statistics: Snug's own rules, and those of the original program in its order.
 
-use crate::StudyError;
+use crate::error::StudyError;
 use serde::{Deserialize, Serialize};
 use snug_campaign::{Estimate, FitMeasures, FitStatus, Rejection};
 use snug_model::{BASE_PARAMETERS, Scale};

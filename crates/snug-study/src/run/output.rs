@@ -1,6 +1,8 @@
 //! Where a run's results go: the recording while it works, everything else at its end, all of it at once.
 
-use crate::{RunSettings, Study, StudyError};
+use crate::error::StudyError;
+use crate::run::settings::RunSettings;
+use crate::study::Study;
 use snug_campaign::CampaignResult;
 use snug_files::{Exchanged, Growing, Inputs, Results, keep_apart};
 use snug_ingest::Listing;

@@ -3,8 +3,9 @@
 //! Taken as running straight from sample to sample, a held input comes half a sampling interval early, and a search finds a delay,
 //! a lag or a fast mode that is none. The model that needs fewer effects for the same error is the likelier story.
 
-use crate::cases::with_settled;
-use crate::{Study, StudyError};
+use crate::error::StudyError;
+use crate::study::Study;
+use crate::tasks::cases::with_settled;
 use snug_campaign::words::reason::Reason;
 use snug_campaign::{Diagnosis, Intersample};
 use snug_identify::{FitTask, identify_all};

@@ -1,6 +1,6 @@
 //! What a campaign's result says of the study itself: in which words it is told, what its parameters are, what its preset selects.
 
-use crate::Study;
+use crate::study::Study;
 use snug_campaign::words::vocabulary::Vocabulary;
 use snug_campaign::{
     ParameterMeaning, PresetSummary, Rejection, RejectionCount, SignalUnits, TighteningId,

@@ -1,10 +1,11 @@
 //! One measurement file, from bytes to results.
 
-use crate::evaluation::{Evaluated, fitted, validated, without_estimate};
-use crate::prepared_file::PreparedFile;
-use crate::rungs::{Ladder, RungShare, Simulated};
-use crate::validation::mean_estimate;
-use crate::{Study, StudyError};
+use crate::error::StudyError;
+use crate::evaluation::prepared_file::PreparedFile;
+use crate::evaluation::rungs::{Ladder, RungShare, Simulated};
+use crate::evaluation::tightening::{Evaluated, fitted, validated, without_estimate};
+use crate::evaluation::validation::mean_estimate;
+use crate::study::Study;
 use snug_campaign::{Estimate, Finding, Recording, Rejection, Severity, TighteningId};
 use snug_files::Disk;
 use snug_identify::in_batches;

@@ -1,6 +1,7 @@
 //! One measurement file, read and prepared: what every evaluation of a command begins from.
 
-use crate::{Study, StudyError};
+use crate::error::StudyError;
+use crate::study::Study;
 use snug_campaign::{Finding, Motion, Quantity, Recording};
 use snug_files::Disk;
 use snug_ingest::IngestError;

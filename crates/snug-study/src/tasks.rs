@@ -1,0 +1,6 @@
+//! The tightenings of a study as fit tasks, and what it leaves to the tool until they are read.
+
+pub(crate) mod cases;
+pub(crate) mod comparable;
+pub(crate) mod held_input;
+pub(crate) mod settling;
