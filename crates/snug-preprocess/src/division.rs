@@ -1,7 +1,7 @@
 //! A recording without events, divided at its torque pulses.
 
+use crate::context::Context;
 use crate::onset::{Baseline, onset, pulses};
-use crate::presets::Context;
 use snug_campaign::{Recording, Segment};
 
 /// The tightenings' places: the recording's own segments, or, where it is one segment without events, one for every pulse

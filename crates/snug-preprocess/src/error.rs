@@ -20,3 +20,22 @@ pub enum PreprocessError {
     #[error("preset `Thesis` needs `window: Pulse(…)`; `Whole` has no window to cut")]
     ThesisWithoutWindow,
 }
+
+/// Checks that `minimum` ≤ `value` ≤ `maximum`; not-a-number is never in range.
+pub(crate) fn in_range(
+    setting: &'static str,
+    value: f64,
+    minimum: f64,
+    maximum: f64,
+    allowed: &'static str,
+) -> Result<(), PreprocessError> {
+    if (minimum..=maximum).contains(&value) {
+        Ok(())
+    } else {
+        Err(PreprocessError::SettingOutOfRange {
+            setting,
+            value,
+            allowed,
+        })
+    }
+}

@@ -2,8 +2,8 @@
 
 use crate::autoregression::Autoregression;
 use crate::channel::Channel;
+use crate::context::Context;
 use crate::locate::Located;
-use crate::presets::Context;
 use crate::quality::{polarity, saturation, stuck};
 use crate::remarks::Remarks;
 use crate::signals::Signals;

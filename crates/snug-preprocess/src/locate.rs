@@ -1,8 +1,8 @@
 //! Where the pulse lies in a segment, and where the window is put for it; refuses segments without a usable pulse.
 
 use crate::channel::Channel;
+use crate::context::Context;
 use crate::onset::{Baseline, Pulse, onset, pulses};
-use crate::presets::Context;
 use crate::quality::polarity;
 use crate::remarks::Remarks;
 use crate::signals::Signals;

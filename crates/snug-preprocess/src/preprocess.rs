@@ -1,7 +1,8 @@
 //! The crate's way in: divides a recording, prepares every segment by the preset, and collects what was found.
 
+use crate::context::Context;
 use crate::division;
-use crate::presets::{Context, snug, thesis, whole};
+use crate::presets::{snug, thesis, whole};
 use crate::remarks::Remarks;
 use crate::{PreprocessError, PreprocessSettings, Preprocessed, Preset, Window};
 use snug_campaign::{Finding, Quantity, Recording, Segment, Severity, TighteningId};

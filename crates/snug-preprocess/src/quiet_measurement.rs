@@ -3,7 +3,7 @@
 use crate::autoregression::Autoregression;
 use crate::bias::Offset;
 use crate::channel::Channel;
-use crate::presets::Context;
+use crate::context::Context;
 use crate::quiet::{Unsteadiness, unsteadiness};
 use crate::remarks::Remarks;
 use crate::signals::Signals;

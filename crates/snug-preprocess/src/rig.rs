@@ -1,7 +1,6 @@
 //! The rig's settings: lever arm, and the tool's inertia, which in the thesis depends on the force transducer.
 
-use crate::PreprocessError;
-use crate::settings::in_range;
+use crate::error::{PreprocessError, in_range};
 use serde::{Deserialize, Serialize};
 use snug_campaign::{Recording, Rig};
 

@@ -1,6 +1,14 @@
 //! The preprocessing part of a study file: preset, window and every step's settings, checked before work starts.
 
-use crate::{OnsetSettings, PreprocessError, QualitySettings, QuietSettings, RigSettings};
+pub(crate) mod onset;
+pub(crate) mod quality;
+pub(crate) mod quiet;
+
+use crate::error::{PreprocessError, in_range};
+use crate::rig::RigSettings;
+use onset::OnsetSettings;
+use quality::QualitySettings;
+use quiet::QuietSettings;
 use serde::{Deserialize, Serialize};
 
 /// Which way recordings become tightenings.
@@ -96,25 +104,6 @@ impl PreprocessSettings {
         self.quiet.check()?;
         self.onset.check()?;
         self.quality.check()
-    }
-}
-
-/// Checks that `minimum` ≤ `value` ≤ `maximum`; not-a-number is never in range.
-pub(crate) fn in_range(
-    setting: &'static str,
-    value: f64,
-    minimum: f64,
-    maximum: f64,
-    allowed: &'static str,
-) -> Result<(), PreprocessError> {
-    if (minimum..=maximum).contains(&value) {
-        Ok(())
-    } else {
-        Err(PreprocessError::SettingOutOfRange {
-            setting,
-            value,
-            allowed,
-        })
     }
 }
 

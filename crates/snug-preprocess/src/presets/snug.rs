@@ -8,9 +8,9 @@
 //! 5. Rest at the window's start: ω = θ = 0 there, integrated by trapezoids.
 //! 6. Faults in the window that keep the tightening out of the statistics.
 
-use super::Context;
 use crate::Prepared;
 use crate::channel::Channel;
+use crate::context::Context;
 use crate::faults::{self, Window};
 use crate::integration::complete;
 use crate::locate::{Located, locate, place};

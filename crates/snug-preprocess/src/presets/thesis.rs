@@ -13,9 +13,9 @@
 //! Deviations, both reported: short runs of not-finite samples are bridged, and a segment too short for the window is
 //! left out (the original fails later, in a plot). No data-quality verdict: the original has none.
 
-use super::Context;
 use crate::autoregression::Autoregression;
 use crate::channel::Channel;
+use crate::context::Context;
 use crate::integration::cumulative_trapezoid;
 use crate::offset::zero_index;
 use crate::remarks::Remarks;

@@ -1,8 +1,8 @@
 //! Window `Whole`: a segment as it was measured, for rigs without a quiet part.
 
-use super::Context;
 use crate::Prepared;
 use crate::channel::Channel;
+use crate::context::Context;
 use crate::integration::complete;
 use crate::remarks::Remarks;
 use crate::signals::Signals;

@@ -4,8 +4,5 @@ pub(crate) mod free_flight;
 pub(crate) mod non_finite;
 pub(crate) mod polarity;
 pub(crate) mod saturation;
-mod settings;
 pub(crate) mod spikes;
 pub(crate) mod stuck;
-
-pub use settings::QualitySettings;

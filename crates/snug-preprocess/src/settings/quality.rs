@@ -1,7 +1,6 @@
 //! The thresholds of the data-quality checks, with default and allowed range.
 
-use crate::PreprocessError;
-use crate::settings::in_range;
+use crate::error::{PreprocessError, in_range};
 use serde::{Deserialize, Serialize};
 
 /// From where on data count as faulty.
