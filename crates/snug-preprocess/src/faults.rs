@@ -1,12 +1,12 @@
 //! The faults inside the window that keep a tightening out of the statistics, although it can be fitted.
 
-use crate::autoregression::Autoregression;
-use crate::channel::Channel;
-use crate::context::Context;
-use crate::locate::Located;
+use crate::noise::autoregression::Autoregression;
+use crate::pulse::locate::Located;
 use crate::quality::{polarity, saturation, stuck};
-use crate::remarks::Remarks;
-use crate::signals::Signals;
+use crate::segment::channel::Channel;
+use crate::segment::context::Context;
+use crate::segment::remarks::Remarks;
+use crate::segment::signals::Signals;
 use snug_campaign::Quantity;
 use std::ops::Range;
 

@@ -1,42 +1,29 @@
 #![doc = include_str!("../README.md")]
 
-mod autoregression;
-mod bias;
-mod channel;
-mod context;
-mod division;
 mod error;
 mod faults;
-mod integration;
-mod locate;
-mod offset;
-mod onset;
+mod noise;
 mod prepared;
 mod preprocess;
 mod presets;
+mod pulse;
 mod quality;
 mod quiet;
-mod quiet_measurement;
-mod remarks;
-mod rig;
+mod segment;
 mod settings;
-mod signals;
-mod spread;
 #[cfg(test)]
 mod tests;
-mod thesis_checks;
-mod torque_target;
-mod window;
+mod thesis;
 
-pub use autoregression::Autoregression;
 pub use error::PreprocessError;
-pub use integration::cumulative_trapezoid;
+pub use noise::autoregression::Autoregression;
 pub use prepared::{Prepared, Preprocessed};
 pub use preprocess::preprocess;
-pub use rig::{KnownInertia, RigSettings};
+pub use segment::integration::cumulative_trapezoid;
+pub use segment::torque_target::target_torque_nm;
 pub use settings::onset::OnsetSettings;
 pub use settings::quality::QualitySettings;
 pub use settings::quiet::QuietSettings;
+pub use settings::rig::{KnownInertia, RigSettings};
 pub use settings::{PreprocessSettings, Preset, Window};
-pub use thesis_checks::ThesisChecks;
-pub use torque_target::target_torque_nm;
+pub use thesis::checks::ThesisChecks;

@@ -1,6 +1,6 @@
 //! What preprocessing hands on: tightenings with what it holds against them, and findings for the segments left out.
 
-use crate::ThesisChecks;
+use crate::thesis::checks::ThesisChecks;
 use serde::{Deserialize, Serialize};
 use snug_campaign::{Finding, Rejection, Segment, Tightening};
 

@@ -1,10 +1,12 @@
 //! The crate's way in: divides a recording, prepares every segment by the preset, and collects what was found.
 
-use crate::context::Context;
-use crate::division;
+use crate::error::PreprocessError;
+use crate::prepared::Preprocessed;
 use crate::presets::{snug, thesis, whole};
-use crate::remarks::Remarks;
-use crate::{PreprocessError, PreprocessSettings, Preprocessed, Preset, Window};
+use crate::pulse::division;
+use crate::segment::context::Context;
+use crate::segment::remarks::Remarks;
+use crate::settings::{PreprocessSettings, Preset, Window};
 use snug_campaign::{Finding, Quantity, Recording, Segment, Severity, TighteningId};
 
 /// Sampling intervals between a nanosecond and eleven days; beyond them sample counts have no meaning.

@@ -2,10 +2,11 @@
 #![allow(clippy::unwrap_used)]
 
 use super::*;
+use crate::prepared::Prepared;
+use crate::settings::rig::KnownInertia;
 use crate::tests::synthetic::{
     ONSET, PEAK, SEGMENT, acceleration, coloured_noise, pulse, recording, white_noise,
 };
-use crate::{KnownInertia, Prepared};
 use snug_campaign::Rejection;
 
 fn snug(recording: &Recording) -> Preprocessed {

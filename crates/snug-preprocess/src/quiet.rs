@@ -1,6 +1,9 @@
 //! The quiet part before the pulse: which samples it has, and whether a channel is at rest in them.
 
-use crate::autoregression::Autoregression;
+pub(crate) mod bias;
+pub(crate) mod measurement;
+
+use crate::noise::autoregression::Autoregression;
 use crate::settings::quiet::QuietSettings;
 use std::ops::Range;
 

@@ -3,9 +3,10 @@
 pub(crate) mod onset;
 pub(crate) mod quality;
 pub(crate) mod quiet;
+pub(crate) mod rig;
 
 use crate::error::{PreprocessError, in_range};
-use crate::rig::RigSettings;
+use crate::settings::rig::RigSettings;
 use onset::OnsetSettings;
 use quality::QualitySettings;
 use quiet::QuietSettings;

@@ -8,18 +8,21 @@
 //! 5. Rest at the window's start: ω = θ = 0 there, integrated by trapezoids.
 //! 6. Faults in the window that keep the tightening out of the statistics.
 
-use crate::Prepared;
-use crate::channel::Channel;
-use crate::context::Context;
-use crate::faults::{self, Window};
-use crate::integration::complete;
-use crate::locate::{Located, locate, place};
-use crate::quality::{free_flight::FreeFlight, non_finite::Missing, spikes};
+use crate::faults;
+use crate::faults::Window;
+use crate::prepared::Prepared;
+use crate::pulse::locate::{Located, locate, place};
+use crate::quality::free_flight::FreeFlight;
+use crate::quality::non_finite::Missing;
+use crate::quality::spikes;
 use crate::quiet;
-use crate::quiet_measurement::{QuietMeasurement, measure};
-use crate::remarks::Remarks;
-use crate::signals::Signals;
-use crate::torque_target::peak_torque_nm;
+use crate::quiet::measurement::{QuietMeasurement, measure};
+use crate::segment::channel::Channel;
+use crate::segment::context::Context;
+use crate::segment::integration::complete;
+use crate::segment::remarks::Remarks;
+use crate::segment::signals::Signals;
+use crate::segment::torque_target::peak_torque_nm;
 use snug_campaign::{Finding, Quantity, Segment};
 use std::ops::Range;
 
@@ -42,7 +45,7 @@ pub(crate) fn prepare(
     }
     context.refuse_constant(source, &signals, remarks)?;
     let spikes = repair_spikes(context, &mut signals, remarks);
-    let configured = crate::window::snug(start_s, length_s, context.interval_s);
+    let configured = crate::segment::window::snug(start_s, length_s, context.interval_s);
     let located = locate(context, &signals, &configured, remarks)?;
     let range = place(context, &signals, &located, &configured, remarks)?;
     context.refuse_gaps(&missing, &range, &mut signals, remarks)?;

@@ -13,15 +13,18 @@
 //! Deviations, both reported: short runs of not-finite samples are bridged, and a segment too short for the window is
 //! left out (the original fails later, in a plot). No data-quality verdict: the original has none.
 
-use crate::autoregression::Autoregression;
-use crate::channel::Channel;
-use crate::context::Context;
-use crate::integration::cumulative_trapezoid;
-use crate::offset::zero_index;
-use crate::remarks::Remarks;
-use crate::signals::Signals;
-use crate::torque_target::peak_torque_nm;
-use crate::{Prepared, Preset, ThesisChecks, window};
+use crate::noise::autoregression::Autoregression;
+use crate::prepared::Prepared;
+use crate::segment::channel::Channel;
+use crate::segment::context::Context;
+use crate::segment::integration::cumulative_trapezoid;
+use crate::segment::remarks::Remarks;
+use crate::segment::signals::Signals;
+use crate::segment::torque_target::peak_torque_nm;
+use crate::segment::window;
+use crate::settings::Preset;
+use crate::thesis::checks::ThesisChecks;
+use crate::thesis::offset::zero_index;
 use snug_campaign::{Finding, NoiseFloor, Quantity, Segment};
 
 /// Prepares one segment as the original did; `start_s` and `length_s` are the window's.
@@ -101,7 +104,7 @@ fn noise_before(
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
-    use crate::Preset;
+    use crate::settings::Preset;
     use crate::tests::synthetic::{prepared, recording};
     use snug_campaign::Severity;
 

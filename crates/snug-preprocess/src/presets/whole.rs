@@ -1,12 +1,12 @@
 //! Window `Whole`: a segment as it was measured, for rigs without a quiet part.
 
-use crate::Prepared;
-use crate::channel::Channel;
-use crate::context::Context;
-use crate::integration::complete;
-use crate::remarks::Remarks;
-use crate::signals::Signals;
-use crate::torque_target::peak_torque_nm;
+use crate::prepared::Prepared;
+use crate::segment::channel::Channel;
+use crate::segment::context::Context;
+use crate::segment::integration::complete;
+use crate::segment::remarks::Remarks;
+use crate::segment::signals::Signals;
+use crate::segment::torque_target::peak_torque_nm;
 use snug_campaign::{Finding, Segment};
 
 /// Takes every sample; nothing is zeroed, and the noise floor is left to the fit's residual.

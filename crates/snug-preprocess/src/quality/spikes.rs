@@ -1,7 +1,7 @@
 //! Mends spikes of one to three samples, except those that the tool's own motion explains.
 
 use super::non_finite::fill;
-use crate::spread::median;
+use crate::noise::spread::median;
 use std::ops::Range;
 
 /// Widest spike \[samples\].

@@ -1,6 +1,8 @@
 //! Signals with known properties for the tests.
 
-use crate::{PreprocessSettings, Preprocessed, Preset, preprocess};
+use crate::prepared::Preprocessed;
+use crate::preprocess::preprocess;
+use crate::settings::{PreprocessSettings, Preset};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};

@@ -1,7 +1,7 @@
 //! The pulses of a torque and the sample at which one begins, which for a slow rise lies well before the threshold.
 
+use crate::noise::spread::{difference_scale, location_and_scale};
 use crate::settings::onset::{END_RATIO, OnsetSettings};
-use crate::spread::{difference_scale, location_and_scale};
 use std::ops::Range;
 
 /// The torque before the pulse.

@@ -1,6 +1,6 @@
 //! What every step writes its findings to, so that they carry the tightening's name and its rejection is not forgotten.
 
-use crate::channel::Channel;
+use crate::segment::channel::Channel;
 use snug_campaign::{Finding, Severity, TighteningId};
 
 /// Collects the findings of one tightening while it is prepared.

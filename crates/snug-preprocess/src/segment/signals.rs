@@ -1,7 +1,7 @@
 //! A segment cut out of its recording: channels of one length, for the steps to change.
 
-use crate::channel::Channel;
-use crate::remarks::Remarks;
+use crate::segment::channel::Channel;
+use crate::segment::remarks::Remarks;
 use snug_campaign::{Finding, Motion, Quantity, Recording, Segment};
 use std::ops::Range;
 

@@ -1,7 +1,7 @@
 //! The offset of a channel as the quiet part shows it, with a standard error that holds under coloured noise.
 
-use crate::autoregression::Autoregression;
-use crate::channel::Channel;
+use crate::noise::autoregression::Autoregression;
+use crate::segment::channel::Channel;
 use snug_campaign::Correction;
 
 /// A constant error measured in the quiet part.

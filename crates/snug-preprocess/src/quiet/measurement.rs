@@ -1,12 +1,12 @@
 //! Measures noise and offset of every channel in the quiet part and takes the offsets out of the segment.
 
-use crate::autoregression::Autoregression;
-use crate::bias::Offset;
-use crate::channel::Channel;
-use crate::context::Context;
+use crate::noise::autoregression::Autoregression;
+use crate::quiet::bias::Offset;
 use crate::quiet::{Unsteadiness, unsteadiness};
-use crate::remarks::Remarks;
-use crate::signals::Signals;
+use crate::segment::channel::Channel;
+use crate::segment::context::Context;
+use crate::segment::remarks::Remarks;
+use crate::segment::signals::Signals;
 use snug_campaign::{Correction, Quantity};
 use std::ops::Range;
 

@@ -1,11 +1,11 @@
 //! Where the pulse lies in a segment, and where the window is put for it; refuses segments without a usable pulse.
 
-use crate::channel::Channel;
-use crate::context::Context;
-use crate::onset::{Baseline, Pulse, onset, pulses};
+use crate::pulse::onset::{Baseline, Pulse, onset, pulses};
 use crate::quality::polarity;
-use crate::remarks::Remarks;
-use crate::signals::Signals;
+use crate::segment::channel::Channel;
+use crate::segment::context::Context;
+use crate::segment::remarks::Remarks;
+use crate::segment::signals::Signals;
 use snug_campaign::Finding;
 use std::ops::Range;
 

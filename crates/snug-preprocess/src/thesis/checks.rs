@@ -1,6 +1,6 @@
 //! Codes 1 and 2 of the original program, which look at the shape of the displacement before any fit.
 
-use crate::offset::after_third;
+use crate::thesis::offset::after_third;
 use serde::{Deserialize, Serialize};
 use snug_campaign::Rejection;
 

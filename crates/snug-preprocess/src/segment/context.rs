@@ -1,11 +1,12 @@
 //! What all segments of a recording share, and what every preset refuses.
 
-use crate::channel::Channel;
 use crate::quality::non_finite::{Missing, bridge};
-use crate::remarks::Remarks;
-use crate::signals::Signals;
-use crate::window::samples;
-use crate::{PreprocessSettings, target_torque_nm};
+use crate::segment::channel::Channel;
+use crate::segment::remarks::Remarks;
+use crate::segment::signals::Signals;
+use crate::segment::torque_target::target_torque_nm;
+use crate::segment::window::samples;
+use crate::settings::PreprocessSettings;
 use snug_campaign::{Finding, Quantity, Recording, Rig, Tightening, TimeBase};
 use std::ops::Range;
 

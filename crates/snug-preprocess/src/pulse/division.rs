@@ -1,7 +1,7 @@
 //! A recording without events, divided at its torque pulses.
 
-use crate::context::Context;
-use crate::onset::{Baseline, onset, pulses};
+use crate::pulse::onset::{Baseline, onset, pulses};
+use crate::segment::context::Context;
 use snug_campaign::{Recording, Segment};
 
 /// The tightenings' places: the recording's own segments, or, where it is one segment without events, one for every pulse
@@ -76,8 +76,9 @@ fn without_gaps(torque_nm: &[f64]) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
+    use crate::prepared::Preprocessed;
+    use crate::settings::Preset;
     use crate::tests::synthetic::{ONSET, PEAK, SEGMENT, prepared, recording};
-    use crate::{Preprocessed, Preset};
     use snug_campaign::Recording;
 
     fn codes(result: &Preprocessed) -> Vec<&str> {

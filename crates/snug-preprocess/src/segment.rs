@@ -1,0 +1,9 @@
+//! A segment of a recording: its channels, what is said of it, its window, and what all segments share.
+
+pub(crate) mod channel;
+pub(crate) mod context;
+pub(crate) mod integration;
+pub(crate) mod remarks;
+pub(crate) mod signals;
+pub(crate) mod torque_target;
+pub(crate) mod window;

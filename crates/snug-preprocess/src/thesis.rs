@@ -1,0 +1,4 @@
+//! What only the original program looks at or rounds.
+
+pub(crate) mod checks;
+pub(crate) mod offset;
