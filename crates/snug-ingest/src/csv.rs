@@ -7,6 +7,7 @@ mod table;
 pub use number::Decimal;
 pub use table::{Delimiter, Header};
 
+use crate::channels;
 use crate::finding_log::FindingLog;
 use crate::layout::{self, Layout};
 use crate::memory::Budget;
@@ -162,7 +163,7 @@ impl Layout for CsvLayout {
     }
 
     fn check(&self) -> Result<(), IngestError> {
-        signal::check(&self.declared())?;
+        channels::check(&self.declared())?;
         range::check(&self.ranges)?;
         let (field, value) = match &self.sampling {
             Sampling::Rate { hz } => ("sampling.hz", *hz),

@@ -10,6 +10,7 @@ pub use place::Part;
 pub(crate) use path::{DataPath, Segment, joined};
 pub(crate) use place::{Block, Order};
 
+use crate::channels;
 use crate::csv::TimeUnit;
 use crate::finding_log::{About, FindingLog};
 use crate::layout::{self, Channel, Layout};
@@ -173,7 +174,7 @@ impl<P: Places> Layout for P {
 
 impl DeclaredLayout {
     fn check(&self) -> Result<(), IngestError> {
-        signal::check(&self.declared())?;
+        channels::check(&self.declared())?;
         range::check(&self.ranges)?;
         let (field, value) = match &self.sampling {
             DeclaredSampling::Rate { hz } => ("sampling.hz", *hz),

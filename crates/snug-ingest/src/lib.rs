@@ -1,5 +1,6 @@
 #![doc = include_str!("../README.md")]
 
+mod channels;
 mod condition_pattern;
 pub mod csv;
 pub mod declared;

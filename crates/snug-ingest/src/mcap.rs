@@ -3,6 +3,7 @@
 #[cfg(feature = "mcap")]
 mod reading;
 
+use crate::channels;
 use crate::layout::{self, Layout};
 use crate::memory::Budget;
 use crate::range::{self, Range};
@@ -65,7 +66,7 @@ impl Layout for McapLayout {
 
     fn check(&self) -> Result<(), IngestError> {
         if !self.channels.is_empty() {
-            signal::check(&self.declared())?;
+            channels::check(&self.declared())?;
         }
         range::check(&self.ranges)?;
         if let Some(rate_hz) = self.rate_hz {
