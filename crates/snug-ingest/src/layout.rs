@@ -1,11 +1,14 @@
 //! What a format of measurement files has to say and do; a new one implements [`Layout`] in a module of its own.
 
-use crate::file_name::name_and_stem;
-use crate::finding_log::FindingLog;
+use crate::error::IngestError;
+use crate::file::finding_log::FindingLog;
+use crate::file::ingested::Ingested;
+use crate::file::name::name_and_stem;
 use crate::memory::Budget;
-use crate::range::{self, Range};
+use crate::recording::condition_pattern::ConditionPattern;
+use crate::recording::range;
+use crate::recording::range::Range;
 use crate::signal::{Signal, Unit};
-use crate::{ConditionPattern, IngestError, Ingested};
 use snug_campaign::{Conditions, Motion, Recording, TimeBase};
 use snug_files::Input;
 use std::io::{Read as _, SeekFrom};

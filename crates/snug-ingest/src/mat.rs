@@ -28,7 +28,7 @@ pub use numbers::Numbers;
 pub use selection::{MatSelection, UnreadableVariable};
 pub use value::{Content, Field, Sparse, Unsupported, Value, Variable};
 
-use crate::IngestError;
+use crate::error::IngestError;
 use crate::memory::Budget;
 use selection::Wanted;
 use snug_files::{Disk, Host, Input};

@@ -3,13 +3,18 @@
 #[cfg(feature = "mcap")]
 mod reading;
 
-use crate::channels;
-use crate::layout::{self, Layout};
+use crate::error::IngestError;
+use crate::file::ingested::Ingested;
+use crate::layout;
+use crate::layout::Layout;
 use crate::memory::Budget;
-use crate::range::{self, Range};
-use crate::sampling;
-use crate::signal::{self, Signal, Unit};
-use crate::{ConditionPattern, IngestError, Ingested};
+use crate::recording::channels;
+use crate::recording::condition_pattern::ConditionPattern;
+use crate::recording::range;
+use crate::recording::range::Range;
+use crate::recording::sampling;
+use crate::signal;
+use crate::signal::{Signal, Unit};
 use serde::{Deserialize, Serialize};
 use snug_files::Input;
 use std::path::Path;

@@ -2,7 +2,7 @@
 
 mod machine;
 
-use crate::IngestError;
+use crate::error::IngestError;
 use std::cell::{Cell, RefCell};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};

@@ -2,18 +2,20 @@
 
 mod entry;
 mod listing;
+pub(crate) mod units;
 
 pub use listing::{Listing, list, list_on};
 
 use crate::csv::CsvLayout;
 use crate::declared::json::JsonLayout;
 use crate::declared::mat::MatLayout;
+use crate::error::IngestError;
+use crate::file::ingested::Ingested;
 use crate::layout::Layout;
 use crate::mcap::McapLayout;
 use crate::memory::Budget;
-use crate::range::Range;
+use crate::recording::range::Range;
 use crate::thesis_layout::ThesisLayout;
-use crate::{IngestError, Ingested};
 use serde::{Deserialize, Serialize};
 use snug_files::{Disk, Host};
 use std::path::{Path, PathBuf};

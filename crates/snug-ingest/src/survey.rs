@@ -6,9 +6,10 @@ mod table;
 
 use crate::csv::Column;
 use crate::declared::Part;
-use crate::file_name::ending;
+use crate::error::IngestError;
+use crate::file::name::ending;
 use crate::memory::Budget;
-use crate::{IngestError, ThesisLayout};
+use crate::thesis_layout::ThesisLayout;
 use snug_files::{Disk, Host};
 use std::path::Path;
 

@@ -2,13 +2,18 @@
 
 mod events;
 
-use crate::file_name::{ending, name_and_stem};
-use crate::finding_log::{About, FindingLog};
-use crate::layout::{self, Layout};
-use crate::mat::{self, Content, MatSelection, Value};
+use crate::error::IngestError;
+use crate::file::finding_log::{About, FindingLog};
+use crate::file::ingested::Ingested;
+use crate::file::name::{ending, name_and_stem};
+use crate::layout;
+use crate::layout::Layout;
+use crate::mat;
+use crate::mat::{Content, MatSelection, Value};
 use crate::mcap::McapLayout;
 use crate::memory::Budget;
-use crate::{ConditionPattern, IngestError, Ingested, range};
+use crate::recording::condition_pattern::ConditionPattern;
+use crate::recording::range;
 use serde::{Deserialize, Serialize};
 use snug_campaign::{Motion, Recording, Segment, TimeBase};
 use snug_files::Input;

@@ -1,7 +1,7 @@
 //! Text to records.
 
 use super::{CsvLayout, Delimiter};
-use crate::IngestError;
+use crate::error::IngestError;
 use csv::{ReaderBuilder, StringRecord, Trim};
 use std::io::{self, Read};
 

@@ -2,8 +2,8 @@
 
 use super::rows::Rows;
 use super::{Column, CsvLayout};
-use crate::IngestError;
-use crate::finding_log::{About, FindingLog};
+use crate::error::IngestError;
+use crate::file::finding_log::{About, FindingLog};
 use crate::memory::Budget;
 use csv::StringRecord;
 use serde::{Deserialize, Serialize};

@@ -5,8 +5,8 @@
 mod walk;
 
 use super::{DeclaredLayout, Found, Places, Wanted};
-use crate::IngestError;
-use crate::finding_log::{About, FindingLog};
+use crate::error::IngestError;
+use crate::file::finding_log::{About, FindingLog};
 use crate::layout;
 use crate::memory::Budget;
 use serde::de::DeserializeSeed as _;

@@ -2,9 +2,10 @@
 
 use super::path::joined;
 use super::{Block, DataPath, DeclaredLayout, Found, Order, Places, Segment, Wanted};
-use crate::IngestError;
-use crate::finding_log::{About, FindingLog};
-use crate::mat::{self, Content, MatSelection, Sparse, Value};
+use crate::error::IngestError;
+use crate::file::finding_log::{About, FindingLog};
+use crate::mat;
+use crate::mat::{Content, MatSelection, Sparse, Value};
 use crate::memory::Budget;
 use serde::{Deserialize, Serialize};
 use snug_files::Input;

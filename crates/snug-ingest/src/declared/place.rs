@@ -1,6 +1,6 @@
 //! Numbers that stand at one place of a file, and the part of them that is one signal.
 
-use crate::IngestError;
+use crate::error::IngestError;
 use crate::memory::Budget;
 use serde::{Deserialize, Serialize};
 

@@ -1,6 +1,6 @@
 //! Bounded reading of a MAT file's bytes in either byte order: every error names the offset.
 
-use crate::IngestError;
+use crate::error::IngestError;
 use crate::memory::Budget;
 
 /// The order of the bytes of a number.

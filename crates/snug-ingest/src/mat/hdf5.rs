@@ -13,7 +13,7 @@ use super::selection::{MatSelection, Wanted};
 use super::{
     Content, Field, MAXIMUM_DEPTH, MatFormat, Numbers, Sparse, Unsupported, Value, Variable,
 };
-use crate::IngestError;
+use crate::error::IngestError;
 use crate::memory::Budget;
 use effort::Effort;
 use hdf5_pure::{AttrValue, Dataset, File, FormatError, Group, Object};

@@ -7,7 +7,7 @@ use super::numbers::NumberKind;
 use super::selection::{MatSelection, Wanted};
 use super::stream::Stream;
 use super::{Content, MatFormat, Numbers, Sparse, Value, Variable};
-use crate::IngestError;
+use crate::error::IngestError;
 use crate::memory::Budget;
 
 /// The header's first number is below this, in the file's own byte order.

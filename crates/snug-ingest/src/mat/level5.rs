@@ -18,7 +18,7 @@ use super::MatFormat;
 use super::cursor::{ByteOrder, Cursor};
 use super::selection::{MatSelection, Wanted};
 use super::stream::Stream;
-use crate::IngestError;
+use crate::error::IngestError;
 use crate::memory::Budget;
 use element::ElementType;
 use inflater::Inflater;

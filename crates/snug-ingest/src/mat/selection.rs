@@ -1,7 +1,7 @@
 //! Some variables of a file, and what is known of the others.
 
 use super::{MatFile, MatFormat, Value, Variable};
-use crate::IngestError;
+use crate::error::IngestError;
 use crate::memory::Budget;
 
 /// The variables of a MAT file that were asked for.

@@ -1,7 +1,7 @@
 //! A file that is read from start to end, and over most of which one skips.
 
 use super::cursor::check_room;
-use crate::IngestError;
+use crate::error::IngestError;
 use crate::memory::Budget;
 use snug_files::Input;
 use std::io::{BufReader, Read as _, Seek, SeekFrom};

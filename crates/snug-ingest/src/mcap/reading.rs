@@ -1,11 +1,14 @@
 //! An MCAP file to recordings: whole measurements that Snug recorded, or declared channels on one time grid.
 
 use super::{McapChannel, McapLayout};
-use crate::finding_log::{About, FindingLog};
+use crate::error::IngestError;
+use crate::file::finding_log::{About, FindingLog};
+use crate::file::ingested::Ingested;
+use crate::layout;
 use crate::layout::Layout as _;
 use crate::memory::Budget;
-use crate::sampling::{self, Timed, Track};
-use crate::{IngestError, Ingested, layout};
+use crate::recording::sampling;
+use crate::recording::sampling::{Timed, Track};
 use snug_campaign::excerpt;
 use snug_campaign::{Recording, TimeBase};
 use snug_record::RecordError;

@@ -1,6 +1,6 @@
 //! What an entry of the data folder is.
 
-use crate::IngestError;
+use crate::error::IngestError;
 use snug_files::Disk;
 use std::fs::FileType;
 use std::io::{self, ErrorKind};

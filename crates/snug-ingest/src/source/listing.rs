@@ -2,8 +2,8 @@
 
 use super::Source;
 use super::entry::Entry;
-use crate::IngestError;
-use crate::file_name::{ending, name_and_stem};
+use crate::error::IngestError;
+use crate::file::name::{ending, name_and_stem};
 use snug_campaign::{Finding, Severity};
 use snug_files::{Disk, Host, Identity};
 use std::collections::HashMap;

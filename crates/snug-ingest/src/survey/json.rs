@@ -3,8 +3,9 @@
 use super::{FEWEST_SAMPLES, MOST_ELEMENTS, Survey};
 use crate::declared::json::syntax;
 use crate::declared::{Part, Segment, joined};
+use crate::error::IngestError;
+use crate::layout;
 use crate::memory::Budget;
-use crate::{IngestError, layout};
 use serde_json::Value;
 use snug_files::Input;
 

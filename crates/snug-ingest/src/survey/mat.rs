@@ -1,9 +1,10 @@
 //! Columns of a MAT file's variables.
 
 use super::{FEWEST_SAMPLES, MOST_ELEMENTS, Survey, is_thesis};
-use crate::IngestError;
 use crate::declared::{Part, Segment, joined};
-use crate::mat::{self, Content, Value};
+use crate::error::IngestError;
+use crate::mat;
+use crate::mat::{Content, Value};
 use crate::memory::Budget;
 use snug_files::Input;
 

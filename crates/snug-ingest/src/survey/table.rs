@@ -2,8 +2,9 @@
 
 use super::{FEWEST_SAMPLES, MOST_COLUMNS, Survey, SurveyedColumn, SurveyedPlace, name_and_unit};
 use crate::csv::{Column, CsvLayout, Rows};
+use crate::error::IngestError;
+use crate::layout;
 use crate::memory::Budget;
-use crate::{IngestError, layout};
 use snug_files::Input;
 
 /// Share of the rows in which a column has a number, at least.

@@ -1,6 +1,6 @@
 //! The thesis' table of events to segments; one damaged row costs its own tightening where the others leave its place.
 
-use crate::finding_log::{About, FindingLog};
+use crate::file::finding_log::{About, FindingLog};
 use crate::mat::{Content, Value};
 use snug_campaign::Segment;
 use snug_campaign::excerpt;

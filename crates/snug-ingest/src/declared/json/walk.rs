@@ -1,8 +1,8 @@
 //! One walk through a JSON text that keeps the numbers at the wanted places and passes over all else.
 
-use crate::IngestError;
 use crate::declared::path::joined;
 use crate::declared::{Block, Order, Segment, Wanted};
+use crate::error::IngestError;
 use crate::memory::Budget;
 use serde::de::{DeserializeSeed, Deserializer, Error, IgnoredAny, MapAccess, SeqAccess, Visitor};
 use std::borrow::Cow;

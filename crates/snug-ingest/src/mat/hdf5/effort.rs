@@ -1,6 +1,6 @@
 //! What a file may make its reader do.
 
-use crate::IngestError;
+use crate::error::IngestError;
 use crate::memory::Budget;
 use hdf5_pure::{Chunk, Dataset, Layout};
 use snug_campaign::excerpt;

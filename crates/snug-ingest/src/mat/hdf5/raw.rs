@@ -1,7 +1,7 @@
 //! The elements of an HDF5 dataset by their HDF5 type, before MATLAB's class says what they mean.
 
 use super::{Numbers, failed};
-use crate::IngestError;
+use crate::error::IngestError;
 use crate::mat::cursor::ByteOrder;
 use crate::mat::numbers::NumberKind;
 use hdf5_pure::{AttrValue, Dataset, Datatype, DatatypeByteOrder, FixedPointLayout, ReferenceType};

@@ -1,6 +1,6 @@
 //! The content of a file, as the HDF5 library asks for it.
 
-use crate::IngestError;
+use crate::error::IngestError;
 use hdf5_pure::{FormatError, Source};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};

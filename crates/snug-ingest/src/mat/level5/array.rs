@@ -5,7 +5,7 @@ use super::field_names::field_names;
 use super::header::{Header, class, dimensions, flag, flags};
 use super::numeric::{number_kind, numeric, sparse};
 use super::text;
-use crate::IngestError;
+use crate::error::IngestError;
 use crate::mat::cursor::{Cursor, check_room};
 use crate::mat::{Content, Field, MAXIMUM_DEPTH, Unsupported, Value, Variable};
 use crate::memory::ALLOCATION_BYTES;

@@ -1,6 +1,6 @@
 //! The tagged element of level 5: type, size and data, checked against the bytes that are there.
 
-use crate::IngestError;
+use crate::error::IngestError;
 use crate::mat::cursor::{ByteOrder, Cursor, until_zero};
 use crate::mat::numbers::{NumberKind, Numbers};
 use crate::mat::stream::Stream;

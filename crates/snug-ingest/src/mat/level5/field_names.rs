@@ -1,7 +1,7 @@
 //! The names of a struct's fields.
 
 use super::element::Element;
-use crate::IngestError;
+use crate::error::IngestError;
 use crate::mat::cursor::{Cursor, until_zero};
 use crate::memory::ALLOCATION_BYTES;
 use std::collections::{HashMap, HashSet};

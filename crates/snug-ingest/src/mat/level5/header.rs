@@ -1,7 +1,7 @@
 //! What stands at the start of every array: flags with its class, shape and name.
 
 use super::element::{Element, ElementType};
-use crate::IngestError;
+use crate::error::IngestError;
 use crate::mat::cursor::Cursor;
 use crate::mat::numbers::NumberKind;
 use crate::memory::ALLOCATION_BYTES;

@@ -1,7 +1,7 @@
 //! Compressed elements, inflated as far as one asks.
 
 use super::element::{ElementType, TAG_BYTES};
-use crate::IngestError;
+use crate::error::IngestError;
 use crate::mat::cursor::{ByteOrder, check_room};
 use crate::mat::stream::Stream;
 use crate::memory::Budget;

@@ -2,7 +2,7 @@
 
 use super::element::Element;
 use super::header::{Header, class, flag};
-use crate::IngestError;
+use crate::error::IngestError;
 use crate::mat::cursor::Cursor;
 use crate::mat::numbers::{NumberKind, Numbers};
 use crate::mat::{Content, Sparse};

@@ -1,7 +1,7 @@
 //! Character arrays: which of the format's number types hold text, and in which encoding.
 
 use super::element::{Element, ElementType};
-use crate::IngestError;
+use crate::error::IngestError;
 use crate::mat::cursor::Cursor;
 use crate::mat::numbers::{NumberKind, Numbers};
 

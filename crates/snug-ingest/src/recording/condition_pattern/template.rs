@@ -1,6 +1,6 @@
 //! Splits a label at a template's fields, backtracking, because words may hold the text that separates them.
 
-use crate::IngestError;
+use crate::error::IngestError;
 use serde::{Deserialize, Serialize};
 
 /// A named place in a label.

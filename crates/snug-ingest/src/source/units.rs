@@ -1,6 +1,7 @@
 //! Which units a source's declared channels are shown in; conversion to SI is `signal.rs`.
 
-use crate::{Source, Unit};
+use crate::signal::Unit;
+use crate::source::Source;
 use snug_campaign::SignalUnits;
 
 impl Source {
@@ -41,7 +42,8 @@ fn symbol(unit: Unit) -> Option<&'static str> {
 mod tests {
     use super::*;
     use crate::csv::{Column, CsvChannel, CsvLayout};
-    use crate::{Format, Signal};
+    use crate::signal::Signal;
+    use crate::source::Format;
 
     fn units(channels: &[(Signal, Unit)]) -> (String, String, f64) {
         let channel = |&(signal, unit): &(Signal, Unit)| CsvChannel {

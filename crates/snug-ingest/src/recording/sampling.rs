@@ -1,7 +1,7 @@
 //! Measured times to a uniform grid.
 
-use crate::IngestError;
-use crate::finding_log::{About, FindingLog};
+use crate::error::IngestError;
+use crate::file::finding_log::{About, FindingLog};
 use crate::memory::Budget;
 use snug_campaign::TimeBase;
 

@@ -1,6 +1,6 @@
 //! What is found out about one file.
 
-use crate::file_name::name_and_stem;
+use crate::file::name::name_and_stem;
 use snug_campaign::{Finding, Severity};
 use std::collections::BTreeMap;
 use std::path::Path;

@@ -4,7 +4,7 @@ mod template;
 
 pub use template::Template;
 
-use crate::finding_log::{About, FindingLog};
+use crate::file::finding_log::{About, FindingLog};
 use serde::{Deserialize, Serialize};
 use snug_campaign::Conditions;
 use snug_campaign::excerpt;

@@ -1,7 +1,7 @@
 //! Declared stretches of a recording, as for estimation and validation, in place of a table of events.
 
-use crate::IngestError;
-use crate::finding_log::{About, FindingLog};
+use crate::error::IngestError;
+use crate::file::finding_log::{About, FindingLog};
 use serde::{Deserialize, Serialize};
 use snug_campaign::Segment;
 
