@@ -1,10 +1,8 @@
 //! Faults of the data that preparation must find: what each does to pulses, channels and the length of a segment.
 
-use crate::{CampaignPlan, Pulse, SyntheticError};
+use crate::SyntheticError;
+use crate::file_plan::FilePlan;
 use serde::{Deserialize, Serialize};
-
-/// How much later the second hit of a double hit comes \[s\].
-const SECOND_HIT_AFTER_S: f64 = 0.11;
 
 /// Share of the peak at which a saturated torque channel stops.
 const SATURATION_RATIO: f64 = 0.7;
@@ -37,15 +35,6 @@ impl Fault {
             Self::SaturatedTorque => "saturated_torque",
             Self::Gap => "gap",
             Self::SilentRest => "silent_rest",
-        }
-    }
-
-    /// The pulses that a tightening with this fault really has, when `pulse` was meant.
-    pub(crate) fn pulses(self, pulse: Pulse) -> Vec<Pulse> {
-        match self {
-            Self::NoPulse => Vec::new(),
-            Self::DoubleHit => vec![pulse, pulse.repeated(SECOND_HIT_AFTER_S, 0.6)],
-            Self::Truncated | Self::SaturatedTorque | Self::Gap | Self::SilentRest => vec![pulse],
         }
     }
 
@@ -93,11 +82,11 @@ pub struct PlannedFault {
 }
 
 impl PlannedFault {
-    pub(crate) fn check(&self, plan: &CampaignPlan) -> Result<(), SyntheticError> {
+    pub(crate) fn check(&self, files: &[FilePlan]) -> Result<(), SyntheticError> {
         let Self {
             file, tightening, ..
         } = *self;
-        let count = plan.files.get(file).map_or(0, |file| file.tightenings);
+        let count = files.get(file).map_or(0, |file| file.tightenings);
         if tightening >= count {
             return Err(SyntheticError::FaultOutsidePlan { file, tightening });
         }

@@ -1,5 +1,6 @@
 //! The torque of a tightening in closed form, to be had at any instant: rundown, snug point, ramp, shut-off.
 
+use crate::fault::Fault;
 use crate::{FilePlan, Joint, Strategy};
 use rand::Rng;
 use rand_chacha::ChaCha8Rng;
@@ -141,6 +142,20 @@ impl Pulse {
 pub(crate) fn smooth_step(u: f64) -> f64 {
     let u = u.clamp(0.0, 1.0);
     u * u * (3.0 - 2.0 * u)
+}
+
+/// How much later the second hit of a double hit comes \[s\].
+const SECOND_HIT_AFTER_S: f64 = 0.11;
+
+impl Fault {
+    /// The pulses that a tightening with this fault really has, when `pulse` was meant.
+    pub(crate) fn pulses(self, pulse: Pulse) -> Vec<Pulse> {
+        match self {
+            Self::NoPulse => Vec::new(),
+            Self::DoubleHit => vec![pulse, pulse.repeated(SECOND_HIT_AFTER_S, 0.6)],
+            Self::Truncated | Self::SaturatedTorque | Self::Gap | Self::SilentRest => vec![pulse],
+        }
+    }
 }
 
 #[cfg(test)]
