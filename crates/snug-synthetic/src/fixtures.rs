@@ -1,8 +1,17 @@
 //! The embedded campaigns: small, complete, and the same bits wherever they are made again.
 
-use crate::fault::{Fault, PlannedFault};
-use crate::{CampaignPlan, ChannelNames, FilePlan, HiddenEffect, Joint, MatStyle, NoiseKind};
-use crate::{Population, Sensors, Strategy, SyntheticCampaign, SyntheticError, simulate};
+use crate::error::SyntheticError;
+use crate::files::campaign::SyntheticCampaign;
+use crate::files::layout::MatStyle;
+use crate::plan::CampaignPlan;
+use crate::plan::effects::HiddenEffect;
+use crate::plan::fault::{Fault, PlannedFault};
+use crate::plan::file::Strategy;
+use crate::plan::file::{ChannelNames, FilePlan, Joint};
+use crate::plan::population::Population;
+use crate::plan::sensors::Sensors;
+use crate::random::noise::NoiseKind;
+use crate::simulate::simulate;
 use std::path::{Path, PathBuf};
 
 /// Seed of the embedded campaign.

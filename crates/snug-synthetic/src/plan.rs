@@ -1,8 +1,20 @@
 //! The plan of a campaign: conditions of its files, people, sensors, hidden effects, faults; the seed decides the rest.
 
-use crate::fault::PlannedFault;
-use crate::file_plan::{ChannelNames, FilePlan, Joint, Strategy};
-use crate::{HiddenEffect, NoiseKind, Population, Sensors, SyntheticError, Whose};
+pub(crate) mod effects;
+pub(crate) mod fault;
+pub(crate) mod file;
+pub(crate) mod population;
+pub(crate) mod sensors;
+pub(crate) mod whose;
+
+use crate::error::SyntheticError;
+use crate::plan::effects::HiddenEffect;
+use crate::plan::fault::PlannedFault;
+use crate::plan::file::{ChannelNames, FilePlan, Joint, Strategy};
+use crate::plan::population::Population;
+use crate::plan::sensors::Sensors;
+use crate::plan::whose::Whose;
+use crate::random::noise::NoiseKind;
 use serde::{Deserialize, Serialize};
 
 /// Everything that decides a campaign, except the seed.

@@ -1,5 +1,7 @@
 //! Random streams: every draw belongs to a named place, so that one draw more or less elsewhere changes nothing.
 
+pub(crate) mod noise;
+
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 

@@ -1,8 +1,13 @@
 //! From the true motion to what the channels hold.
 
-use crate::fault::Fault;
+use crate::motion::plant::Plant;
+use crate::motion::trajectory::Trajectory;
+use crate::plan::CampaignPlan;
+use crate::plan::effects::HiddenEffect;
+use crate::plan::fault::Fault;
+use crate::plan::sensors::ZeroErrors;
 use crate::random::Stream;
-use crate::{CampaignPlan, HiddenEffect, NoiseKind, Plant, Trajectory, ZeroErrors};
+use crate::random::noise::NoiseKind;
 use rand::Rng;
 use rand_distr::{Distribution, StandardNormal};
 use std::f64::consts::TAU;

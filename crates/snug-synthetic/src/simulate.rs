@@ -1,14 +1,20 @@
 //! From plan to campaign: draws people and pulses, integrates each tightening, measures it, and notes the truth.
 
-use crate::fault::Fault;
-use crate::file::SyntheticFile;
+use crate::error::SyntheticError;
+use crate::files::campaign::SyntheticCampaign;
+use crate::files::file::SyntheticFile;
+use crate::files::truth::{TighteningTruth, Truth};
+use crate::motion::plant::Plant;
+use crate::motion::pulse::Pulse;
+use crate::motion::trajectory::Trajectory;
+use crate::plan::CampaignPlan;
+use crate::plan::effects::{HiddenEffect, Law};
+use crate::plan::fault::Fault;
+use crate::plan::file::{FilePlan, Strategy};
+use crate::plan::population::HandArm;
 use crate::random::Stream;
+use crate::random::noise::NoiseKind;
 use crate::sensing::{Channels, sense};
-use crate::truth::{TighteningTruth, Truth};
-use crate::{
-    CampaignPlan, FilePlan, HandArm, HiddenEffect, Law, NoiseKind, Plant, Pulse, Strategy,
-};
-use crate::{SyntheticCampaign, SyntheticError, Trajectory};
 use std::collections::BTreeMap;
 
 /// Samples of rest before the window that are integrated as well, so that nothing starts by surprise.

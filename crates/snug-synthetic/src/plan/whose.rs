@@ -1,7 +1,7 @@
 //! Whose effect a campaign hides: everyone's alike, larger for some, or of some only.
 
+use crate::plan::file::{FilePlan, Joint, Strategy};
 use crate::random::Stream;
-use crate::{FilePlan, Joint, Strategy};
 use rand_distr::{Distribution, StandardNormal};
 use serde::{Deserialize, Serialize};
 

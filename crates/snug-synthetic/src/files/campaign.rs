@@ -1,6 +1,9 @@
 //! What a simulation gives, and how it is written: the measurement files, and the truth beside their folder, not in it.
 
-use crate::{MatStyle, SyntheticError, SyntheticFile, Truth};
+use crate::error::SyntheticError;
+use crate::files::file::SyntheticFile;
+use crate::files::layout::MatStyle;
+use crate::files::truth::Truth;
 use std::fs;
 use std::path::{Path, PathBuf};
 

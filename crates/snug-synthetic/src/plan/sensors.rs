@@ -1,6 +1,6 @@
 //! Settings of the simulated sensors; what they do to the signals is `sensing.rs`.
 
-use crate::NoiseKind;
+use crate::random::noise::NoiseKind;
 use serde::{Deserialize, Serialize};
 
 /// From when on a constant sensor error (acceleration bias, torque offset) is there.

@@ -1,7 +1,8 @@
 //! One simulated measurement file: segments back to back, under a clock of events that counts the pauses between them.
 
+use crate::plan::CampaignPlan;
+use crate::plan::file::FilePlan;
 use crate::sensing::Channels;
-use crate::{CampaignPlan, FilePlan};
 use snug_campaign::{Conditions, Motion, Recording, Segment, TimeBase};
 
 /// Start of the first segment in the events' clock \[s\].

@@ -1,6 +1,6 @@
 //! Hand–arms to draw from: people differ, one person's tightenings differ less, conditions may shift both.
 
-use crate::SyntheticError;
+use crate::error::SyntheticError;
 use crate::random::Stream;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};

@@ -1,7 +1,8 @@
 //! The thesis' file layout: which variables a file holds and how they are called.
 
-use crate::mat5::{MatValue, mat5};
-use crate::{ChannelNames, SyntheticFile};
+use crate::files::file::SyntheticFile;
+use crate::files::mat5::{MatValue, mat5};
+use crate::plan::file::ChannelNames;
 use serde::{Deserialize, Serialize};
 use std::io;
 

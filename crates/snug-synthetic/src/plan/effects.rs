@@ -3,7 +3,7 @@
 //! What each effect does stands in its description: the tool's and the hand's laws are put to work in `plant.rs`, those of
 //! the sensors in `sensing.rs`.
 
-use crate::SyntheticError;
+use crate::error::SyntheticError;
 use rand::Rng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};

@@ -1,7 +1,7 @@
 //! The torque of a tightening in closed form, to be had at any instant: rundown, snug point, ramp, shut-off.
 
-use crate::fault::Fault;
-use crate::{FilePlan, Joint, Strategy};
+use crate::plan::fault::Fault;
+use crate::plan::file::{FilePlan, Joint, Strategy};
 use rand::Rng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};

@@ -1,15 +1,17 @@
 //! Tool, hand and arm with the hidden laws, as a system of first-order differential equations for `trajectory.rs`.
 
-use crate::HiddenEffect::{
+use crate::motion::history::History;
+use crate::motion::pulse::Pulse;
+use crate::motion::pulse::smooth_step;
+use crate::plan::effects::HiddenEffect::{
     AccelerationLag, Backlash, BoucWen, CoContraction, CoulombFriction, CubicDamping,
     CubicStiffness, DirectionalDamping, EndStop, ExponentialStiffness, GripSlip, InitialMotion,
     MaxwellBranch, PositionFriction, QuadraticDamping, QuadraticStiffness, QuinticStiffness,
     SecondMass, StretchReflex, StribeckFriction, TorqueDelay, TorqueDependentStiffness, TorqueLag,
     TorqueRipple, VoluntaryPush, X2vDamping, XvDamping,
 };
-use crate::history::History;
-use crate::pulse::smooth_step;
-use crate::{HandArm, HiddenEffect, Law, Pulse};
+use crate::plan::effects::{HiddenEffect, Law};
+use crate::plan::population::HandArm;
 use std::f64::consts::TAU;
 
 /// Number of states of a [`Plant`].

@@ -1,7 +1,7 @@
 //! Faults of the data that preparation must find: what each does to pulses, channels and the length of a segment.
 
-use crate::SyntheticError;
-use crate::file_plan::FilePlan;
+use crate::error::SyntheticError;
+use crate::plan::file::FilePlan;
 use serde::{Deserialize, Serialize};
 
 /// Share of the peak at which a saturated torque channel stops.

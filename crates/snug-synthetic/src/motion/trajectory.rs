@@ -1,9 +1,9 @@
 //! The true motion, integrated in far finer steps than identification takes, so that its errors are not shared.
 
-use crate::HiddenEffect::{AccelerationLag, StretchReflex, TorqueLag};
-use crate::Plant;
-use crate::history::History;
-use crate::plant::{LAGGED_ACCELERATION, LAGGED_TORQUE, Now, OMEGA, STATES, State, THETA};
+use crate::motion::history::History;
+use crate::motion::plant::Plant;
+use crate::motion::plant::{LAGGED_ACCELERATION, LAGGED_TORQUE, Now, OMEGA, STATES, State, THETA};
+use crate::plan::effects::HiddenEffect::{AccelerationLag, StretchReflex, TorqueLag};
 
 /// Integration steps per sample: far finer than what identification simulates with.
 const STEPS_PER_SAMPLE: f64 = 8.0;
