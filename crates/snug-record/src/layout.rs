@@ -264,7 +264,7 @@ fn split(direction: &str, first: Part, second: Part, percent: f64) -> Part {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::schema::{Kind, Message};
+    use crate::encoding::schema::{Kind, Message};
 
     fn leaves(layout: &Value, found: &mut Vec<String>) {
         match layout {
@@ -314,14 +314,14 @@ mod tests {
     #[test]
     fn every_path_leads_to_a_field() {
         let messages = [
-            (topic::SIGNALS, &crate::signals::SIGNALS),
-            (topic::ESTIMATE, &crate::estimate::ESTIMATE),
-            (topic::WINDOW, &crate::window::WINDOW),
-            (topic::TESTS, &crate::statistics::TESTS),
-            (topic::CONDITIONS, &crate::statistics::CONDITIONS),
-            (topic::LOG, &crate::finding::LOG),
-            (topic::LADDER, &crate::diagnosis::LADDER),
-            (topic::RANKING, &crate::diagnosis::RANKING),
+            (topic::SIGNALS, &crate::messages::signals::SIGNALS),
+            (topic::ESTIMATE, &crate::messages::estimate::ESTIMATE),
+            (topic::WINDOW, &crate::messages::window::WINDOW),
+            (topic::TESTS, &crate::messages::statistics::TESTS),
+            (topic::CONDITIONS, &crate::messages::statistics::CONDITIONS),
+            (topic::LOG, &crate::messages::finding::LOG),
+            (topic::LADDER, &crate::messages::diagnosis::LADDER),
+            (topic::RANKING, &crate::messages::diagnosis::RANKING),
         ];
         let layout: Value =
             serde_json::from_str(&layout(&["mass_kg"])).expect("the layout is JSON");

@@ -1,11 +1,17 @@
 //! The recorder: every kind of result as messages on its topic, one after another.
 
-use crate::schema::Message;
-use crate::shape::{Shape, tidy};
-use crate::signals::{self, Columns};
-use crate::until_failure::{self, LastingWriter, UntilFailure};
-use crate::{Compression, RecordError, RecordSettings, Window, topic};
-use crate::{diagnosis, estimate, finding, measurement, statistics, window};
+pub(crate) mod until_failure;
+
+use crate::encoding::schema::Message;
+use crate::encoding::shape::{Shape, tidy};
+use crate::error::RecordError;
+use crate::messages::signals;
+use crate::messages::signals::Columns;
+use crate::messages::window::Window;
+use crate::messages::{diagnosis, estimate, finding, measurement, statistics, window};
+use crate::recorder::until_failure::{LastingWriter, UntilFailure};
+use crate::settings::{Compression, RecordSettings};
+use crate::topic;
 use mcap::Attachment;
 use mcap::records::{MessageHeader, Metadata};
 use mcap::write::NoSeek;

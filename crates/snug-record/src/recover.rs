@@ -7,7 +7,7 @@ mod rewriter;
 
 pub use recovery::{LeftOut, Recovery};
 
-use crate::RecordError;
+use crate::error::RecordError;
 use crate::read::budget::{Budget, Limits};
 use crate::read::chunk::Place;
 use crate::read::fault::Stop;

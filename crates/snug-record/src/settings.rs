@@ -1,6 +1,6 @@
 //! The recording's part of a study file: which samples are kept, compression, and sizes that bound file and memory.
 
-use crate::RecordError;
+use crate::error::RecordError;
 use serde::{Deserialize, Serialize};
 
 /// How a recording is written.

@@ -7,7 +7,8 @@ mod messages;
 mod recovery;
 mod round_trip;
 
-use crate::{RecordSettings, Recorder};
+use crate::recorder::Recorder;
+use crate::settings::RecordSettings;
 use snug_campaign::*;
 
 const INTERVAL_S: f64 = 1e-4;

@@ -3,7 +3,7 @@
 use super::budget::{Budget, Exhausted, Limits};
 use super::fault::{Fault, Stop};
 use super::unpack::{Unpacker, Unpacking};
-use crate::wire::{take_fixed32, take_fixed64, take_framed};
+use crate::encoding::wire::{take_fixed32, take_fixed64, take_framed};
 
 /// Least that is unpacked at once \[bytes\].
 pub(super) const PIECE_BYTES: usize = 128 << 10;

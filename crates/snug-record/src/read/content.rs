@@ -1,7 +1,7 @@
 //! The content of the records that are used. Every length is held against the bytes that are there.
 
 use super::fault::Fault;
-use crate::wire::{take, take_fixed16, take_fixed32, take_fixed64, take_framed};
+use crate::encoding::wire::{take, take_fixed16, take_fixed32, take_fixed64, take_framed};
 use std::collections::BTreeMap;
 
 /// A name and the bytes that describe the messages of a channel.

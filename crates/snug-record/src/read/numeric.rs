@@ -4,7 +4,7 @@ use super::DEFAULT_LIMIT_BYTES;
 use super::channel::NumericChannels;
 use super::collector::Collector;
 use super::stream::{Item, scan};
-use crate::RecordError;
+use crate::error::RecordError;
 use std::ops::ControlFlow;
 
 /// Reads every numeric field of every message: JSON, protobuf, ROS 2 (`cdr` with `ros2msg`) and ROS 1.

@@ -3,10 +3,14 @@
 use super::DEFAULT_LIMIT_BYTES;
 use super::budget::{Budget, Exhausted};
 use super::stream::{Completeness, Item, scan};
-use crate::measurement::{self, Assembly, CHANNELS, FileHeader};
-use crate::signals::{self, MeasuredSample};
-use crate::topic::{self, Measured};
-use crate::{RecordError, Window};
+use crate::error::RecordError;
+use crate::messages::measurement;
+use crate::messages::measurement::{Assembly, CHANNELS, FileHeader};
+use crate::messages::signals;
+use crate::messages::signals::MeasuredSample;
+use crate::messages::window::Window;
+use crate::topic;
+use crate::topic::Measured;
 use snug_campaign::{Recording, TimeBase};
 use std::collections::{HashMap, HashSet};
 use std::ops::ControlFlow;

@@ -6,7 +6,7 @@
 use super::budget::{Budget, Limits};
 use super::chunk::{Chunk, PIECE_BYTES, Pieces, Place};
 use super::fault::{Fault, Stop};
-use crate::wire::{take, take_fixed64};
+use crate::encoding::wire::{take, take_fixed64};
 use mcap::records::op;
 
 /// Operation code and length.

@@ -4,7 +4,7 @@ use super::budget::Budget;
 use super::decoded::{
     ARRAY_TOO_LONG, Decoded, LONGEST_ARRAY, LONGEST_NAME_BYTES, MOST_DECLARED, WORK_SPENT, work,
 };
-use crate::wire::take;
+use crate::encoding::wire::take;
 use std::collections::HashMap;
 use std::fmt::Write as _;
 

@@ -4,7 +4,7 @@ use super::budget::{Budget, Limits};
 use super::content;
 use super::fault::{Fault, Stop};
 use super::records::{Found, walk};
-use crate::RecordError;
+use crate::error::RecordError;
 use std::collections::HashMap;
 use std::ops::ControlFlow;
 use std::rc::Rc;

@@ -5,7 +5,7 @@ mod forge;
 mod hostile;
 
 use super::*;
-use crate::RecordError;
+use crate::error::RecordError;
 use proptest::prelude::*;
 
 /// Written by the reference implementations; its content is listed in the folder's README.

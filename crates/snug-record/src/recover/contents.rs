@@ -1,9 +1,11 @@
 //! Which tightenings and measurement files are whole, as the messages pass by.
 
 use super::Recovery;
-use crate::measurement::{self, FileHeader};
+use crate::messages::measurement;
+use crate::messages::measurement::FileHeader;
+use crate::messages::signals;
+use crate::messages::window::Window;
 use crate::topic::Measured;
-use crate::{Window, signals};
 use snug_campaign::TighteningId;
 use std::collections::HashMap;
 

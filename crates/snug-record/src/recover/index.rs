@@ -1,8 +1,8 @@
 //! Whether a file's own index is there and right.
 
 use super::Recovery;
+use crate::encoding::wire::{take, take_fixed16, take_fixed32, take_fixed64};
 use crate::read::chunk::Place;
-use crate::wire::{take, take_fixed16, take_fixed32, take_fixed64};
 use mcap::records::op;
 
 /// Footer with its frame, and magic number.

@@ -2,13 +2,14 @@
 
 use super::contents::Contents;
 use super::{Recovery, index};
-use crate::RecordError;
+use crate::error::RecordError;
 use crate::read::budget::{Budget, Exhausted};
 use crate::read::content::{Attachment, Channel, Header, Message, Metadata, Schema};
 use crate::read::fault::Fault;
 use crate::read::records::framed;
+use crate::recorder::until_failure;
+use crate::recorder::until_failure::{LastingWriter, UntilFailure};
 use crate::topic;
-use crate::until_failure::{self, LastingWriter, UntilFailure};
 use mcap::McapError;
 use mcap::records::{MessageHeader, op};
 use mcap::write::NoSeek;

@@ -1,7 +1,8 @@
 //! A diagnosis as its topics hold it: every field in its schema, and the ladder readable as numbers.
 
 use super::small_chunks;
-use crate::{Recorder, read, topic};
+use crate::recorder::Recorder;
+use crate::{read, topic};
 use serde_json::Value;
 use snug_campaign::words::headline::{Headline, Left};
 use snug_campaign::words::reason::Reason;

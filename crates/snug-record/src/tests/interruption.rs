@@ -1,8 +1,10 @@
 //! What a cut, a kill and a failed write leave behind.
 
 use super::{bits, record, small_chunks, tightenings};
+use crate::error::RecordError;
 use crate::read::{Completeness, recordings};
-use crate::{Compression, RecordError, RecordSettings, Recorder};
+use crate::recorder::Recorder;
+use crate::settings::{Compression, RecordSettings};
 use std::cell::RefCell;
 use std::io::Write;
 use std::rc::Rc;

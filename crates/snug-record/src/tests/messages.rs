@@ -1,7 +1,9 @@
 //! Every JSON message against the schema that stands beside it, as viewers read it.
 
 use super::tightenings;
-use crate::{RecordSettings, Recorder, topic};
+use crate::recorder::Recorder;
+use crate::settings::RecordSettings;
+use crate::topic;
 use serde_json::Value;
 use snug_campaign::*;
 use std::collections::HashMap;

@@ -1,10 +1,11 @@
 //! What comes out of recordings that were cut, as other readers see it.
 
 use super::{record, small_chunks, tightenings};
+use crate::error::RecordError;
 use crate::read::{Completeness, recordings};
-use crate::{
-    Compression, RecordError, RecordSettings, Recorder, Recovery, recover, recover_within,
-};
+use crate::recorder::Recorder;
+use crate::recover::{Recovery, recover, recover_within};
+use crate::settings::{Compression, RecordSettings};
 use mcap::records::{MessageHeader, Metadata};
 use mcap::{Attachment, MessageStream, Summary, WriteOptions, Writer};
 use std::borrow::Cow;

@@ -2,7 +2,9 @@
 
 use super::{INTERVAL_S, bits, noise, record, small_chunks, tightenings};
 use crate::read::{Completeness, Extent, numeric_channels, recordings};
-use crate::{Compression, RecordSettings, Recorder, Samples, topic};
+use crate::recorder::Recorder;
+use crate::settings::{Compression, RecordSettings, Samples};
+use crate::topic;
 use snug_campaign::*;
 
 #[test]

@@ -152,23 +152,23 @@ fn a_long_schema_of_many_channels_is_held_once() {
 fn schemas_that_ask_for_much_work_end() {
     let name = vec![b'n'; 1000];
     let mut field = Vec::new();
-    crate::wire::put_bytes(&mut field, 1, &name);
+    crate::encoding::wire::put_bytes(&mut field, 1, &name);
     let mut message_type = Vec::new();
-    crate::wire::put_bytes(&mut message_type, 1, b"A");
+    crate::encoding::wire::put_bytes(&mut message_type, 1, b"A");
     for number in 0..20_000 {
         let mut field = field.clone();
-        crate::wire::put_unsigned(&mut field, 3, number + 2);
-        crate::wire::put_unsigned(&mut field, 5, 1);
-        crate::wire::put_bytes(&mut message_type, 2, &field);
+        crate::encoding::wire::put_unsigned(&mut field, 3, number + 2);
+        crate::encoding::wire::put_unsigned(&mut field, 5, 1);
+        crate::encoding::wire::put_bytes(&mut message_type, 2, &field);
     }
     let mut inner = Vec::new();
-    crate::wire::put_unsigned(&mut inner, 3, 1);
-    crate::wire::put_unsigned(&mut inner, 5, 11);
-    crate::wire::put_bytes(&mut inner, 6, b"A");
-    crate::wire::put_bytes(&mut message_type, 2, &inner);
+    crate::encoding::wire::put_unsigned(&mut inner, 3, 1);
+    crate::encoding::wire::put_unsigned(&mut inner, 5, 11);
+    crate::encoding::wire::put_bytes(&mut inner, 6, b"A");
+    crate::encoding::wire::put_bytes(&mut message_type, 2, &inner);
     let (mut set, mut proto) = (Vec::new(), Vec::new());
-    crate::wire::put_bytes(&mut proto, 4, &message_type);
-    crate::wire::put_bytes(&mut set, 1, &proto);
+    crate::encoding::wire::put_bytes(&mut proto, 4, &message_type);
+    crate::encoding::wire::put_bytes(&mut set, 1, &proto);
     let mut budget = budget::Budget::new(1 << 22);
     let nested = [0x0a, 0].repeat(100_000);
     let decoder = protobuf::Decoder::new(&set, "A").unwrap();

@@ -1,10 +1,10 @@
 //! `/measurement/file` and `/measurement/samples`: whole measurement files, so that a recording can be evaluated anew
 //! with its quiet parts and without the original files.
 
-use crate::schema::{Field, Message, count, flag, group, list, number, text};
-use crate::signals::MeasuredSample;
-use crate::window::{CONDITIONS, TIME_BASE, Window};
-use crate::wire::{Fields, doubles, put_bytes, put_doubles, put_unsigned};
+use crate::encoding::schema::{Field, Message, count, flag, group, list, number, text};
+use crate::encoding::wire::{Fields, doubles, put_bytes, put_doubles, put_unsigned};
+use crate::messages::signals::MeasuredSample;
+use crate::messages::window::{CONDITIONS, TIME_BASE, Window};
 use serde::{Deserialize, Serialize};
 use snug_campaign::{Conditions, Motion, Quantity, Recording, Segment, TimeBase};
 

@@ -3,9 +3,9 @@
 //! Measurements are doubles and come back bit for bit; what the model adds is in single precision (relative rounding
 //! 6·10⁻⁸), which halves the file. A channel that a tightening does not have is NaN, which plots leave empty.
 
-use crate::RecordError;
-use crate::schema::{Field, Message, count, group, number, single};
-use crate::wire::{Fields, put_bytes, put_double, put_single, put_unsigned};
+use crate::encoding::schema::{Field, Message, count, group, number, single};
+use crate::encoding::wire::{Fields, put_bytes, put_double, put_single, put_unsigned};
+use crate::error::RecordError;
 use snug_campaign::{Motion, Quantity, Traces};
 
 const MEASURED: &[Field] = &[
@@ -196,7 +196,7 @@ impl<'a> Columns<'a> {
 /// What was measured at one sample.
 pub(crate) struct MeasuredSample {
     pub(crate) tightening: u64,
-    /// In the order of [`crate::measurement::CHANNELS`].
+    /// In the order of [`crate::messages::measurement::CHANNELS`].
     pub(crate) channels: [f64; 5],
 }
 

@@ -1,6 +1,8 @@
 //! `/tightening/window`: what a tightening's samples alone do not say, so that it can be evaluated anew.
 
-use crate::schema::{Field, Message, count, flag, group, list, number, pure_number, text};
+use crate::encoding::schema::{
+    Field, Message, count, flag, group, list, number, pure_number, text,
+};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Deserializer, Serialize};
 use snug_campaign::{Conditions, Correction, NoiseFloor, Rig, TimeBase};

@@ -1,6 +1,6 @@
 //! `/finding` with every field, and `/log` for the viewers' log panel.
 
-use crate::schema::{Field, Message, count, group, text};
+use crate::encoding::schema::{Field, Message, count, group, text};
 use serde_json::{Value, json};
 use snug_campaign::{Finding, Severity};
 

@@ -1,6 +1,8 @@
 //! `/statistics/conditions` and `/statistics/tests`: one message each, with one row per condition or test.
 
-use crate::schema::{Field, Message, count, flag, group, list, number, pure_number, text};
+use crate::encoding::schema::{
+    Field, Message, count, flag, group, list, number, pure_number, text,
+};
 
 const INTERVAL: &[Field] = &[
     number("low", "the quantity's", "Lower end"),

@@ -1,6 +1,8 @@
 //! `/estimate`: what was identified on one tightening, at the time its samples begin.
 
-use crate::schema::{Field, Message, count, flag, group, list, number, pure_number, text};
+use crate::encoding::schema::{
+    Field, Message, count, flag, group, list, number, pure_number, text,
+};
 use serde_json::{Value, json};
 use snug_campaign::{ParameterEstimate, TighteningResult};
 

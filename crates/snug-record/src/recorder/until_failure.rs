@@ -1,6 +1,6 @@
 //! A writer that takes nothing more once a call has failed, and how MCAP is written through it.
 
-use crate::RecordError;
+use crate::error::RecordError;
 use mcap::write::NoSeek;
 use mcap::{McapError, WriteOptions, Writer};
 use std::io::{Error, ErrorKind, Result, Write};

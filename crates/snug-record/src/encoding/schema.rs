@@ -1,6 +1,6 @@
 //! One table per message: from it come the JSON Schema, the protobuf descriptor and the field numbers.
 
-use crate::wire::{put_bytes, put_unsigned};
+use crate::encoding::wire::{put_bytes, put_unsigned};
 use serde_json::{Map, Value, json};
 use snug_campaign::words::capitalised;
 

@@ -1,6 +1,8 @@
 //! `/verdict`, `/ladder` and `/ranking`: what is missing in the model, and how the error fell.
 
-use crate::schema::{Field, Message, count, flag, group, list, number, pure_number, text};
+use crate::encoding::schema::{
+    Field, Message, count, flag, group, list, number, pure_number, text,
+};
 use serde::Serialize;
 use snug_campaign::words::effect_name::rung_names;
 use snug_campaign::words::remark::Remark;
