@@ -1,5 +1,8 @@
 //! Curves over time, panel by panel: what the page's script draws, and a still picture where no script runs.
 
+pub(crate) mod decimation;
+pub(crate) mod traces_json;
+
 use crate::figure::{Axis, Bar, Figure, Mark, captioned, legend, linear_range};
 use maud::{Markup, html};
 use serde_json::{Value, json};

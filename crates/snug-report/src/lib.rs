@@ -1,33 +1,21 @@
 #![doc = include_str!("../README.md")]
 
 mod curves;
-mod decimation;
-mod effect_words;
 mod figure;
-mod findings_json;
-mod group_strip;
 mod grouping;
-mod json;
-mod machine_words;
-mod number;
-mod outcome;
 mod page;
-mod quantity;
 mod quartiles;
 mod section;
-mod signal_unit;
-mod statistics_json;
-mod tightenings_csv;
-mod traces_json;
-mod verdict_json;
+mod tables;
 pub mod viewer;
+mod words;
 
-pub use findings_json::findings_json;
-pub use machine_words::markup;
 pub use page::html;
-pub use statistics_json::statistics_json;
-pub use tightenings_csv::tightenings_csv;
-pub use verdict_json::verdict_json;
+pub use tables::findings_json::findings_json;
+pub use tables::statistics_json::statistics_json;
+pub use tables::tightenings_csv::tightenings_csv;
+pub use tables::verdict_json::verdict_json;
+pub use words::machine_words::markup;
 
 use snug_campaign::CampaignResult;
 

@@ -1,8 +1,8 @@
 //! `report.html`: the page around the sections.
 
-use crate::machine_words;
 use crate::section::{Rendered, rendered};
 use crate::viewer::{SCRIPT, document};
+use crate::words::machine_words;
 use maud::{Markup, PreEscaped, html as markup};
 use snug_campaign::CampaignResult;
 use snug_campaign::words::vocabulary::Vocabulary;

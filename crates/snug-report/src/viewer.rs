@@ -1,10 +1,11 @@
 //! The pages' viewer of curves, for pages other than the report: its style, its script, and the data that both draw.
 
-use crate::curves::{self, DIGITS, Series, Values, embedded, steps, time_unit};
-use crate::decimation;
-use crate::number::drawn;
+use crate::curves;
+use crate::curves::decimation;
+use crate::curves::{DIGITS, Series, Values, embedded, steps, time_unit};
 use crate::section::location::{correlation, force};
-use crate::signal_unit::motion_axis;
+use crate::words::number::drawn;
+use crate::words::signal_unit::motion_axis;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use serde_json::{Value, json};
 use snug_campaign::words::vocabulary::Vocabulary;
@@ -144,7 +145,7 @@ impl Compared<'_> {
             (self.signature)
                 .map(|signature| line(signature.label, signature.class, shown(signature.output))),
         );
-        let name = crate::quantity::capitalised(self.quantity.name());
+        let name = crate::words::quantity::capitalised(self.quantity.name());
         vec![
             Panel {
                 title: format!("{name}: model and measurement"),

@@ -1,6 +1,6 @@
 //! Axes of a figure: scales with ticks at round numbers, drawn also where values are equal, missing or not finite.
 
-use crate::number::{fixed, short, superscript};
+use crate::words::number::{fixed, short, superscript};
 
 /// A mark on an axis with its text.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,6 +1,7 @@
 //! Still pictures in SVG: axes with round ticks and units, and a few kinds of marks. Colours come from the page's style.
 
 mod axis;
+pub(crate) mod group_strip;
 mod mark;
 
 pub use axis::{Axis, linear_range, round_step};

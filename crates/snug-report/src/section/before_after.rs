@@ -2,9 +2,9 @@
 
 use super::tightening_figures::noise_band;
 use super::{Render, Section};
+use crate::curves::traces_json::{Example, Panel, before_after_panels, before_and_after};
 use crate::curves::{Curves, STILL_POINTS, embedded};
-use crate::number::significant;
-use crate::traces_json::{Example, Panel, before_after_panels, before_and_after};
+use crate::words::number::significant;
 use maud::{Markup, PreEscaped, html};
 use serde_json::{Value, json};
 use snug_campaign::{CampaignResult, Diagnosis, Quantity, TighteningId};

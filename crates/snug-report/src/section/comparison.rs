@@ -1,8 +1,8 @@
 //! Tables of the misfit in units, in percent and in multiples of the noise, for all tightenings together and for each.
 
 use super::{Render, Section, headings};
-use crate::number::{plain, sortable};
-use crate::quantity;
+use crate::words::number::{plain, sortable};
+use crate::words::quantity;
 use maud::{Markup, html};
 use snug_campaign::words::effect_name::unit_text;
 use snug_campaign::{CampaignResult, Comparison, Diagnosis, Misfit, TighteningMisfit};

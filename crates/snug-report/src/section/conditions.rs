@@ -3,8 +3,8 @@
 use super::{Render, Section, factors, nothing};
 use crate::figure::{Axis, Dot, Figure, Mark, Segment, captioned, legend, linear_range};
 use crate::grouping::first_seen;
-use crate::number::{missing, percent, percent_interval, rounded, share, significant};
-use crate::quantity;
+use crate::words::number::{missing, percent, percent_interval, rounded, share, significant};
+use crate::words::quantity;
 use maud::{Markup, html};
 use snug_campaign::{CampaignResult, ConditionSummary, Moments, QuantitySummary};
 

@@ -3,8 +3,8 @@
 use super::{Render, Section, headings, nothing};
 use crate::figure::{Axis, Dot, Figure, Mark, Segment, captioned, legend, linear_range};
 use crate::grouping::grouped;
-use crate::number::{missing, percent, share, significant};
 use crate::quartiles::Quartiles;
+use crate::words::number::{missing, percent, share, significant};
 use maud::{Markup, html};
 use snug_campaign::words::effect_name::unit_text;
 use snug_campaign::{CampaignResult, Correction, NORMAL_95};
@@ -103,7 +103,7 @@ fn drawing((effect, all): &Corrected, result: &CampaignResult) -> Markup {
         marks,
     };
     captioned(
-        &crate::quantity::capitalised(&name),
+        &crate::words::quantity::capitalised(&name),
         html! {
             (figure.svg())
             (legend(&[("c-selected", "significant"), ("c-quiet", "not significant")]))

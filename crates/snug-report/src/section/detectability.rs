@@ -1,8 +1,8 @@
 //! Limits of a diagnosis: how often it raises a false alarm, and from which size on an absent effect would show.
 
 use super::{Render, Section, headings};
-use crate::effect_words::{parameter_name, sentence};
-use crate::number::{percent, percent_interval, significant};
+use crate::words::effect_words::{parameter_name, sentence};
+use crate::words::number::{percent, percent_interval, significant};
 use maud::{Markup, html};
 use snug_campaign::words::effect_name::{effect_name, unit_text};
 use snug_campaign::words::statement::in_some_groups;

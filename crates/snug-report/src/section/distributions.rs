@@ -2,10 +2,10 @@
 
 use super::{Render, Section, fitted, nothing};
 use crate::figure::{Axis, Bar, Figure, Mark, captioned, legend, round_step};
-use crate::number::significant;
-use crate::quantity;
 use crate::quartiles::Quartiles;
-use crate::tightenings_csv::effect_parameters;
+use crate::tables::tightenings_csv::effect_parameters;
+use crate::words::number::significant;
+use crate::words::quantity;
 use maud::{Markup, html};
 use snug_campaign::words::counted;
 use snug_campaign::{CampaignResult, TighteningResult};

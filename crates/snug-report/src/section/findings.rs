@@ -2,8 +2,8 @@
 
 use super::{Render, Section, findings_of, nothing};
 use crate::grouping::grouped;
-use crate::json;
-use crate::number::missing;
+use crate::tables::json;
+use crate::words::number::missing;
 use maud::{Markup, html};
 use snug_campaign::words::counted;
 use snug_campaign::{CampaignResult, Finding, Severity};

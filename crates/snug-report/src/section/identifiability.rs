@@ -2,11 +2,11 @@
 
 use super::{Render, Section, headings, nothing};
 use crate::grouping::grouped;
-use crate::json;
-use crate::number::{fixed, missing, percent, share, short, significant};
-use crate::outcome::{STATUSES, status_meaning};
-use crate::quantity;
 use crate::quartiles::Quartiles;
+use crate::tables::json;
+use crate::words::number::{fixed, missing, percent, share, short, significant};
+use crate::words::outcome::{STATUSES, status_meaning};
+use crate::words::quantity;
 use maud::{Markup, html};
 use snug_campaign::{CampaignResult, Estimate, Interval, NoiseSource};
 use std::collections::BTreeMap;
@@ -156,7 +156,7 @@ fn effort(estimates: &[&Estimate]) -> String {
             short(spread.median),
             short(spread.maximum)
         ),
-        None => crate::number::DASH.into(),
+        None => crate::words::number::DASH.into(),
     };
     format!(
         "{deficient} of {} estimates lack full rank; condition number of the scaled sensitivities {}; iterations {}; \

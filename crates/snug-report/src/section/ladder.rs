@@ -2,7 +2,7 @@
 
 use super::{Render, Section};
 use crate::figure::{Axis, Bar, Dot, Figure, Mark, captioned, legend};
-use crate::number::{percent, plain, significant};
+use crate::words::number::{percent, plain, significant};
 use maud::{Markup, html};
 use snug_campaign::words::effect_name::{called_in, rung_names, unit_text};
 use snug_campaign::{CampaignResult, Diagnosis, Rung, Verdict};

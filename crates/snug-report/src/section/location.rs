@@ -6,8 +6,8 @@ pub(crate) mod force;
 mod force_map;
 
 use super::{Render, Section};
-use crate::number::{measured, missing, p_value, percent};
-use crate::quantity;
+use crate::words::number::{measured, missing, p_value, percent};
+use crate::words::quantity;
 use maud::{Markup, html};
 use snug_campaign::{CampaignResult, Diagnosis, Drift, Location};
 

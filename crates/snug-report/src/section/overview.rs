@@ -1,10 +1,13 @@
 //! The page's opening: the outcome in one sentence, key numbers, and a warning where data were left out or changed.
 
 use super::{Render, Section, findings_of, fitted};
-use crate::effect_words::sentence;
-use crate::number::{fixed, missing, percent, percent_interval, plain, rounded, share, short};
-use crate::quantity::{self, capitalised};
 use crate::quartiles::Quartiles;
+use crate::words::effect_words::sentence;
+use crate::words::number::{
+    fixed, missing, percent, percent_interval, plain, rounded, share, short,
+};
+use crate::words::quantity;
+use crate::words::quantity::capitalised;
 use maud::{Markup, html};
 use snug_campaign::words::counted;
 use snug_campaign::words::program::program;

@@ -4,8 +4,8 @@ mod assumptions;
 
 use super::{Render, Section, headings, nothing};
 use crate::grouping::{first_seen, grouped};
-use crate::number::{fixed, measured, missing, p_value, plain};
-use crate::quantity;
+use crate::words::number::{fixed, measured, missing, p_value, plain};
+use crate::words::quantity;
 use maud::{Markup, html};
 use snug_campaign::{CampaignResult, EffectSize, TestRow};
 

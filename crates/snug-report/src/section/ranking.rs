@@ -3,9 +3,9 @@
 mod earlier;
 
 use super::{Render, Section};
-use crate::effect_words::{parameter_name, sentence, sizes};
 use crate::figure::{Axis, Bar, Figure, Mark, Segment, captioned, legend};
-use crate::number::{p_value, plain, short, significant};
+use crate::words::effect_words::{parameter_name, sentence, sizes};
+use crate::words::number::{p_value, plain, short, significant};
 use maud::{Markup, html};
 use snug_campaign::words::chance::{by_chance, share_with_error};
 use snug_campaign::words::effect_name::{called, names_in};

@@ -1,8 +1,8 @@
 //! Why tightenings were rejected, under both presets side by side, and on which of them the presets differ.
 
 use super::{Render, Section, nothing};
-use crate::number::{percent, share};
-use crate::outcome::{REJECTIONS, outcome_words, rejection_meaning, rejection_words};
+use crate::words::number::{percent, share};
+use crate::words::outcome::{REJECTIONS, outcome_words, rejection_meaning, rejection_words};
 use maud::{Markup, html};
 use snug_campaign::{CampaignResult, PresetSummary, Rejection, TighteningId};
 use std::collections::{HashMap, HashSet};

@@ -1,11 +1,11 @@
 //! Data for the page's interactive viewer of curves, and a still picture of the first tightening where no script runs.
 
 use super::{Render, Section, nothing};
+use crate::curves::traces_json::{Example, Panel, examples, panels, residual_quantity};
 use crate::curves::{Curves, STILL_POINTS, embedded};
-use crate::number::{between, rounded, short, significant};
-use crate::outcome::outcome_words;
-use crate::quantity;
-use crate::traces_json::{Example, Panel, examples, panels, residual_quantity};
+use crate::words::number::{between, rounded, short, significant};
+use crate::words::outcome::outcome_words;
+use crate::words::quantity;
 use maud::{Markup, PreEscaped, html};
 use serde_json::{Value, json};
 use snug_campaign::{CampaignResult, FitMeasures, NORMAL_95, TighteningResult};

@@ -1,11 +1,11 @@
 //! The table to look single tightenings up in; the page's script sorts and filters it by its `data-` attributes.
 
 use super::{Render, Section, nothing};
-use crate::number::{between, measured, missing, short, sort_key, sortable};
-use crate::outcome::outcome_words;
-use crate::quantity;
-use crate::tightenings_csv::{BASE_PARAMETERS, effect_parameters};
-use crate::traces_json::examples;
+use crate::curves::traces_json::examples;
+use crate::tables::tightenings_csv::{BASE_PARAMETERS, effect_parameters};
+use crate::words::number::{between, measured, missing, short, sort_key, sortable};
+use crate::words::outcome::outcome_words;
+use crate::words::quantity;
 use maud::{Markup, html};
 use snug_campaign::{CampaignResult, TighteningResult};
 use std::collections::HashMap;

@@ -2,7 +2,7 @@
 
 use super::{Render, Section, headings, nothing};
 use crate::figure::{Axis, Bar, Dot, Figure, Mark, captioned, legend, linear_range};
-use crate::number::{short, significant};
+use crate::words::number::{short, significant};
 use maud::{Markup, html};
 use snug_campaign::words::counted;
 use snug_campaign::{CampaignResult, TighteningResult};

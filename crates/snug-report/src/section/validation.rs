@@ -1,7 +1,7 @@
 //! How well the parameters of the others predict what is kept for validation: in a free run, and restarted.
 
 use super::{Render, Section, headings};
-use crate::number::{missing, plain, significant};
+use crate::words::number::{missing, plain, significant};
 use maud::{Markup, html};
 use snug_campaign::{CampaignResult, Prediction, RestartedPrediction, TighteningId, Validation};
 

@@ -1,9 +1,9 @@
 //! The diagnosis in words: what is missing or was added, a term to try, the experiment that decides, why it stopped.
 
 use super::{Render, Section};
-use crate::effect_words::{sentence, sizes};
-use crate::group_strip::group_strips;
-use crate::number::{fixed, percent, significant};
+use crate::figure::group_strip::group_strips;
+use crate::words::effect_words::{sentence, sizes};
+use crate::words::number::{fixed, percent, significant};
 use maud::{Markup, html};
 use snug_campaign::words::chance::{by_chance, share_with_error};
 use snug_campaign::words::effect_name::{called, effect_name, names_in, unit_text};

@@ -1,8 +1,8 @@
 //! The misfit along every way of looking, as small pictures of one kind.
 
 use crate::figure::{Axis, Dot, Figure, Mark, Segment, captioned};
-use crate::number::{measured, missing, percent, short, significant};
 use crate::section::headings;
+use crate::words::number::{measured, missing, percent, short, significant};
 use maud::{Markup, html};
 use snug_campaign::{Aspect, Share};
 

@@ -2,7 +2,7 @@
 
 use crate::figure::{Axis, Bar, Cell, Figure, Mark, captioned, legend};
 use crate::grouping::grouped;
-use crate::number::significant;
+use crate::words::number::significant;
 use maud::{Markup, html};
 use snug_campaign::ForceMap;
 

@@ -2,8 +2,8 @@
 
 use super::{LEVEL, freedom};
 use crate::grouping::first_seen;
-use crate::number::{fixed, missing, p_value, plain};
-use crate::quantity;
+use crate::words::number::{fixed, missing, p_value, plain};
+use crate::words::quantity;
 use maud::{Markup, html};
 use snug_campaign::{AssumptionCheck, CampaignResult, TestRow};
 use std::collections::BTreeSet;

@@ -3,7 +3,7 @@
 
 use super::{ROW, entries, is_chosen, label, parted, scale};
 use crate::figure::{Axis, Bar, Figure, Mark, captioned, legend};
-use crate::number::percent;
+use crate::words::number::percent;
 use maud::{Markup, html};
 use snug_campaign::words::chance::share_with_error;
 use snug_campaign::words::effect_name::rung_names;

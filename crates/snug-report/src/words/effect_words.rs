@@ -1,7 +1,7 @@
 //! Sizes of effects and sentences about them, set in type.
 
-use crate::number::missing;
-use crate::quantity;
+use crate::words::number::missing;
+use crate::words::quantity;
 use maud::{Markup, html};
 use snug_campaign::words::effect_name::raised;
 use snug_campaign::{CampaignResult, EffectParameter};

@@ -1,7 +1,7 @@
 //! Whose effect it is: the size of every group with its interval, one row a group.
 
 use crate::figure::{Axis, Dot, Figure, Mark, Segment, captioned, legend, linear_range};
-use crate::number::significant;
+use crate::words::number::significant;
 use maud::{Markup, html};
 use snug_campaign::words::effect_name::unit_text;
 use snug_campaign::{EffectParameter, GroupSize, GroupSizes};
@@ -64,7 +64,7 @@ fn strip(parameter: &EffectParameter, sizes: &GroupSizes) -> Markup {
     captioned(
         &format!(
             "{} by {}: {}",
-            crate::quantity::capitalised(&name),
+            crate::words::quantity::capitalised(&name),
             sizes.factor,
             who(sizes)
         ),

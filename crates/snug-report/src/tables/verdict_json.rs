@@ -1,6 +1,6 @@
 //! `verdict.json`: what is missing in the model, how large it is, how sure that is, and how the error fell.
 
-use crate::json;
+use crate::tables::json;
 use serde::Serialize;
 use serde_json::Value;
 use snug_campaign::words::vocabulary::Vocabulary;

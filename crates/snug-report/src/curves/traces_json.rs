@@ -1,9 +1,10 @@
 //! The signals of the example tightenings, as the page's script and still pictures draw them.
 
-use crate::curves::{self, DIGITS, Series, Values, steps, time_unit};
-use crate::decimation;
-use crate::number::drawn;
-use crate::signal_unit::motion_axis;
+use crate::curves;
+use crate::curves::decimation;
+use crate::curves::{DIGITS, Series, Values, steps, time_unit};
+use crate::words::number::drawn;
+use crate::words::signal_unit::motion_axis;
 use serde_json::{Value, json};
 use snug_campaign::{CampaignResult, Quantity, SignalUnits, Traces};
 
@@ -80,7 +81,7 @@ pub fn before_after_panels(units: &SignalUnits, quantity: Quantity, has_noise: b
             minus: Some(model),
         },
     };
-    let name = crate::quantity::capitalised(quantity.name());
+    let name = crate::words::quantity::capitalised(quantity.name());
     let motion = panel(
         &format!("{name}: model and measurement"),
         motion_axis(units, quantity),

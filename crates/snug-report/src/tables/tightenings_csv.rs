@@ -1,7 +1,7 @@
 //! `tightenings.csv`: one row per tightening, every digit, SI units.
 
 use crate::grouping::first_seen;
-use crate::json;
+use crate::tables::json;
 use snug_campaign::{CampaignResult, Conditions, Estimate, FitMeasures, TighteningResult};
 
 /// The base model's parameters: their values stand among the leading columns.

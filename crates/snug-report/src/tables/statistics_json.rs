@@ -1,8 +1,8 @@
 //! `statistics.json`: both presets, means and spreads per condition, and tests.
 
-use crate::json;
-use crate::number::share;
-use crate::quantity;
+use crate::tables::json;
+use crate::words::number::share;
+use crate::words::quantity;
 use serde::Serialize;
 use snug_campaign::{
     CampaignResult, ConditionSummary, Interval, Moments, PresetSummary, Rejection, TestRow,

@@ -1,6 +1,6 @@
 //! `findings.json`: what was left out, repaired or is worth knowing.
 
-use crate::json;
+use crate::tables::json;
 use serde::Serialize;
 use snug_campaign::{CampaignResult, Finding, Severity};
 use std::collections::BTreeMap;

@@ -1,6 +1,6 @@
 //! What a column name means: `stiffness_n_per_m` is read as "stiffness k" in N/m.
 
-use crate::signal_unit;
+use crate::words::signal_unit;
 use snug_campaign::words::effect_name::unit_text;
 use snug_campaign::{CampaignResult, ParameterMeaning};
 
