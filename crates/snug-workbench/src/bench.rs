@@ -1,11 +1,14 @@
 //! The workbench behind the pages: what was read, what was fitted, and who works on it.
 
 mod after;
+pub(crate) mod look;
+pub(crate) mod results;
+pub(crate) mod save;
 
 use crate::campaign::Campaign;
+use crate::campaign::focus::Closer;
 use crate::changes::{Changes, EffectSet};
 use crate::error::WorkbenchError;
-use crate::focus::Closer;
 use crate::kept::fits::Fits;
 use crate::kept::looks::Looks;
 use crate::kept::results::Results;

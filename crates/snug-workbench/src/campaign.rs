@@ -1,8 +1,11 @@
 //! What is worked on: tightenings that are read once, the model to begin with, and the catalogue beside it.
 
+pub(crate) mod focus;
+pub(crate) mod groups;
+
+use crate::campaign::groups::{Group, groups};
 use crate::changes::EffectSet;
 use crate::error::WorkbenchError;
-use crate::groups::{Group, groups};
 use snug_campaign::words::effect_name::effect_name;
 use snug_campaign::words::number::significant;
 use snug_campaign::words::vocabulary::Vocabulary;

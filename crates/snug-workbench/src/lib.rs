@@ -1,19 +1,13 @@
+//! A page on this machine where physical effects are switched on and off, and the error falls.
 #![doc = include_str!("../README.md")]
 
 mod bench;
 mod campaign;
 mod changes;
 mod error;
-mod focus;
-mod groups;
-mod guard;
 mod kept;
-mod look;
 mod opening;
 mod page;
-mod results;
-mod routes;
-mod save;
 mod server;
 mod session;
 mod told;

@@ -1,9 +1,12 @@
 //! The server: on this machine alone, until it is told to end.
 
+pub(crate) mod guard;
+pub(crate) mod routes;
+
 use crate::bench::Bench;
 use crate::error::WorkbenchError;
-use crate::guard::Guard;
-use crate::routes::router;
+use crate::server::guard::Guard;
+use crate::server::routes::router;
 use std::io::ErrorKind;
 use std::net::Ipv4Addr;
 use std::sync::Arc;

@@ -1,7 +1,7 @@
 //! One page that somebody works on: its models one after the other, the fit under way, and who listens.
 
+use crate::campaign::focus::Closer;
 use crate::changes::Changes;
-use crate::focus::Closer;
 use serde_json::Value;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};

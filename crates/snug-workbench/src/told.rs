@@ -4,9 +4,9 @@ mod tested;
 mod tightening;
 
 use crate::campaign::Campaign;
+use crate::campaign::focus::Closer;
 use crate::changes::{Changes, EffectSet};
 use crate::error::WorkbenchError;
-use crate::focus::Closer;
 use serde_json::{Value, json};
 use snug_campaign::EffectParameter;
 use snug_campaign::words::number::{percent, significant};

@@ -2,9 +2,9 @@
 
 use super::{Bench, locked};
 use crate::campaign::Campaign;
+use crate::campaign::focus::Closer;
 use crate::changes::EffectSet;
 use crate::error::WorkbenchError;
-use crate::focus::Closer;
 use crate::session::Ticket;
 use crate::told;
 use serde_json::json;

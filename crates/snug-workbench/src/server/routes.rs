@@ -1,12 +1,13 @@
 //! What the server answers to.
 
+use crate::bench::look::Look;
 use crate::bench::{Bench, Reading};
+use crate::bench::{results, save};
+use crate::campaign::focus::Closer;
 use crate::changes::EffectSet;
 use crate::error::WorkbenchError;
-use crate::focus::Closer;
-use crate::look::Look;
+use crate::page;
 use crate::session::Session;
-use crate::{page, results, save};
 use axum::extract::{Json, Path, Query, State};
 use axum::http::{StatusCode, header};
 use axum::response::sse::{Event, KeepAlive, Sse};
@@ -22,7 +23,7 @@ use std::sync::atomic::AtomicBool;
 use tokio_stream::StreamExt;
 use tokio_stream::wrappers::{BroadcastStream, WatchStream};
 
-use crate::guard::{Guard, guarded};
+use crate::server::guard::{Guard, guarded};
 
 /// All of it, behind the guard.
 pub(crate) fn router(bench: Arc<Bench>, guard: Guard) -> Router {
