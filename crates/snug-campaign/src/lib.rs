@@ -1,3 +1,4 @@
+//! The words every Snug crate shares: recordings, tightenings, estimates, findings, results and a diagnosis.
 #![doc = include_str!("../README.md")]
 
 mod campaign;

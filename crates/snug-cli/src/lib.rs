@@ -1,3 +1,4 @@
+//! Snug's command line: the program `snug`, and its verbs for another front program.
 #![doc = include_str!("../README.md")]
 
 mod arguments;

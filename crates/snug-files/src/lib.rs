@@ -1,3 +1,4 @@
+//! The door to the disk: a folder that holds one run's results, whole, whatever happens to run or disk.
 #![doc = include_str!("../README.md")]
 
 mod apart;

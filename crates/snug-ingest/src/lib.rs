@@ -1,3 +1,4 @@
+//! Measurement files to recordings in SI units, and findings about what had to be left out or repaired.
 #![doc = include_str!("../README.md")]
 
 pub mod csv;

@@ -1,3 +1,4 @@
+//! Constrained nonlinear least squares: residuals and cones in, estimate and covariance out; no domain.
 #![doc = include_str!("../README.md")]
 
 mod conic;

@@ -1,3 +1,4 @@
+//! The hand–arm model of a nutrunner and its catalogue of physical effects, simulated with sensitivities.
 #![doc = include_str!("../README.md")]
 
 mod assembly;

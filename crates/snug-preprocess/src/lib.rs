@@ -1,3 +1,4 @@
+//! Recordings in, tightenings out: cut, integrated, windowed, and cleared of what the quiet part shows.
 #![doc = include_str!("../README.md")]
 
 mod error;

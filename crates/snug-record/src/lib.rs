@@ -1,3 +1,4 @@
+//! A campaign as an MCAP recording, numeric channels of any MCAP back, and cut recordings made whole.
 #![doc = include_str!("../README.md")]
 
 mod encoding;

@@ -1,3 +1,4 @@
+//! A campaign as one HTML page, CSV and JSON.
 #![doc = include_str!("../README.md")]
 
 mod curves;

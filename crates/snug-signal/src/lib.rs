@@ -1,3 +1,4 @@
+//! Signals: values between samples, spectra, periodograms, noise level; no domain.
 #![doc = include_str!("../README.md")]
 
 mod finite;

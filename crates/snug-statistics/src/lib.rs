@@ -1,3 +1,4 @@
+//! Tests, intervals and models on slices and groups; no domain.
 #![doc = include_str!("../README.md")]
 
 pub mod assumptions;

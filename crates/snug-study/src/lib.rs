@@ -1,3 +1,4 @@
+//! A Snug study run end to end: from recordings to identified parameters, statistics, report and MCAP.
 #![doc = include_str!("../README.md")]
 
 mod diagnosis;

@@ -1,3 +1,4 @@
+//! Simulated tightening campaigns whose truth is known, which share no equation with the model.
 #![doc = include_str!("../README.md")]
 
 mod error;
