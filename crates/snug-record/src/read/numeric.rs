@@ -20,7 +20,7 @@ pub fn numeric_channels(bytes: &[u8]) -> Result<NumericChannels, RecordError> {
 }
 
 /// [`numeric_channels`] in at most about `limit_bytes` of memory beside `bytes`; what does not fit ends the reading as
-/// [`Completeness::TooLarge`](crate::Completeness::TooLarge). A value takes 16 bytes. The same number bounds the work.
+/// [`Completeness::TooLarge`](crate::read::Completeness::TooLarge). A value takes 16 bytes. The same number bounds the work.
 ///
 /// # Errors
 /// As [`numeric_channels`].
