@@ -1,7 +1,7 @@
 //! The base model as the original program stepped it, for comparison with its results.
 
-use crate::ModelError;
 use crate::base_model::forces::base_values;
+use crate::error::ModelError;
 use crate::input::torque::check_interval;
 use snug_campaign::Rig;
 

@@ -1,7 +1,7 @@
 //! Forces between tool and hand, from parameters and from a measured motion.
 
-use crate::ModelError;
 use crate::assembly::layout::BASE_PARAMETERS;
+use crate::error::ModelError;
 use snug_campaign::{Motion, Rig};
 
 /// F1 = l (c ω + k θ) \[N\]: spring and damper of the base model under the given motion.

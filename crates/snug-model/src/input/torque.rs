@@ -1,6 +1,6 @@
 //! The logged torque as a simulation uses it: between samples, before the first, and a delay ago.
 
-use crate::ModelError;
+use crate::error::ModelError;
 use crate::input::restart::Restarts;
 use crate::input::slope;
 use snug_campaign::Intersample;

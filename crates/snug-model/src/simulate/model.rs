@@ -1,7 +1,7 @@
 //! A model simulated by itself.
 
-use crate::ModelError;
 use crate::assembly::model::Model;
+use crate::error::ModelError;
 use crate::input::torque::Input;
 use crate::simulate::inputs::SimulationInputs;
 use crate::simulate::run::Run;

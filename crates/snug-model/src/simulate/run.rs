@@ -1,7 +1,7 @@
 //! What one simulation is given and where its answer goes.
 
-use crate::ModelError;
 use crate::assembly::model::Model;
+use crate::error::ModelError;
 use crate::input::torque::Input;
 use crate::simulate::inputs::SimulationInputs;
 use snug_campaign::Quantity;

@@ -1,9 +1,9 @@
 //! Runs many simulations at once, each in its own lane of a vector register, with as many derivatives as are asked for.
 
-use crate::ModelError;
 use crate::assembly::layout::{Assembly, BASE_PARAMETERS, MAXIMUM_FREE};
 use crate::assembly::model::Model;
 use crate::base_model::exact;
+use crate::error::ModelError;
 use crate::input::torque::Input;
 use crate::law::Kinematics;
 use crate::numeric::dual::Dual;
