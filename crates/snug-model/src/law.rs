@@ -75,7 +75,7 @@ impl<N: Number> LoggedTorque<N> {
 /// Places, among an effect's parameters, of those of a resonance whose response the output follows in proportion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Resonance {
-    /// Its share in the output \[1/kg\]: of q'' + 2 ζ ω q' + ω² q = T / l, by which the grip's displacement grows.
+    /// Its share in the output \[1/kg\]: the r of q'' + 2 ζ ω q' + ω² q = r T / l, by which the grip's displacement grows.
     pub size: usize,
     /// Its frequency \[Hz\].
     pub frequency: usize,

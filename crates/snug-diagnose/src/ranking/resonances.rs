@@ -226,7 +226,7 @@ mod tests {
     /// A line every 4 Hz: a frequency is known to a fraction of that.
     #[test]
     fn a_further_resonance_is_read_off_with_its_sign() {
-        for sizes in [[-0.2, 40.0, 0.03], [0.1, 90.0, 0.15]] {
+        for sizes in [[-0.2, 40.0, 0.03, 0.0], [0.1, 90.0, 0.15, 0.0]] {
             let best = &found(Effect::SecondMode, &sizes)[0];
             close(best[1], sizes[1], 0.05);
             close(best[0], sizes[0], 0.5);
@@ -235,6 +235,6 @@ mod tests {
 
     #[test]
     fn what_has_no_resonance_has_no_start() {
-        assert!(found(Effect::SecondMass, &[0.1, 40.0, 0.03]).is_empty());
+        assert!(found(Effect::SecondMass, &[0.1, 40.0, 0.03, 0.0]).is_empty());
     }
 }

@@ -147,7 +147,7 @@ fn of_a_mass_on_a_spring_in_acceleration() {
 /// Driven and measured at different places.
 #[test]
 fn of_an_arm_with_two_modes() {
-    let with = (&[SecondMode][..], &[-0.4, 7.0, 0.03][..]);
+    let with = (&[SecondMode][..], &[-0.4, 7.0, 0.03, 0.0][..]);
     let (mck, scale) = ([1.0, 2.0, 300.0], rig(5.7, 0.02, 0.06));
     let quantity = Quantity::Acceleration;
     let case = record(mck, with, scale, quantity, Simulation::FreeRun);
