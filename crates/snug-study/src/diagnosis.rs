@@ -195,7 +195,8 @@ impl Search<'_> {
             ..question.clone()
         };
         let mut held = self.examined(&question)?;
-        match held_input::speaks_for_it(&held.diagnosis, &straight.diagnosis) {
+        let interval_s = cases[0].tightening.time_base.interval_s;
+        match held_input::speaks_for_it(&held.diagnosis, &straight.diagnosis, interval_s) {
             Some(reason) => {
                 held.diagnosis.reasons.push(reason);
                 Ok((held, Some(held_study)))

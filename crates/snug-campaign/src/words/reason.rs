@@ -122,6 +122,8 @@ pub enum Reason {
     Held {
         /// Effects that are not needed then.
         spared: Vec<String>,
+        /// Whether the delay that is found without it is about half a sampling interval.
+        is_half_an_interval: bool,
     },
     /// Tightenings that could not be judged by the common measure.
     LeftOut {
@@ -212,7 +214,10 @@ impl Display for Reason {
                 "Run freely from its first sample on, the study's own model misses {} of the measured motion, so that a free run says little about single effects. Every model is therefore judged by what it predicts over {every_s} s from the measured motion, again and again (`identify.simulation: Restarted(every_s: {every_s})`; `FreeRun` in the study file asks for the whole record at once).",
                 whole_percent(missed.min(9.99))
             ),
-            Self::Held { spared } => held(f, spared),
+            Self::Held {
+                spared,
+                is_half_an_interval,
+            } => held(f, spared, *is_half_an_interval),
             Self::LeftOut {
                 left_out,
                 all,
@@ -319,12 +324,15 @@ fn tightenings_left_out(
     )
 }
 
-fn held(f: &mut Formatter<'_>, spared: &[String]) -> fmt::Result {
+fn held(f: &mut Formatter<'_>, spared: &[String], is_half_an_interval: bool) -> fmt::Result {
     let names: Vec<String> = spared.iter().map(|name| effect_name(name)).collect();
     f.write_str("The input is taken as held from sample to sample, as a controller's is (`model.intersample: ZeroOrder`): ")?;
-    match names.is_empty() {
-        true => f.write_str("the same effects then leave less."),
-        false => write!(
+    match (is_half_an_interval, names.is_empty()) {
+        (true, _) => f.write_str(
+            "the delay that is found without it is about half a sampling interval, which is what a held input looks like.",
+        ),
+        (false, true) => f.write_str("the same effects then leave less."),
+        (false, false) => write!(
             f,
             "a model of fewer effects then leaves as little, without {}.",
             names.join(" and ")

@@ -62,7 +62,8 @@ impl DecimatedRecord {
         )
         .with_onset(input.onset_s() - late_s)
         .with_rest_before(input.rest_before_s() + late_s)
-        .with_zero_at(input.zero_at().map(|sample| sample / factor));
+        .with_zero_at(input.zero_at().map(|sample| sample / factor))
+        .with_torque_before(input.torque_before_nm());
         let means_of = |quantity| Some(means(task.tightening.motion.get(quantity)?, factor));
         let restarted = || {
             let angle_rad = means_of(Quantity::Displacement)?;

@@ -36,7 +36,8 @@ impl FitTask<'_> {
         )
         .with_onset(input.onset_s() - late_s)
         .with_rest_before(input.rest_before_s() + late_s)
-        .with_zero_at(input.zero_at().map(|sample| sample / factor));
+        .with_zero_at(input.zero_at().map(|sample| sample / factor))
+        .with_torque_before(input.torque_before_nm());
         let simulation = match input.samples_between_restarts() {
             None => Simulation::FreeRun,
             Some(apart) => Simulation::Restarted {

@@ -26,6 +26,7 @@ pub struct Input {
     samples: usize,
     held: bool,
     rest_before_s: f64,
+    before_nm: Option<f64>,
     onset_s: f64,
     zero_at: Option<usize>,
     restarts: Restarts,
@@ -54,6 +55,7 @@ impl Input {
             samples: samples.len(),
             held: intersample == Intersample::ZeroOrder,
             rest_before_s: 0.0,
+            before_nm: None,
             onset_s: 0.0,
             zero_at: None,
             restarts: Restarts::default(),
@@ -126,6 +128,17 @@ impl Input {
     /// For how long before the first sample the sensor's signal was already being integrated \[s\].
     pub fn rest_before_s(&self) -> f64 {
         self.rest_before_s
+    }
+
+    /// States the torque \[Nm\] before the first sample; `None`, as without it, where that is the first sample's.
+    pub fn with_torque_before(mut self, before_nm: Option<f64>) -> Self {
+        self.before_nm = before_nm;
+        self
+    }
+
+    /// The torque before the first sample \[Nm\]; `None` where that is the first sample's.
+    pub fn torque_before_nm(&self) -> Option<f64> {
+        self.before_nm
     }
 
     /// States when the pulse begins \[s after the first sample\]; without it, at the first sample.
@@ -220,7 +233,8 @@ impl Input {
         }
     }
 
-    /// The torque as it was `delay_s` before every grid point; the ends are held.
+    /// The torque as it was `delay_s` before every grid point; the ends are held, the first unless
+    /// [`Input::with_torque_before`] says what was there: from that it then rises within the interval before the first sample.
     ///
     /// Between samples it is what a torque without anything above half the sampling rate has there: that keeps the
     /// power of the torque's noise, where a straight line between samples takes half of it away and a shift by half a
@@ -244,16 +258,18 @@ impl Input {
         let earlier = |point: usize| {
             let then = then.moved(point);
             let (rate_nm_per_s, change_nm_per_s2) = then.straight(slopes, self.grid_interval_s);
-            let (torque_nm, slope_nm_per_s) = match self.held {
-                true => then.straight(&self.grid, self.grid_interval_s),
-                false => then_in_fine
+            let risen = then.rising(self.before_nm, &self.grid, self.grid_interval_s);
+            let (torque_nm, slope_nm_per_s) = match (risen, self.held) {
+                (Some(risen), _) => risen,
+                (None, true) => then.straight(&self.grid, self.grid_interval_s),
+                (None, false) => then_in_fine
                     .moved(step * point)
                     .curved(fine, fine_interval_s),
             };
             let is_still = slope_nm_per_s == 0.0;
             Earlier {
                 torque_nm,
-                slope_nm_per_s: match is_straight && !is_still {
+                slope_nm_per_s: match is_straight && !is_still && risen.is_none() {
                     true => rate_nm_per_s,
                     false => slope_nm_per_s,
                 },
@@ -349,6 +365,17 @@ impl Position {
         }
     }
 
+    /// Value and slope before the first point, where the value before it is known; `None` elsewhere.
+    #[inline(always)]
+    fn rising(self, before: Option<f64>, points: &[f64], interval_s: f64) -> Option<(f64, f64)> {
+        let before = before.filter(|_| self.index < 0)?;
+        let rise = points.first()? - before;
+        Some(match self.index {
+            -1 => (before + rise * self.part, rise / interval_s),
+            _ => (before, 0.0),
+        })
+    }
+
     /// The interval it lies in, or the point whose value is held there.
     #[inline(always)]
     fn among(self, points: &[f64]) -> Result<usize, f64> {
@@ -422,6 +449,29 @@ mod tests {
             (there - 1.0).abs() < 0.03 && (shifted / there - 1.0).abs() < 0.02,
             "{there} {shifted}"
         );
+    }
+
+    #[test]
+    fn before_the_first_sample_there_was_what_is_said_or_the_same() {
+        let samples = [4.0, 2.0, 2.0, 2.0];
+        for intersample in [Intersample::Linear, Intersample::ZeroOrder] {
+            let input = Input::new(&samples, 0.1, intersample);
+            let at = |input: &Input, delay_s| -> Vec<[f64; 2]> {
+                let earlier = input.before(delay_s);
+                let pairs = earlier
+                    .iter()
+                    .map(|then| [then.torque_nm, then.slope_nm_per_s]);
+                pairs.take(2).collect()
+            };
+            assert_eq!(at(&input, 0.25), [[4.0, 0.0], [4.0, 0.0]]);
+            let input = input.with_torque_before(Some(1.0));
+            let [first, second] = at(&input, 0.125)[..] else {
+                panic!("there are four samples")
+            };
+            assert_eq!(first, [1.0, 0.0]);
+            let off = (second[0] - 3.25).abs() + (second[1] - 30.0).abs();
+            assert!(off < 1e-9, "{second:?}");
+        }
     }
 
     #[test]

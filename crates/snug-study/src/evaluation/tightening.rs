@@ -9,8 +9,8 @@ use snug_campaign::{
 };
 use snug_identify::{FitTask, IdentifyError, agreement, derived, identify_all};
 use snug_model::{
-    BASE_PARAMETERS, Effect, Input, Model, ModelError, euler_displacement, inverse_dynamics_force,
-    spring_damper_force, thesis_damping_ratio,
+    BASE_PARAMETERS, Effect, Input, Model, ModelError, Scale, euler_displacement,
+    inverse_dynamics_force, spring_damper_force, thesis_damping_ratio,
 };
 use snug_preprocess::{Prepared, Preset, ThesisChecks, target_torque_nm};
 use std::borrow::Cow;
@@ -156,7 +156,8 @@ fn free_input(study: &Study, prepared: &Prepared) -> Input {
     let interval_s = tightening.time_base.interval_s;
     let onset_s = tightening.onset.unwrap_or(0) as f64 * interval_s;
     let input = Input::new(&tightening.torque_nm, interval_s, study.model.intersample())
-        .with_onset(onset_s);
+        .with_onset(onset_s)
+        .with_torque_before(torque_before_nm(study, &tightening.torque_nm));
     match study.preprocess.preset {
         // The original integrates from the segment's start, where its time is 0.
         Preset::Thesis => input
@@ -164,6 +165,15 @@ fn free_input(study: &Study, prepared: &Prepared) -> Input {
             .with_zero_at(prepared.zero_sample),
         Preset::Snug => input,
     }
+}
+
+/// The torque \[Nm\] before the first sample of a machine's recording, which begins at rest where nothing else is said: none, if the
+/// input is 0 anywhere on its way. An input that never is holds a load, before as then.
+pub(crate) fn torque_before_nm(study: &Study, torque_nm: &[f64]) -> Option<f64> {
+    let is_machine = matches!(study.model.scale, Scale::Rig { .. });
+    let passes_zero = torque_nm.iter().any(|torque| *torque <= 0.0)
+        && torque_nm.iter().any(|torque| *torque >= 0.0);
+    (is_machine && passes_zero).then_some(0.0)
 }
 
 /// A model without `effects`, and what `values` are of what is left.

@@ -2,7 +2,7 @@
 
 use crate::error::StudyError;
 use crate::evaluation::prepared_file::{KeptFiles, PreparedFile};
-use crate::evaluation::tightening::input;
+use crate::evaluation::tightening::{input, torque_before_nm};
 use crate::study::Study;
 use crate::tasks::comparable::{Comparable, comparable};
 use rayon::prelude::*;
@@ -146,7 +146,9 @@ pub(crate) fn with_settled<'a>(
     (cases.into_iter())
         .map(|case| {
             let model = study.model_for(&case.tightening)?;
-            let input = simulation.of(case.input.into_owned(), &case.tightening);
+            let before_nm = torque_before_nm(study, &case.tightening.torque_nm);
+            let input = case.input.into_owned().with_torque_before(before_nm);
+            let input = simulation.of(input, &case.tightening);
             Ok(FitTask {
                 model: Cow::Owned(model),
                 input: Cow::Owned(input),

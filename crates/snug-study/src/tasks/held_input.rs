@@ -12,13 +12,10 @@ use snug_identify::{FitTask, identify_all};
 use snug_model::{Input, Scale};
 use std::borrow::Cow;
 
+/// The effect whose size is a delay.
+const DELAY: &str = "torque_delay";
 /// Effects that stand in for half a sampling interval.
-const STAND_INS: [&str; 4] = [
-    "torque_delay",
-    "torque_lag",
-    "acceleration_lag",
-    "second_mode",
-];
+const STAND_INS: [&str; 4] = [DELAY, "torque_lag", "acceleration_lag", "second_mode"];
 /// Samples of all recordings up to which everything is searched twice. Chosen: some seconds more.
 const MOST_SAMPLES: usize = 30_000;
 /// Root mean square of the error, over that with a straight input, up to which a model of fewer effects leaves as little \[–\].
@@ -26,6 +23,9 @@ const MOST_SAMPLES: usize = 30_000;
 const AS_LITTLE: f64 = 1.1;
 /// The same below which one of as many effects leaves plainly less \[–\]. Chosen.
 const PLAINLY_LESS: f64 = 0.95;
+
+/// Delays, in sampling intervals, that are half of one: a held input's, taken as running straight \[–\]. Chosen.
+const HALF_AN_INTERVAL: std::ops::RangeInclusive<f64> = 0.35..=0.65;
 
 /// Whether the study leaves it open, and so few samples were recorded that a search may be made again with a held input.
 pub(crate) fn is_open(study: &Study, cases: &[FitTask<'_>]) -> bool {
@@ -76,7 +76,8 @@ pub(crate) fn held<'a>(
         let torque_nm = &case.tightening.torque_nm;
         let input = Input::new(torque_nm, interval_s, Intersample::ZeroOrder)
             .with_onset(case.input.onset_s())
-            .with_rest_before(case.input.rest_before_s());
+            .with_rest_before(case.input.rest_before_s())
+            .with_torque_before(case.input.torque_before_nm());
         FitTask {
             input: Cow::Owned(input),
             ..case.lent()
@@ -87,18 +88,28 @@ pub(crate) fn held<'a>(
 }
 
 /// What speaks for a held input, if that does: with it a search found `held`, without it `straight`.
-pub(crate) fn speaks_for_it(held: &Diagnosis, straight: &Diagnosis) -> Option<Reason> {
+pub(crate) fn speaks_for_it(
+    held: &Diagnosis,
+    straight: &Diagnosis,
+    interval_s: f64,
+) -> Option<Reason> {
     let error = |diagnosis: &Diagnosis| diagnosis.ladder.last().map(|rung| rung.rms_fitted_output);
     let (with, without) = (error(held)?, error(straight)?);
     let (fewer, more) = (held.added.len(), straight.added.len());
     let is_simpler = fewer < more && with <= AS_LITTLE * without;
     let is_better = fewer <= more && with < PLAINLY_LESS * without;
+    let is_the_hold = fewer <= more && with <= AS_LITTLE * without && {
+        let delays = straight.added.iter().filter(|one| one.effect == DELAY);
+        let mut values = delays.flat_map(|one| &one.parameters);
+        values.any(|delay| HALF_AN_INTERVAL.contains(&(delay.value / interval_s)))
+    };
     let is_needed = |effect: &&str| !stand_ins(held).any(|other| other == *effect);
-    (!held.interrupted && (is_simpler || is_better)).then(|| Reason::Held {
+    (!held.interrupted && (is_simpler || is_better || is_the_hold)).then(|| Reason::Held {
         spared: stand_ins(straight)
             .filter(is_needed)
             .map(str::to_owned)
             .collect(),
+        is_half_an_interval: is_the_hold && !is_simpler && !is_better,
     })
 }
 
