@@ -95,8 +95,26 @@ pub(crate) fn falls_short(kept: f64, promised: &EquationFit, least: f64) -> bool
 pub(crate) fn regression_start(pooled: &PooledModel<'_>, end: &Start) -> Option<Start> {
     let all: &[FitTask<'_>] = &pooled.cases;
     let plain = PlainEquation::of(all)?;
-    let at = values_at(pooled, end);
-    let kept = plain.equation.explained_by(&pooled.effects, &at)?;
+    let kept = plain
+        .equation
+        .explained_by(&pooled.effects, &values_at(pooled, end))?;
+    let (found, start) = regressed(&plain, pooled, end)?;
+    falls_short(kept, &found, PROMISES).then_some(start)
+}
+
+/// Where the regression puts the numbers of a model whose effects have the shape they have at `place`.
+pub(crate) fn with_shape_of(pooled: &PooledModel<'_>, place: &Start) -> Option<Start> {
+    let all: &[FitTask<'_>] = &pooled.cases;
+    let (_, start) = regressed(&PlainEquation::of(all)?, pooled, place)?;
+    Some(start)
+}
+
+fn regressed(
+    plain: &PlainEquation<'_>,
+    pooled: &PooledModel<'_>,
+    place: &Start,
+) -> Option<(EquationFit, Start)> {
+    let at = values_at(pooled, place);
     let terms = plain.equation.terms(&pooled.effects, &at)?;
     let there: Vec<Effect> = (pooled.effects.iter().zip(&terms))
         .filter_map(|(&effect, term)| term.as_ref().map(|_| effect))
@@ -104,14 +122,11 @@ pub(crate) fn regression_start(pooled: &PooledModel<'_>, end: &Start) -> Option<
     let found = plain
         .equation
         .fit(&terms.into_iter().flatten().collect::<Vec<_>>())?;
-    if !falls_short(kept, &found, PROMISES) {
-        return None;
-    }
-    let mut start = with_base(pooled, end, &found.base);
+    let mut start = with_base(pooled, place, &found.base);
     for (effect, times) in there.iter().zip(&found.times) {
         multiply(pooled, &mut start, *effect, *times);
     }
-    Some(start)
+    Some((found, start))
 }
 
 /// The place with another mass, damping and stiffness, those of all recordings.
