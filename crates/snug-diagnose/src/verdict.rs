@@ -2,6 +2,7 @@
 
 pub(crate) mod answer;
 mod comparisons;
+mod decision;
 pub(crate) mod detectability;
 pub(crate) mod earned;
 pub(crate) mod experiment;

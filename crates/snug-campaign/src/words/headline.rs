@@ -1,7 +1,7 @@
 //! The verdict in one sentence.
 
 use super::effect_name::Named;
-use super::explained::Explained;
+use super::explained::{Explained, at_most_all};
 use super::number::significant;
 use super::said::written_as_said;
 use super::suspicion::OtherUnits;
@@ -111,8 +111,22 @@ pub enum Headline {
     },
     /// Some recordings are in other units than others.
     OtherUnits(OtherUnits),
+    /// The input has the other sign, or is the output: with it mended, mass, damping and stiffness alone explain this share \[–\].
+    OtherChannel {
+        /// Whether input and output are swapped; else it is the sign.
+        are_swapped: bool,
+        /// What would be explained then.
+        share: f64,
+    },
     /// No model was found that deserves the question.
     NotFitted(Explained),
+    /// Most effects could not be tried beside a model that explains so much.
+    HardlyTried {
+        /// How many were.
+        tried: usize,
+        /// Of how many.
+        of: usize,
+    },
     /// Compared only; nothing was looked for.
     Compared(Left),
     /// Too little to say.
@@ -182,9 +196,22 @@ impl Display for Headline {
                 f,
                 "Recordings seem to be in different units: {units}. What is missing cannot be asked before that is mended."
             ),
+            Self::OtherChannel { are_swapped, share } => write!(
+                f,
+                "{}: then, mass, damping and stiffness alone would explain {}. What is missing cannot be asked before that is mended.",
+                match are_swapped {
+                    true => "Input and output seem to be swapped",
+                    false => "The input seems to have the other sign",
+                },
+                at_most_all(*share)
+            ),
             Self::NotFitted(explained) => write!(
                 f,
                 "No model was found that deserves the question what is missing: the best explains {explained}."
+            ),
+            Self::HardlyTried { tried, of } => write!(
+                f,
+                "What is missing is not known: only {tried} of {of} candidates could be tried on this rig as it is sampled."
             ),
             Self::Adequate {
                 added,

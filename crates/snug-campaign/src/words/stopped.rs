@@ -17,6 +17,8 @@ pub enum Stopped {
         /// Family-wise p below which an effect is believed.
         level: f64,
     },
+    /// The best of the rest is beyond chance, but the interval of its size holds nothing.
+    SizeMayBeNothing(Named),
     /// The best supported candidate lowers the error by too little to matter.
     TooSmall {
         /// The candidate.
@@ -53,6 +55,11 @@ impl Display for Stopped {
                 "No further effect is supported: {} as the best of the rest, and an effect is believed below {} of 100 only.",
                 by_chance(*best_p),
                 short(100.0 * level)
+            ),
+            Self::SizeMayBeNothing(effect) => write!(
+                f,
+                "No further effect is supported: the best of the rest, {}, is more than chance, but these data do not tell its size from nothing.",
+                effect.spoken()
             ),
             Self::TooSmall { effect, share, smallest, is_at_floor } => write!(
                 f,

@@ -29,6 +29,24 @@ pub enum Suspicion {
         /// Share explained then.
         share: f64,
     },
+    /// Most effects cannot be tried on the rig.
+    HardlyTried {
+        /// How many were.
+        tried: usize,
+        /// Of how many.
+        of: usize,
+    },
+    /// A few samples hold most of the squared error.
+    Outliers {
+        /// How many.
+        samples: usize,
+        /// Of how many.
+        of: usize,
+        /// Share of the squared error in them \[–\].
+        share: f64,
+    },
+    /// What is left is white, so that no model could explain it.
+    Noise,
     /// None of these helps.
     NoOscillator,
 }
@@ -133,6 +151,18 @@ impl Display for Suspicion {
                 f,
                 "Check the kind of the output: were what is declared as {declared} the {other}, mass, damping and stiffness alone would explain {}.",
                 at_most_all(*share)
+            ),
+            Self::HardlyTried { tried, of } => write!(
+                f,
+                "Check the sampling rate: {tried} of {of} candidates could be tried, since with the others the rig cannot be simulated from one sample to the next. Sample faster, or state the unit of the time column or the rate if it is another; a rig without inertia has none of the effects that need it."
+            ),
+            Self::Outliers { samples, of, share } => write!(
+                f,
+                "Check the recordings for spikes and dropouts: {samples} of {of} samples hold {} of the squared error.",
+                at_most_all(*share)
+            ),
+            Self::Noise => f.write_str(
+                "Check the sensor: what is left is white, each sample apart from its neighbours, as noise is and no motion. A model cannot explain it; filter it where it is measured, drive the rig harder, or measure its noise (a quiet part before the input begins) so that it can be counted off.",
             ),
             Self::NoOscillator => f.write_str(
                 "Another sign, swapped channels or another derivative of the angle would not help. The rig may be no mass on a spring and damper, several modes may move at once, or something else than the logged input drives it. Units and sampling rate are not to blame: the fit is the same in any.",

@@ -195,6 +195,8 @@ impl SelectionPath {
 pub(crate) enum Stop {
     /// No candidate reaches the level.
     NothingSupported { best_p: f64 },
+    /// The best of the rest is beyond chance, but the interval of its size holds nothing.
+    SizeMayBeNothing { effect: Effect },
     /// The best supported candidate lowers the error by too little to matter.
     TooSmall { effect: Effect, share: f64 },
     /// What the best of the rest takes away is a trifle beside what the study's own model leaves.
@@ -281,8 +283,12 @@ pub(crate) fn justified(
             })
         }
         None => {
-            let all = ranking.candidates.iter();
-            let gaining = all.filter(|candidate| candidate.gains_clearly());
+            let gaining = all.iter().filter(|candidate| candidate.gains_clearly());
+            let is_beyond_chance = |one: &&Candidate| one.p_family <= settings.level;
+            if let Some(one) = gaining.clone().find(is_beyond_chance) {
+                let effect = one.effect;
+                return Err(Stop::SizeMayBeNothing { effect });
+            }
             Err(Stop::NothingSupported {
                 best_p: gaining.map(|one| one.p_family).fold(1.0, f64::min),
             })

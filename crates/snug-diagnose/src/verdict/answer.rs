@@ -5,11 +5,10 @@ use crate::data::clusters::Clusters;
 use crate::data::watch::Watch;
 use crate::error::DiagnoseError;
 use crate::library::{declaration, is_unlisted};
-use crate::locate::{compare, drifts, locate};
+use crate::locate::{Seen, compare, drifts, locate};
 use crate::pooled::fitted::Fitted;
 use crate::pooled::sizes::parameters;
-use crate::pooled::thresholds::AT_FLOOR;
-use crate::question::{Goal, Question};
+use crate::question::Question;
 use crate::ranking::rank::Ranking;
 use crate::selection::path::{Addition, SelectionPath, twins};
 use crate::settings::DiagnoseSettings;
@@ -20,13 +19,12 @@ use crate::verdict::ranking_told::RankingTold;
 use crate::verdict::reasons::{
     Held, Situation, explanation, headline, paste, reasons, removal, stopped,
 };
-use crate::verdict::thresholds::{BESIDE_EFFECTS, MOSTLY_EXPLAINED, REPEATS, WHITE};
 use crate::verdict::tightening_fits::TighteningFits;
 use crate::verdict::trend::trends;
-use crate::verdict::{detectability, floor, in_some_groups, ladder, preparation};
+use crate::verdict::{detectability, in_some_groups, ladder, preparation};
 use snug_campaign::words::explained::Explained;
 use snug_campaign::words::statement;
-use snug_campaign::words::suspicion::{FailedFit, OtherUnits, Suspicion};
+use snug_campaign::words::suspicion::{OtherUnits, Suspicion};
 use snug_campaign::{
     AddedEffect, Comparison, CorrectedEffect, Diagnosis, Drift, EffectParameter, Experiment,
     Location, NegativeControl, RankedEffect, UnlistedTerm, Verdict, sharing,
@@ -68,18 +66,20 @@ pub(crate) struct Examination<'a> {
 }
 
 /// Where the models at both ends of the selection fail.
-struct Places {
-    comparison: Comparison,
-    location: Location,
+pub(super) struct Places {
+    pub(super) comparison: Comparison,
+    pub(super) location: Location,
     /// `None` where the last model is the first.
-    final_location: Option<Location>,
-    drift: Vec<Drift>,
+    pub(super) final_location: Option<Location>,
+    pub(super) drift: Vec<Drift>,
     /// How much the last model explains, where no noise says what is enough.
-    explained: Option<Explained>,
+    pub(super) explained: Option<Explained>,
+    /// What no model could explain of it, if that is nearly all.
+    pub(super) left_over: Option<Suspicion>,
 }
 
 impl Places {
-    fn last(&self) -> &Location {
+    pub(super) fn last(&self) -> &Location {
         self.final_location.as_ref().unwrap_or(&self.location)
     }
 }
@@ -101,7 +101,7 @@ impl Examination<'_> {
             in_model: &added,
             explained: places.explained,
             is_more_than_noise: verdict == Verdict::Undecided
-                && (self.is_more_than_noise()
+                && (self.is_more_than_noise(places.explained.as_ref())
                     || leaves_a_motion(&self.path, self.settings, places.explained.as_ref())),
             suspicions: &suspicions,
             ..self.situation(verdict, &ranking, &corrected)
@@ -158,13 +158,17 @@ impl Examination<'_> {
         let (cases, seed) = (self.question.cases, self.settings.seed);
         let sight = TighteningFits::of(cases, first)?;
         let base = sight.seen();
-        let (final_location, explained) = match last.effects == first.effects {
-            true => (None, earned::explained(cases, last, &base)),
+        let told = |seen: &[Seen<'_>]| {
+            let explained = earned::explained(cases, last, seen);
+            let left_over = earned::left_over(cases, explained.as_ref(), seen);
+            (explained, left_over)
+        };
+        let (final_location, (explained, left_over)) = match last.effects == first.effects {
+            true => (None, told(&base)),
             false => {
                 let sight = TighteningFits::of(cases, last)?;
                 let seen = sight.seen();
-                let explained = earned::explained(cases, last, &seen);
-                (Some(locate(&seen, seed)), explained)
+                (Some(locate(&seen, seed)), told(&seen))
             }
         };
         Ok(Places {
@@ -173,6 +177,7 @@ impl Examination<'_> {
             final_location,
             drift: drifts(&base),
             explained,
+            left_over,
         })
     }
 
@@ -222,111 +227,6 @@ impl Examination<'_> {
         self.watch
             .begin("looking for the experiment that tells the twins apart")?;
         Ok(separating_experiment(self.cases, first, second))
-    }
-
-    /// The verdict, and what to check where no model fits. A comparison leaves it at that only where there is something to check:
-    /// an effect that does most of the work is for `diagnose` to find.
-    fn verdict_and_suspicions(&self, places: &Places) -> (Verdict, Vec<Suspicion>) {
-        let is_white = (places.explained.as_ref()).is_some_and(|all| all.neighbours.abs() < WHITE);
-        let wrong = [
-            self.units_that_differ(true).map(Suspicion::Units),
-            self.failed_fit().map(Suspicion::FailedFit),
-        ];
-        let wrong: Vec<Suspicion> = wrong.into_iter().flatten().collect();
-        let verdict = match wrong.is_empty() || self.path.is_interrupted() {
-            true => self.verdict(places.last().repeatable_share, is_white),
-            false => Verdict::NotFitted,
-        };
-        let (Verdict::NotFitted, Some(explained)) = (verdict, places.explained) else {
-            return (verdict, wrong);
-        };
-        let mut suspicions = earned::suspicions(self.question.cases, explained);
-        if !wrong.is_empty() {
-            suspicions.retain(|one| *one != Suspicion::NoOscillator);
-            suspicions.splice(0..0, wrong);
-        }
-        match (&self.question.goal, suspicions.as_slice()) {
-            (Goal::Compare, [Suspicion::NoOscillator]) => (Verdict::Undecided, Vec::new()),
-            _ => (verdict, suspicions),
-        }
-    }
-
-    /// Recordings that stand apart by a prefix of a unit, or else by another load.
-    fn units_that_differ(&self, is_prefix: bool) -> Option<OtherUnits> {
-        let units = self.units.clone();
-        units.filter(|units| units.is_prefix == is_prefix)
-    }
-
-    /// How the best model falls short of a plain regression, if it does.
-    fn failed_fit(&self) -> Option<FailedFit> {
-        let candidates = &self.path.ranking.candidates;
-        let best = (self.path.chosen).map_or(self.path.last(), |index| &candidates[index].fitted);
-        let were_tried = !candidates.is_empty();
-        floor::shortfall(self.cases, best, were_tried)
-    }
-
-    /// `is_white` where what is left is as white as noise, whatever candidates promise.
-    fn verdict(&self, repeatable: Option<f64>, is_white: bool) -> Verdict {
-        let (last, candidates) = (self.path.last(), &self.path.ranking.candidates);
-        let added_unlisted = self
-            .path
-            .additions
-            .iter()
-            .any(|one| is_unlisted(one.effect));
-        if self.path.is_interrupted() {
-            return Verdict::Undecided;
-        }
-        let best = (self.path.chosen).map_or(last, |index| &candidates[index].fitted);
-        let share = earned::share(self.question.cases, best);
-        if !earned::is_a_model(share) {
-            return Verdict::NotFitted;
-        }
-        if self.path.ranking.candidates.is_empty() {
-            return match last.is_at_floor() {
-                true => Verdict::Adequate,
-                false => Verdict::Undecided,
-            };
-        }
-        if let Some(chosen) = self.path.chosen {
-            return match is_unlisted(self.path.ranking.candidates[chosen].effect) {
-                true => Verdict::UnlistedEffect,
-                false => Verdict::MissingEffect,
-            };
-        }
-        if added_unlisted {
-            return Verdict::UnlistedEffect;
-        }
-        // What takes several effects and still leaves more than noise is something else, in pieces.
-        if self.path.additions.len() > 1 && last.is_beyond_noise() {
-            return Verdict::UnlistedEffect;
-        }
-        let floor = match self.path.additions.is_empty() {
-            true => AT_FLOOR,
-            false => BESIDE_EFFECTS,
-        };
-        if last.is_weighted && last.error() > floor && repeatable.is_some_and(|r| r > REPEATS) {
-            return Verdict::UnlistedEffect;
-        }
-        match self.path.is_promising(self.settings) {
-            Some(_) if !is_white => Verdict::Undecided,
-            _ if self.is_more_than_noise() && !is_white => Verdict::Undecided,
-            _ if earned::keeps_the_promise(share, self.question.cases) => Verdict::Adequate,
-            _ => Verdict::NotFitted,
-        }
-    }
-
-    /// Whether more is left than the noise is uncertain by, or where nobody knows the noise a good part of the output, though no candidate
-    /// is chosen or promising: that is no adequate model. Beside an effect that lets go, the instants at which the grip sets in are never
-    /// quite right.
-    fn is_more_than_noise(&self) -> bool {
-        let last = self.path.last();
-        let lets_go = last.effects.iter().any(|one| one.has_unilateral_contact());
-        let floor = if lets_go { BESIDE_EFFECTS } else { AT_FLOOR };
-        let leaves_much = match earned::share(self.question.cases, last) {
-            Some(share) => share < MOSTLY_EXPLAINED,
-            None => last.error() > floor,
-        };
-        leaves_much && self.path.chosen.is_none() && self.path.is_promising(self.settings).is_none()
     }
 
     /// The candidates, the chosen one first, and behind them the trends.

@@ -6,7 +6,9 @@ use crate::ranking::rank::Candidate;
 use crate::selection::path::SelectionPath;
 use crate::selection::thresholds::MOST;
 use crate::settings::DiagnoseSettings;
-use crate::verdict::thresholds::{FAR_BETTER, LEAST_EXPLAINED, SHORTFALL};
+use crate::verdict::thresholds::{
+    FAR_BETTER, FEW_SAMPLES, LEAST_EXPLAINED, MOST_IN_FEW, SHORTFALL, WHITE,
+};
 use snug_campaign::Quantity;
 use snug_campaign::words::explained::Explained;
 use snug_campaign::words::suspicion::Suspicion;
@@ -51,24 +53,48 @@ pub(crate) fn explained(
     })
 }
 
+/// What no model could explain of what a model leaves, if that is nearly all of it: a few samples, or noise.
+pub(crate) fn left_over(
+    cases: &[FitTask<'_>],
+    explained: Option<&Explained>,
+    seen: &[Seen<'_>],
+) -> Option<Suspicion> {
+    let explained = explained?;
+    let is_white = explained.neighbours.abs() < WHITE && explained.share > 0.0;
+    outliers(cases.first()?.quantity(), seen).or(is_white.then_some(Suspicion::Noise))
+}
+
+/// The few samples that hold most of the squared error, if they do.
+fn outliers(quantity: Quantity, seen: &[Seen<'_>]) -> Option<Suspicion> {
+    let mut squares: Vec<f64> = (seen.iter())
+        .flat_map(|one| left(quantity, one).unwrap_or_default())
+        .map(|left| left * left)
+        .collect();
+    squares.sort_by(|a, b| b.total_cmp(a));
+    let of = squares.len();
+    let samples = (FEW_SAMPLES * of as f64).ceil() as usize;
+    let all: f64 = squares.iter().sum();
+    let share = squares.iter().take(samples).sum::<f64>() / all;
+    (share > MOST_IN_FEW).then_some(Suspicion::Outliers { samples, of, share })
+}
+
+/// Measured less simulated.
+fn left(quantity: Quantity, one: &Seen<'_>) -> Option<Vec<f64>> {
+    let measured = one.tightening.motion.get(quantity)?;
+    let simulated = one.simulated.get(quantity)?;
+    let pairs = measured[one.unscored..]
+        .iter()
+        .zip(&simulated[one.unscored..]);
+    Some(pairs.map(|(y, s)| y - s).collect())
+}
+
 /// Correlation of neighbouring samples of what is left \[–\]; 0 where nothing is.
 fn neighbours(quantity: Quantity, seen: &[Seen<'_>]) -> f64 {
     let (mut products, mut squares) = (0.0, 0.0);
     for one in seen {
-        let motion = |motion: &snug_campaign::Motion| {
-            motion
-                .get(quantity)
-                .map(|values| values[one.unscored..].to_vec())
-        };
-        let pair = motion(&one.tightening.motion).zip(motion(one.simulated));
-        let Some((measured, simulated)) = pair else {
+        let Some(left) = left(quantity, one) else {
             continue;
         };
-        let left: Vec<f64> = measured
-            .iter()
-            .zip(&simulated)
-            .map(|(y, s)| y - s)
-            .collect();
         products += left.windows(2).map(|pair| pair[0] * pair[1]).sum::<f64>();
         squares += left.iter().map(|r| r * r).sum::<f64>();
     }
@@ -119,8 +145,12 @@ fn promised(cases: &[FitTask<'_>]) -> Option<f64> {
     spectral_start(cases).map(|start| 1.0 - start.unexplained)
 }
 
-/// What to check, the likeliest first.
-pub(crate) fn suspicions(cases: &[FitTask<'_>], explained: Explained) -> Vec<Suspicion> {
+/// What to check, the likeliest first; what is `left_over` where nothing else is.
+pub(crate) fn suspicions(
+    cases: &[FitTask<'_>],
+    explained: Explained,
+    left_over: Option<Suspicion>,
+) -> Vec<Suspicion> {
     let as_it_is = promised(cases).unwrap_or(0.0);
     let share_of = |change: &dyn Fn(&mut FitTask<'_>)| -> f64 {
         let changed: Vec<FitTask<'_>> = (cases.iter())
@@ -170,7 +200,7 @@ pub(crate) fn suspicions(cases: &[FitTask<'_>], explained: Explained) -> Vec<Sus
         }
     }
     if found.is_empty() {
-        found.push(Suspicion::NoOscillator);
+        found.push(left_over.unwrap_or(Suspicion::NoOscillator));
     }
     found
 }

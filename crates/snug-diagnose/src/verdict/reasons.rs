@@ -157,6 +157,15 @@ pub(crate) fn headline(situation: &Situation<'_>) -> Headline {
         },
         (Verdict::NotFitted, _) => match (situation.suspicions.first(), situation.explained) {
             (Some(Suspicion::Units(units)), _) => Headline::OtherUnits(units.clone()),
+            (Some(&Suspicion::Sign(share)), _) => Headline::OtherChannel {
+                are_swapped: false,
+                share,
+            },
+            (Some(&Suspicion::Swapped(share)), _) => Headline::OtherChannel {
+                are_swapped: true,
+                share,
+            },
+            (Some(&Suspicion::HardlyTried { tried, of }), _) => Headline::HardlyTried { tried, of },
             (_, Some(explained)) => Headline::NotFitted(explained),
             (_, None) => Headline::Compared(fell.after),
         },
@@ -301,6 +310,7 @@ pub(crate) fn stopped(situation: &Situation<'_>) -> Option<Stopped> {
             best_p,
             level: situation.settings.level,
         },
+        Stop::SizeMayBeNothing { effect } => Stopped::SizeMayBeNothing(named(effect)),
         Stop::TooSmall { effect, share } => Stopped::TooSmall {
             effect: named(effect),
             share,

@@ -47,3 +47,8 @@ pub(crate) const UNIT_PREFIXES: [f64; 2] = [1e3, 1e6];
 pub(crate) const THREE_QUARTERS: f64 = 0.75;
 /// Whole tightenings from which a file or a person is judged by them: one is fitted badly at times. Chosen.
 pub(crate) const FEWEST_OF_GROUP: usize = 2;
+/// Share of all samples \[–\] ... Chosen.
+pub(crate) const FEW_SAMPLES: f64 = 0.01;
+/// ... that hold more than this share of the squared error where spikes or dropouts do: those of a normal distribution hold 0.08, of one
+/// with tails as heavy as t of three degrees 0.3. Chosen.
+pub(crate) const MOST_IN_FEW: f64 = 0.6;

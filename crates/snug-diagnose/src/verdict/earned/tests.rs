@@ -55,7 +55,7 @@ fn suspected(task: FitTask<'_>) -> Vec<Suspicion> {
         share: 0.0,
         neighbours: 0.0,
     };
-    suspicions(&[task], explained)
+    suspicions(&[task], explained, None)
 }
 
 #[test]
@@ -109,4 +109,45 @@ fn another_derivative_is_suspected() {
 fn two_signals_that_know_nothing_of_each_other_are_no_oscillator() {
     let found = suspected(declared(random(1), random(2), Quantity::Velocity));
     assert_eq!(found, [Suspicion::NoOscillator]);
+}
+
+/// What is told of a model that leaves `left` of a motion.
+fn told_of(left: &[f64], share: f64) -> Option<Suspicion> {
+    let (torque_nm, angle_rad) = oscillator();
+    let measured = angle_rad.iter().zip(left).map(|(y, left)| y + left);
+    let task = declared(torque_nm, measured.collect(), Quantity::Displacement);
+    let mut simulated = snug_campaign::Motion::default();
+    simulated.set(Quantity::Displacement, angle_rad);
+    let estimate =
+        snug_identify::identify(&task.model, &task.input, &task.tightening, &task.settings)
+            .unwrap();
+    let seen = [Seen {
+        tightening: &task.tightening,
+        simulated: &simulated,
+        estimate: &estimate,
+        unscored: 0,
+    }];
+    let explained = Explained {
+        output: "displacement",
+        share,
+        neighbours: neighbours(Quantity::Displacement, &seen),
+    };
+    left_over(&[task.lent()], Some(&explained), &seen)
+}
+
+#[test]
+fn spikes_and_noise_are_told_from_a_motion_that_is_left() {
+    let mut spikes = random(3).iter().map(|one| 1e-3 * one).collect::<Vec<_>>();
+    for place in (50..SAMPLES).step_by(400) {
+        spikes[place] = 0.5;
+    }
+    let found = told_of(&spikes, 0.4);
+    assert!(
+        matches!(found, Some(Suspicion::Outliers { samples: 40, of: 4000, share }) if share > 0.99),
+        "{found:?}"
+    );
+    assert_eq!(told_of(&random(3), 0.4), Some(Suspicion::Noise));
+    assert_eq!(told_of(&random(3), -0.1), None);
+    let motion: Vec<f64> = (0..SAMPLES).map(|k| (0.05 * k as f64).sin()).collect();
+    assert_eq!(told_of(&motion, 0.4), None);
 }

@@ -1,0 +1,153 @@
+//! Which verdict the data allow, and what to check where no model fits.
+
+use crate::library::is_unlisted;
+use crate::pooled::thresholds::AT_FLOOR;
+use crate::question::Goal;
+use crate::verdict::answer::{Examination, Places};
+use crate::verdict::thresholds::{BESIDE_EFFECTS, MOSTLY_EXPLAINED, REPEATS, WHITE};
+use crate::verdict::{earned, floor};
+use snug_campaign::Verdict;
+use snug_campaign::words::explained::Explained;
+use snug_campaign::words::suspicion::{FailedFit, OtherUnits, Suspicion};
+
+impl Examination<'_> {
+    /// The verdict, and what to check where no model fits. A comparison leaves it at that only where there is something to check:
+    /// an effect that does most of the work is for `diagnose` to find.
+    pub(super) fn verdict_and_suspicions(&self, places: &Places) -> (Verdict, Vec<Suspicion>) {
+        let is_white = (places.explained.as_ref()).is_some_and(|all| all.neighbours.abs() < WHITE);
+        let wrong = [
+            self.units_that_differ(true).map(Suspicion::Units),
+            self.failed_fit().map(Suspicion::FailedFit),
+        ];
+        let wrong: Vec<Suspicion> = wrong.into_iter().flatten().collect();
+        let verdict = match wrong.is_empty() || self.path.is_interrupted() {
+            true => self.verdict(
+                places.last().repeatable_share,
+                places.explained.as_ref(),
+                is_white,
+            ),
+            false => Verdict::NotFitted,
+        };
+        if let Some(hardly) = self.hardly_tried()
+            && matches!(verdict, Verdict::Adequate | Verdict::Undecided)
+        {
+            return (Verdict::NotFitted, vec![hardly]);
+        }
+        let (Verdict::NotFitted, Some(explained)) = (verdict, places.explained) else {
+            return (verdict, wrong);
+        };
+        let mut suspicions =
+            earned::suspicions(self.question.cases, explained, places.left_over.clone());
+        if !wrong.is_empty() {
+            suspicions.retain(|one| *one != Suspicion::NoOscillator);
+            // With the wrong sign or column no fit means anything, so that neither do differences between recordings' numbers.
+            let is_of_channels =
+                |one: &&Suspicion| matches!(one, Suspicion::Sign(_) | Suspicion::Swapped(_));
+            suspicions.sort_by_key(|one| !is_of_channels(&one));
+            let first = suspicions.iter().filter(is_of_channels).count();
+            let wrong =
+                (wrong.into_iter()).filter(|one| first == 0 || !matches!(one, Suspicion::Units(_)));
+            suspicions.splice(first..first, wrong.collect::<Vec<_>>());
+        }
+        match (&self.question.goal, suspicions.as_slice()) {
+            (Goal::Compare, [Suspicion::NoOscillator]) => (Verdict::Undecided, Vec::new()),
+            _ => (verdict, suspicions),
+        }
+    }
+
+    /// That most candidates could not be tried, if so: then nothing is known of what is missing.
+    fn hardly_tried(&self) -> Option<Suspicion> {
+        let ranking = &self.path.ranking;
+        let (tried, not) = (ranking.candidates.len(), ranking.impossible.len());
+        let of = tried + not;
+        (not > tried && !self.path.is_interrupted()).then_some(Suspicion::HardlyTried { tried, of })
+    }
+
+    /// Recordings that stand apart by a prefix of a unit, or else by another load.
+    pub(super) fn units_that_differ(&self, is_prefix: bool) -> Option<OtherUnits> {
+        let units = self.units.clone();
+        units.filter(|units| units.is_prefix == is_prefix)
+    }
+
+    /// How the best model falls short of a plain regression, if it does.
+    fn failed_fit(&self) -> Option<FailedFit> {
+        let candidates = &self.path.ranking.candidates;
+        let best = (self.path.chosen).map_or(self.path.last(), |index| &candidates[index].fitted);
+        let were_tried = !candidates.is_empty();
+        floor::shortfall(self.cases, best, were_tried)
+    }
+
+    /// `is_white` where what is left is as white as noise, whatever candidates promise.
+    fn verdict(
+        &self,
+        repeatable: Option<f64>,
+        explained: Option<&Explained>,
+        is_white: bool,
+    ) -> Verdict {
+        let (last, candidates) = (self.path.last(), &self.path.ranking.candidates);
+        let added_unlisted = self
+            .path
+            .additions
+            .iter()
+            .any(|one| is_unlisted(one.effect));
+        if self.path.is_interrupted() {
+            return Verdict::Undecided;
+        }
+        let best = (self.path.chosen).map_or(last, |index| &candidates[index].fitted);
+        let share = earned::share(self.question.cases, best);
+        if !earned::is_a_model(share) {
+            return Verdict::NotFitted;
+        }
+        if self.path.ranking.candidates.is_empty() {
+            return match last.is_at_floor() {
+                true => Verdict::Adequate,
+                false => Verdict::Undecided,
+            };
+        }
+        if let Some(chosen) = self.path.chosen {
+            return match is_unlisted(self.path.ranking.candidates[chosen].effect) {
+                true => Verdict::UnlistedEffect,
+                false => Verdict::MissingEffect,
+            };
+        }
+        if added_unlisted {
+            return Verdict::UnlistedEffect;
+        }
+        // What takes several effects and still leaves more than noise is something else, in pieces.
+        if self.path.additions.len() > 1 && last.is_beyond_noise() {
+            return Verdict::UnlistedEffect;
+        }
+        let floor = match self.path.additions.is_empty() {
+            true => AT_FLOOR,
+            false => BESIDE_EFFECTS,
+        };
+        if last.is_weighted && last.error() > floor && repeatable.is_some_and(|r| r > REPEATS) {
+            return Verdict::UnlistedEffect;
+        }
+        match self.path.is_promising(self.settings) {
+            Some(_) if !is_white => Verdict::Undecided,
+            _ if self.is_more_than_noise(explained) && !is_white => Verdict::Undecided,
+            _ if earned::keeps_the_promise(share, self.question.cases) => Verdict::Adequate,
+            _ => Verdict::NotFitted,
+        }
+    }
+
+    /// Whether more is left than the noise is uncertain by, or where nobody knows the noise a good part of the output, though no candidate
+    /// is chosen or promising: that is no adequate model. A model that is restarted from the measured motion again and again predicts
+    /// nearly all, whatever it lacks: of that it must leave noise. Beside an effect that lets go, the instants at which the grip sets in
+    /// are never quite right.
+    pub(super) fn is_more_than_noise(&self, explained: Option<&Explained>) -> bool {
+        let last = self.path.last();
+        let lets_go = last.effects.iter().any(|one| one.has_unilateral_contact());
+        let floor = if lets_go { BESIDE_EFFECTS } else { AT_FLOOR };
+        let leaves_much = match earned::share(self.question.cases, last) {
+            Some(share) => {
+                let is_restarted = self.cases.iter().any(|case| case.input.is_restarted());
+                let leaves_a_motion = explained.is_some_and(Explained::leaves_a_motion);
+                share < MOSTLY_EXPLAINED || (is_restarted && leaves_a_motion)
+            }
+            None => last.error() > floor,
+        };
+        leaves_much && self.path.chosen.is_none() && self.path.is_promising(self.settings).is_none()
+    }
+}
