@@ -48,20 +48,21 @@ impl Rig {
 }
 
 /// Samples every millisecond of what `rate` moves from rest, the input held from sample to sample.
-fn moved(
+fn moved<const N: usize>(
     inputs: &[f64],
     steps: u32,
-    rate: impl Fn([f64; 2], f64) -> [f64; 2],
-) -> impl Iterator<Item = [f64; 2]> {
+    rate: impl Fn([f64; N], f64) -> [f64; N],
+) -> impl Iterator<Item = [f64; N]> {
     let h = 1e-3 / f64::from(steps);
-    let mut state = [0.0; 2];
+    let further = |state: [f64; N], rates: [f64; N], h: f64| -> [f64; N] {
+        std::array::from_fn(|index| state[index] + h * rates[index])
+    };
+    let mut state = [0.0; N];
     inputs.iter().map(move |&u| {
         let sample = state;
         for _ in 0..steps {
-            let [x, v] = state;
-            let [x_rate, v_rate] = rate(state, u);
-            let middle = rate([x + 0.5 * h * x_rate, v + 0.5 * h * v_rate], u);
-            state = [x + h * middle[0], v + h * middle[1]];
+            let middle = further(state, rate(state, u), 0.5 * h);
+            state = further(state, rate(middle, u), h);
         }
         sample
     })
@@ -80,6 +81,50 @@ impl Noise {
     fn draw(&mut self) -> f64 {
         (0..12).map(|_| self.even()).sum::<f64>() - 6.0
     }
+
+    /// Levels between these two, each held for so many samples.
+    fn levels(&mut self, between: [f64; 2], held: usize, samples: usize) -> Vec<f64> {
+        let levels: Vec<f64> = (0..=samples / held)
+            .map(|_| between[0] + (between[1] - between[0]) * self.even())
+            .collect();
+        (0..samples).map(|k| levels[k / held]).collect()
+    }
+
+    /// Twelve tones of one size between these frequencies \[Hz\].
+    fn tones(&mut self, between_hz: [f64; 2], size: f64, samples: usize) -> Vec<f64> {
+        let [low, high] = between_hz;
+        let tones: Vec<[f64; 2]> = (0..12)
+            .map(|tone| {
+                let hz = low * (high / low).powf(f64::from(tone) / 11.0);
+                [hz, TAU * self.even()]
+            })
+            .collect();
+        let at = |k: usize| {
+            let turns = tones
+                .iter()
+                .map(|[hz, phase]| (TAU * hz * 1e-3 * k as f64 + phase).sin());
+            size * turns.sum::<f64>()
+        };
+        (0..samples).map(at).collect()
+    }
+
+    fn with(
+        &mut self,
+        inputs: &[f64],
+        outputs: impl Iterator<Item = f64>,
+        size: f64,
+    ) -> Vec<[f64; 2]> {
+        let pairs = inputs.iter().zip(outputs);
+        pairs.map(|(&u, y)| [u, y + size * self.draw()]).collect()
+    }
+}
+
+const TORQUE: &str = "signal: Torque, unit: NewtonMetre";
+const FORCE: &str = "signal: Force, unit: Newton";
+
+fn names(diagnosis: &Diagnosis) -> Vec<&str> {
+    let added = diagnosis.added.iter();
+    added.map(|one| one.effect.as_str()).collect()
 }
 
 /// A motor that is turned one way in one recording and the other way in the next: dry friction and what its torque sensor reads at rest
@@ -269,4 +314,137 @@ fn a_valve_that_sticks_lacks_dry_friction_and_no_law_that_nobody_knows() {
             .is_some_and(|(low, high)| low < 0.0 && high > 0.0);
         assert!(!holds_nothing, "{size:?}");
     }
+}
+
+/// A drive that begins at rest, with a torque that comes late: before the first sample nothing turned it, and the delay is a delay.
+#[test]
+fn a_servo_that_answers_late_lacks_a_delay_and_no_lag() {
+    let mut noise = Noise(11);
+    let mut recording = || {
+        let inputs = noise.levels([-1.0, 1.0], 100, 3000);
+        let late: Vec<f64> = [&[0.0; 8][..], &inputs[..2992]].concat();
+        let rate = |[_, v]: [f64; 2], u: f64| [v, (u - 0.05 * v) / 0.01];
+        let angles = moved(&late, 4, rate).map(|[x, _]| x);
+        noise.with(&inputs, angles, 2e-3)
+    };
+    let rig = Rig {
+        recordings: (0..3).map(|_| recording()).collect(),
+        declared: [TORQUE, "Displacement", "Radian"],
+        fitted: "Displacement",
+    };
+    let diagnosis = rig.told(&Verb::Improve);
+    assert_eq!(
+        names(&diagnosis),
+        ["torque_delay"],
+        "{}",
+        diagnosis.headline
+    );
+    // A held torque, taken as straight, comes half a millisecond early.
+    let delay_s = diagnosis.added[0].parameters[0].value;
+    assert!((0.00795..0.00855).contains(&delay_s), "{delay_s}");
+}
+
+/// A suspension, its damper in one place, driven at the body and measured at the wheel: two modes that drive each other.
+#[test]
+fn a_suspension_measured_at_the_wheel_lacks_a_second_mode_and_nothing_else() {
+    const NOISE: f64 = 2e-6;
+    let mut noise = Noise(12);
+    let mut recording = || {
+        let inputs = noise.tones([2.0, 200.0], 100.0, 3000);
+        let rate = |[x, v, y, w]: [f64; 4], u: f64| {
+            let between = 7e5 * (y - x) + 7000.0 * (w - v);
+            let at_wheel = -between - 7e6 * y - 700.0 * w;
+            [v, (u + between) / 250.0, w, at_wheel / 40.0]
+        };
+        let wheel = moved(&inputs, 10, rate).map(|[_, _, y, _]| y);
+        noise.with(&inputs, wheel, NOISE)
+    };
+    let rig = Rig {
+        recordings: (0..2).map(|_| recording()).collect(),
+        declared: [FORCE, "Displacement", "Metre"],
+        fitted: "Displacement",
+    };
+    let diagnosis = rig.told(&Verb::Improve);
+    assert_eq!(names(&diagnosis), ["second_mode"], "{}", diagnosis.headline);
+    let left = diagnosis.ladder.last().unwrap().rms_fitted_output;
+    assert!(left < 1.1 * NOISE, "{left}");
+}
+
+/// A valve against a spring that stiffens, so heavily damped that nothing shows of its mass: effects can be tried all the same.
+#[test]
+fn what_moves_without_a_mass_that_shows_is_asked_what_it_lacks() {
+    let mut noise = Noise(13);
+    let mut recording = || {
+        let inputs = noise.levels([0.0, 50.0], 120, 3000);
+        let rate = |[x, _]: [f64; 2], u: f64| [(u - 0.8 * x - 0.004 * x * x) / 0.4, 0.0];
+        let angles = moved(&inputs, 4, rate).map(|[x, _]| x);
+        noise.with(&inputs, angles, 0.03)
+    };
+    let rig = Rig {
+        recordings: (0..3).map(|_| recording()).collect(),
+        declared: [TORQUE, "Displacement", "Radian"],
+        fitted: "Displacement",
+    };
+    let diagnosis = rig.told(&Verb::Improve);
+    assert_eq!(
+        names(&diagnosis),
+        ["quadratic_stiffness"],
+        "{}",
+        diagnosis.headline
+    );
+    let size = diagnosis.added[0].parameters[0].value;
+    assert!((size / 0.004 - 1.0).abs() < 0.02, "{size}");
+}
+
+/// An input logged with the other sign leads no fit anywhere, and recordings' numbers apart: the sign is said, and no unit.
+#[test]
+fn an_input_of_the_other_sign_is_said_before_anything_else() {
+    let mut noise = Noise(14);
+    let mut recording = || {
+        let inputs = noise.tones([1.0, 40.0], 4.0, 2000);
+        let rate = |[x, v]: [f64; 2], u: f64| [v, (-u - 12.0 * v - 6400.0 * x) / 2.0];
+        let places = moved(&inputs, 10, rate).map(|[x, _]| x);
+        noise.with(&inputs, places, 1e-5)
+    };
+    let rig = Rig {
+        recordings: (0..3).map(|_| recording()).collect(),
+        declared: [FORCE, "Displacement", "Metre"],
+        fitted: "Displacement",
+    };
+    let diagnosis = rig.told(&Verb::Diagnose);
+    let headline = diagnosis.headline.to_string();
+    assert_eq!(diagnosis.verdict, Verdict::NotFitted, "{headline}");
+    assert!(headline.contains("other sign"), "{headline}");
+}
+
+/// Half of what is measured is noise of the sensor: what is left knows nothing of its neighbours, and is called noise.
+#[test]
+fn noise_as_large_as_the_motion_is_called_noise() {
+    let mut noise = Noise(15);
+    let mut recording = || {
+        let inputs = noise.tones([1.0, 40.0], 4.0, 2000);
+        let rate = |[x, v]: [f64; 2], u: f64| [v, (u - 12.0 * v - 6400.0 * x) / 2.0];
+        let places = moved(&inputs, 10, rate).map(|[x, _]| x);
+        noise.with(&inputs, places, 4e-3)
+    };
+    let rig = Rig {
+        recordings: (0..3).map(|_| recording()).collect(),
+        declared: [FORCE, "Displacement", "Metre"],
+        fitted: "Displacement",
+    };
+    let diagnosis = rig.told(&Verb::Improve);
+    assert_eq!(names(&diagnosis), [""; 0], "{}", diagnosis.headline);
+    let reasons: Vec<String> = diagnosis.reasons.iter().map(ToString::to_string).collect();
+    assert_eq!(
+        diagnosis.verdict,
+        Verdict::NotFitted,
+        "{}",
+        diagnosis.headline
+    );
+    assert!(
+        reasons
+            .iter()
+            .any(|one| one.contains("what is left is white")),
+        "{reasons:?}"
+    );
 }
