@@ -124,11 +124,12 @@ pub(crate) fn beside_nothing(
         };
         Some(if is_told { Told } else { Held })
     };
-    // A law whose shape ends where it may go no further is another law.
+    // A law whose shape or size ends where it may go no further, and not in nothing, is another law.
     let is_at_its_end = |(offset, size): (usize, &EffectParameter)| {
         let parameter = &model.parameters()[first + offset];
         let ends = [parameter.minimum, parameter.maximum];
-        nothing(offset).is_none() && !size.per_tightening && ends.contains(&size.value)
+        let is_nothing = nothing(offset) == Some(size.value);
+        !is_nothing && !size.per_tightening && ends.contains(&size.value)
     };
     if fitted.are_stretches() && sizes.iter().enumerate().any(is_at_its_end) {
         return Unknown;

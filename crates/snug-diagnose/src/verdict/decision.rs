@@ -134,7 +134,7 @@ impl Examination<'_> {
 
     /// Whether more is left than the noise is uncertain by, or where nobody knows the noise a good part of the output, though no candidate
     /// is chosen or promising: that is no adequate model. A model that is restarted from the measured motion again and again predicts
-    /// nearly all, whatever it lacks: of that it must leave noise. Beside an effect that lets go, the instants at which the grip sets in
+    /// nearly all, whatever it lacks: one that was given nothing must leave noise. Beside an effect that lets go, the instants at which the grip sets in
     /// are never quite right.
     pub(super) fn is_more_than_noise(&self, explained: Option<&Explained>) -> bool {
         let last = self.path.last();
@@ -144,7 +144,8 @@ impl Examination<'_> {
             Some(share) => {
                 let is_restarted = self.cases.iter().any(|case| case.input.is_restarted());
                 let leaves_a_motion = explained.is_some_and(Explained::leaves_a_motion);
-                share < MOSTLY_EXPLAINED || (is_restarted && leaves_a_motion)
+                share < MOSTLY_EXPLAINED
+                    || (is_restarted && leaves_a_motion && self.path.additions.is_empty())
             }
             None => last.error() > floor,
         };

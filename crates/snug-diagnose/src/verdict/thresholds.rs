@@ -38,6 +38,9 @@ pub(crate) const PLAIN_PROMISE: f64 = 0.95;
 /// Factor between two files' masses, dampings and stiffnesses that is one of units, or of another load \[–\]: people differ tenfold.
 /// Chosen.
 pub(crate) const NO_RIG_DIFFERS: f64 = 100.0;
+/// The same that is more than any two units that are mixed up \[–\]: one of the two was not determined at all. Chosen: a million, and as
+/// much again as people differ.
+pub(crate) const NO_UNIT_DIFFERS: f64 = 1e7;
 /// Factor within which those of two sizes are the same \[–\]: a bearing that is warm damps half as much. Chosen.
 pub(crate) const SAME_FACTOR: f64 = 3.0;
 /// What a unit's prefix changes numbers by \[–\]: milli and micro, of torque, motion or time.

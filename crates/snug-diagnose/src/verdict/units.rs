@@ -6,7 +6,7 @@
 use crate::pooled::fitted::Fitted;
 use crate::pooled::sharing::Groups;
 use crate::verdict::thresholds::{
-    FEWEST_OF_GROUP, NO_RIG_DIFFERS, SAME_FACTOR, THREE_QUARTERS, UNIT_PREFIXES,
+    FEWEST_OF_GROUP, NO_RIG_DIFFERS, NO_UNIT_DIFFERS, SAME_FACTOR, THREE_QUARTERS, UNIT_PREFIXES,
 };
 use snug_campaign::Factor;
 use snug_campaign::words::suspicion::OtherUnits;
@@ -37,7 +37,9 @@ fn apart(sizes: &[(&str, OwnSizes)]) -> Option<OtherUnits> {
         let others = sizes.iter();
         others.filter_map(move |other| {
             let common = common_factor(&other.1.low, &one.1.high)?;
-            (common.factor >= NO_RIG_DIFFERS).then_some((other, one, common))
+            (NO_RIG_DIFFERS..=NO_UNIT_DIFFERS)
+                .contains(&common.factor)
+                .then_some((other, one, common))
         })
     });
     let (larger, smaller, _) =
@@ -139,6 +141,9 @@ mod tests {
         let usual = sizes(&[hand(1.0), hand(1.5)]);
         let one_astray = sizes(&[hand(1e4), hand(1.0)]);
         assert_eq!(apart(&[("a", usual), ("b", one_astray)]), None);
+        // That nothing was determined of.
+        let anything = sizes(&[hand(1e11)]);
+        assert_eq!(apart(&[("a", sizes(&[hand(1.0)])), ("b", anything)]), None);
     }
 
     #[test]
