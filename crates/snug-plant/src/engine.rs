@@ -5,12 +5,19 @@ use crate::pooled::{block_function, group_function, sum_function};
 use crate::{PlantError, Store};
 use arrow::array::RecordBatch;
 use ballista::prelude::{SessionConfigExt, SessionContextExt};
-use datafusion::common::DataFusionError;
+use ballista_core::execution_plans::execute_physical_plan;
+use datafusion::common::{DataFusionError, internal_err};
 use datafusion::dataframe::DataFrame;
 use datafusion::datasource::file_format::options::ParquetReadOptions;
 use datafusion::execution::SessionStateBuilder;
 use datafusion::logical_expr::ScalarUDF;
+use datafusion::physical_plan::aggregates::{AggregateExec, AggregateMode};
+use datafusion::physical_plan::{ExecutionPlan, collect};
+use datafusion::physical_planner::{DefaultPhysicalPlanner, PhysicalPlanner};
 use datafusion::prelude::{SessionConfig, SessionContext};
+use datafusion_proto::protobuf::PhysicalPlanNode;
+use futures::TryStreamExt;
+use std::sync::Arc;
 use std::thread::available_parallelism;
 use std::time::Duration;
 
@@ -43,8 +50,8 @@ impl Engine {
     ///
     /// # Errors
     /// [`PlantError::Cluster`] where no scheduler can be spoken to.
-    pub(crate) async fn session(&self, stores: &[&Store]) -> Result<SessionContext, PlantError> {
-        let session = match self {
+    pub(crate) async fn session(&self, stores: &[&Store]) -> Result<Session, PlantError> {
+        let context = match self {
             Self::Embedded => {
                 let cores = available_parallelism().map_or(1, usize::from);
                 SessionContext::new_with_config(configured(SessionConfig::new(), cores))
@@ -67,11 +74,88 @@ impl Engine {
         // A connected session has forgotten what its state knew: the functions are told to it afterwards.
         scalar_functions()
             .into_iter()
-            .for_each(|one| session.register_udf(one));
-        session.register_udaf(sum_function());
-        register(&session, stores);
-        Ok(session)
+            .for_each(|one| context.register_udf(one));
+        context.register_udaf(sum_function());
+        register(&context, stores);
+        let scheduler = match self {
+            Self::Embedded => None,
+            Self::Cluster { address, .. } => Some(format!("http://{address}")),
+        };
+        Ok(Session { context, scheduler })
     }
+}
+
+/// Where plans are carried out, ready to be asked.
+pub(crate) struct Session {
+    /// What plans are made with.
+    pub context: SessionContext,
+    /// URL of the scheduler; `None` in this process.
+    scheduler: Option<String>,
+}
+
+impl Session {
+    /// What the parts of an aggregate over so many rows answer, each by itself: its groups, then the states of its functions, a group
+    /// once or more often. No part waits for another: where a worker dies, what it had is done again and nothing else.
+    ///
+    /// # Errors
+    /// [`PlantError::Engine`], also where it does not end.
+    pub async fn states_of(
+        &self,
+        aggregate: DataFrame,
+        rows: usize,
+    ) -> Result<Vec<RecordBatch>, PlantError> {
+        let context = Arc::new(aggregate.task_ctx());
+        let plan = of_each_part(&planned(aggregate).await?)?;
+        let Some(scheduler) = &self.scheduler else {
+            return in_time(collect(plan, context), rows).await;
+        };
+        let config = context.session_config().clone();
+        let codec = config.ballista_physical_extension_codec();
+        let ballista = config.ballista_config();
+        let answer = async {
+            let batches = execute_physical_plan::<PhysicalPlanNode>(
+                scheduler.clone(),
+                &ballista,
+                plan,
+                codec.as_ref(),
+                context.session_id(),
+                config,
+            );
+            batches.await?.try_collect().await
+        };
+        in_time(answer, rows).await
+    }
+}
+
+/// The plan that the engine would carry out in this process.
+async fn planned(frame: DataFrame) -> Result<Arc<dyn ExecutionPlan>, DataFusionError> {
+    let (state, plan) = frame.into_parts();
+    let plan = state.optimize(&plan)?;
+    let planner = DefaultPhysicalPlanner::default();
+    planner.create_physical_plan(&plan, &state).await
+}
+
+/// An aggregate's plan without what puts parts together.
+fn of_each_part(plan: &Arc<dyn ExecutionPlan>) -> Result<Arc<dyn ExecutionPlan>, DataFusionError> {
+    let (mut node, mut found) = (plan, None);
+    loop {
+        found = node.downcast_ref::<AggregateExec>().or(found);
+        match node.children()[..] {
+            [only] => node = only,
+            _ => break,
+        }
+    }
+    let Some(aggregate) = found else {
+        return internal_err!("the plan of a sum has no aggregate");
+    };
+    Ok(Arc::new(AggregateExec::try_new(
+        AggregateMode::Partial,
+        aggregate.group_expr().clone(),
+        aggregate.aggr_expr().to_vec(),
+        aggregate.filter_expr().to_vec(),
+        aggregate.input().clone(),
+        aggregate.input_schema(),
+    )?))
 }
 
 /// A session of this process for questions, which reads `stores`.
@@ -134,13 +218,74 @@ pub(crate) async fn answered(
     frame: DataFrame,
     rows: usize,
 ) -> Result<Vec<RecordBatch>, PlantError> {
+    in_time(frame.collect(), rows).await
+}
+
+async fn in_time(
+    answer: impl Future<Output = Result<Vec<RecordBatch>, DataFusionError>>,
+    rows: usize,
+) -> Result<Vec<RecordBatch>, PlantError> {
     let longest_s = GIVEN_UP_AFTER_S + GIVEN_UP_AFTER_S_PER_ROW * rows as f64;
     let longest = Duration::from_secs_f64(longest_s);
-    match tokio::time::timeout(longest, frame.collect()).await {
+    match tokio::time::timeout(longest, answer).await {
         Ok(answer) => Ok(answer?),
         Err(_) => {
             let text = format!("the job did not end within {longest_s:.0} s and was given up");
             Err(DataFusionError::Execution(text).into())
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use crate::schema;
+    use datafusion::common::Column;
+    use datafusion::logical_expr::{Expr, lit};
+
+    fn names(plan: &Arc<dyn ExecutionPlan>, found: &mut Vec<String>) {
+        found.push(plan.name().to_owned());
+        plan.children().iter().for_each(|one| names(one, found));
+    }
+
+    /// What a worker hands to another is lost with it, and the scheduler may wait for it for ever.
+    #[tokio::test]
+    async fn nothing_passes_between_the_parts_of_a_clusters_plans() {
+        let engine = Engine::Cluster {
+            address: "127.0.0.1:1".to_owned(),
+            parts: 4,
+        };
+        let session = engine.session(&[]).await.unwrap();
+        let folder = tempfile::tempdir().unwrap();
+        let table = schema::tightenings();
+        let file = |number: usize| {
+            let path = folder.path().join(format!("{number}.parquet"));
+            let bytes = crate::parquet_file::written("a", &table, &[]).unwrap();
+            std::fs::write(&path, bytes).unwrap();
+            path.to_str().unwrap().to_owned()
+        };
+        let urls: Vec<String> = (0..4).map(file).collect();
+        let rows = || rows_of(&session.context, urls.clone(), &table);
+        let named = |name: &str| Expr::Column(Column::from_name(name));
+        let list = sum_function().call(vec![named("torque_nm")]);
+        let keys = vec![named("day"), named("tool")];
+        let summed = rows().await.unwrap().aggregate(keys, vec![list]).unwrap();
+        let study = lit(snug_study::Study::default().to_ron().unwrap());
+        let taken = crate::fit::function::TAKEN.fields().iter();
+        let taken = std::iter::once(study).chain(taken.map(|field| named(field.name())));
+        let fitted = function().call(taken.collect()).alias("fit");
+        let fitted = rows().await.unwrap().select(vec![named("key"), fitted]);
+        let mut whole = Vec::new();
+        let summed = planned(summed).await.unwrap();
+        names(&summed, &mut whole);
+        let (mut of_parts, mut of_fit) = (Vec::new(), Vec::new());
+        names(&of_each_part(&summed).unwrap(), &mut of_parts);
+        names(&planned(fitted.unwrap()).await.unwrap(), &mut of_fit);
+        let passes = |name: &String| name.contains("Repartition") || name.contains("Coalesce");
+        assert!(whole.iter().any(passes), "{whole:?}");
+        assert_eq!(of_parts[0], "AggregateExec");
+        assert!(!of_parts.iter().any(passes), "{of_parts:?}");
+        assert!(!of_fit.iter().any(passes), "{of_fit:?}");
     }
 }

@@ -3,7 +3,7 @@
 use super::columns;
 use super::function::{TAKEN, function};
 use crate::dataset::{Commit, Dataset};
-use crate::engine::{Engine, answered, rows_of};
+use crate::engine::{Engine, Session, answered, rows_of};
 use crate::partition::{Partition, of_row};
 use crate::rows;
 use crate::schema::{self, IDENTITY};
@@ -13,7 +13,6 @@ use arrow::compute::{concat_batches, partition};
 use arrow::datatypes::SchemaRef;
 use datafusion::common::Column;
 use datafusion::logical_expr::{Expr, lit};
-use datafusion::prelude::SessionContext;
 use snug_study::Study;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -150,7 +149,7 @@ pub(crate) fn jobs(parts: &[Part], rows: usize) -> Vec<&[Part]> {
 }
 
 struct Work<'a> {
-    session: SessionContext,
+    session: Session,
     data: &'a Dataset,
     results: &'a Dataset,
     study: String,
@@ -193,7 +192,7 @@ impl Work<'_> {
     /// The results of some partitions, in the order of days, tools, files and numbers.
     async fn fitted(&self, parts: &[Part]) -> Result<RecordBatch, PlantError> {
         let urls = self.data.urls(parts.iter().map(|(_, commit)| commit));
-        let rows = rows_of(&self.session, urls, &schema::tightenings()).await?;
+        let rows = rows_of(&self.session.context, urls, &schema::tightenings()).await?;
         let named = |name: &str| Expr::Column(Column::from_name(name));
         let mut taken = vec![lit(self.study.as_str())];
         taken.extend(TAKEN.fields().iter().map(|field| named(field.name())));
@@ -234,22 +233,34 @@ impl Work<'_> {
                 failed.push((part.to_string(), reason));
                 continue;
             }
-            let file = self
-                .results
-                .write("results", part, &self.schema, &[own])
-                .await?;
-            let before = self.results.commit_of(part).await?;
-            let now = Commit {
-                files: vec![file],
-                made_from: Some(commit.digest()),
-                ..Commit::default()
-            };
-            self.results.publish(part, &now).await?;
-            self.remove_all_but(&now, before).await?;
-            fitted.rows += commit.rows();
-            fitted.partitions += 1;
+            match self.made_to_count(part, commit, own).await {
+                Ok(()) => {
+                    fitted.rows += commit.rows();
+                    fitted.partitions += 1;
+                }
+                Err(error) => failed.push((part.to_string(), reason(&error))),
+            }
         }
         Ok(failed)
+    }
+
+    /// Writes the results of all rows of a partition, and then the marker that names them.
+    async fn made_to_count(
+        &self,
+        part: &Partition,
+        commit: &Commit,
+        rows: RecordBatch,
+    ) -> Result<(), PlantError> {
+        let rows = [rows];
+        let file = self.results.write("results", part, &self.schema, &rows);
+        let now = Commit {
+            files: vec![file.await?],
+            made_from: Some(commit.digest()),
+            ..Commit::default()
+        };
+        let before = self.results.commit_of(part).await?;
+        self.results.publish(part, &now).await?;
+        self.remove_all_but(&now, before).await
     }
 
     /// Takes the files away that counted before and do so no more.

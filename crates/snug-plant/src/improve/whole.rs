@@ -3,9 +3,9 @@
 use super::ImproveSettings;
 use crate::PlantError;
 use crate::dataset::{Commit, Dataset};
+use crate::engine::Session;
 use crate::partition::Partition;
 use crate::pooled::{Held, Pass, PooledOverAll, Sharing, States, pooled_over_all};
-use datafusion::prelude::SessionContext;
 use serde::Serialize;
 use snug_campaign::Factor;
 use snug_diagnose::SharedParameter;
@@ -75,7 +75,7 @@ pub(crate) struct Whole<'a> {
     /// By what rows are known.
     pub states: &'a States,
     /// Where rows are asked.
-    pub session: &'a SessionContext,
+    pub session: &'a Session,
     /// What rows are compared by.
     pub compared: Compared,
     /// One of the tightenings.

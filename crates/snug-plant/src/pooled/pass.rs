@@ -1,11 +1,12 @@
-//! One pass over a dataset: every row is asked, and what the rows of a partition and a group say is added up by the engine.
+//! One pass over a dataset: every row is asked, what the rows of a partition and a group say is added up by the engine part by part, and
+//! here the parts.
 
 use super::function::{ASKED, GROUPED, block_function, group_function};
 use super::question::{Held, Totals};
-use super::sum::sum_function;
+use super::sum::{Places, sum_function};
 use crate::PlantError;
 use crate::dataset::{Commit, Dataset};
-use crate::engine::{answered, rows_of};
+use crate::engine::{Session, rows_of};
 use crate::fit::{jobs, reason};
 use crate::partition::{Partition, of_row};
 use crate::schema;
@@ -14,12 +15,11 @@ use arrow::datatypes::{Float64Type, SchemaRef};
 use arrow::error::ArrowError;
 use datafusion::common::Column;
 use datafusion::logical_expr::{Expr, lit};
-use datafusion::prelude::SessionContext;
 use std::collections::BTreeMap;
 
 /// What can be passed over: a dataset, the study whose model its rows are asked with, and where that is done.
 pub(crate) struct Pass<'a> {
-    pub session: &'a SessionContext,
+    pub session: &'a Session,
     pub data: &'a Dataset,
     /// As RON.
     pub study: &'a str,
@@ -112,7 +112,7 @@ impl Pass<'_> {
         text: &str,
     ) -> Result<Found, PlantError> {
         let urls = self.data.urls(job.iter().map(|(_, commit)| commit));
-        let rows = rows_of(self.session, urls, &schema::tightenings()).await?;
+        let rows = rows_of(&self.session.context, urls, &schema::tightenings()).await?;
         let taken = |schema: &SchemaRef| -> Vec<Expr> {
             let names = schema.fields().iter().map(|field| field.name().clone());
             names
@@ -120,48 +120,67 @@ impl Pass<'_> {
                 .collect()
         };
         let asked = [vec![lit(self.study), lit(text)], taken(&ASKED)].concat();
-        let group = match held.sharing.factor {
-            Some(_) => group_function().call([vec![lit(text)], taken(&GROUPED)].concat()),
-            None => lit(datafusion::common::ScalarValue::Utf8(None)),
-        };
         let named = |name: &str| Expr::Column(Column::from_name(name));
-        let said = rows.select(vec![
-            named("day"),
-            named("tool"),
-            group.alias("sharing"),
-            block_function().call(asked).alias("said"),
-        ])?;
-        let by = vec![named("day"), named("tool"), named("sharing")];
+        let mut by = vec![named("day"), named("tool")];
+        let mut wanted = by.clone();
+        if held.sharing.factor.is_some() {
+            let taken = [vec![lit(text)], taken(&GROUPED)].concat();
+            wanted.push(group_function().call(taken).alias("sharing"));
+            by.push(named("sharing"));
+        }
+        wanted.push(block_function().call(asked).alias("said"));
         let sums = vec![sum_function().call(vec![named("said")]).alias("sums")];
         let count = job.iter().map(|(_, commit)| commit.rows()).sum();
-        let batches = answered(said.aggregate(by, sums)?, count).await?;
+        let said = rows.select(wanted)?.aggregate(by, sums)?;
+        let mut sums = Sums::new();
+        for batch in self.session.states_of(said, count).await? {
+            read(&batch, held.sharing.factor.is_some(), &mut sums)?;
+        }
         let mut found = Found::new();
-        for batch in &batches {
-            read(batch, held.all.len(), &mut found)?;
+        for ((partition, group), places) in sums {
+            let said = totals(&places.sums(), held.all.len())?;
+            found.entry(partition).or_default().insert(group, said);
         }
         Ok(found)
     }
 }
 
-/// The sums of a batch, by partition and group.
-fn read(batch: &RecordBatch, p: usize, found: &mut Found) -> Result<(), PlantError> {
-    let groups = batch.column(2).as_string::<i32>();
-    let sums = batch.column(3).as_list::<i32>();
+/// Sums that parts of the rows of a partition and a group add to.
+type Sums = BTreeMap<(Partition, Option<String>), Places>;
+
+/// Adds what a batch says: day, tool, group where there are some, and the state of the sums.
+fn read(batch: &RecordBatch, by_group: bool, sums: &mut Sums) -> Result<(), PlantError> {
+    let foreign = || {
+        let text = format!("its sums came as {}", batch.schema());
+        PlantError::columns("a pass")(ArrowError::SchemaError(text))
+    };
+    let states = batch
+        .columns()
+        .last()
+        .and_then(|all| all.as_list_opt::<i32>());
+    let states = states.ok_or_else(foreign)?;
+    let groups = match by_group {
+        true => Some(batch.column(2).as_string_opt::<i32>().ok_or_else(foreign)?),
+        false => None,
+    };
     for row in 0..batch.num_rows() {
         let partition = of_row(batch.column(0), batch.column(1), row)?;
-        let group = groups.is_valid(row).then(|| groups.value(row).to_owned());
-        let list = sums.value(row);
-        let list = list.as_primitive::<Float64Type>().values();
-        let foreign = || {
-            let text = format!("{} sums came of {p} sizes", list.len());
-            PlantError::columns("a pass")(ArrowError::SchemaError(text))
-        };
-        let said = Totals::from_list(p, list).ok_or_else(foreign)?;
-        let of_part = found.entry(partition).or_default();
-        of_part
-            .entry(group)
-            .or_insert_with(|| Totals::zero(p))
-            .add(&said);
+        let group = groups.filter(|groups| groups.is_valid(row));
+        let group = group.map(|groups| groups.value(row).to_owned());
+        let state = states.value(row);
+        let state = state
+            .as_primitive_opt::<Float64Type>()
+            .ok_or_else(foreign)?;
+        let places = sums.entry((partition, group)).or_default();
+        places.merge(state.values());
     }
     Ok(())
+}
+
+fn totals(sums: &[f64], p: usize) -> Result<Totals, PlantError> {
+    let foreign = || {
+        let text = format!("{} sums came of {p} sizes", sums.len());
+        PlantError::columns("a pass")(ArrowError::SchemaError(text))
+    };
+    Totals::from_list(p, sums).ok_or_else(foreign)
 }

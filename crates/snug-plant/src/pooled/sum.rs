@@ -65,9 +65,28 @@ impl AggregateUDFImpl for Sum {
 
 /// The sums of every place of the lists.
 #[derive(Debug, Default)]
-struct Places(Vec<ExactSum>);
+pub(super) struct Places(Vec<ExactSum>);
 
 impl Places {
+    /// Adds what another's state says: place by place how many parts, and these.
+    pub fn merge(&mut self, state: &[f64]) {
+        let (mut rest, mut place) = (state, 0);
+        while let Some((&count, after)) = rest.split_first() {
+            let (parts, next) = after.split_at((count as usize).min(after.len()));
+            for part in parts {
+                self.at(place).add(*part);
+            }
+            // A place without parts is one all the same: its sum is 0.
+            self.at(place);
+            (rest, place) = (next, place + 1);
+        }
+    }
+
+    /// The sums, each rounded once.
+    pub fn sums(&self) -> Vec<f64> {
+        self.0.iter().map(ExactSum::value).collect()
+    }
+
     fn at(&mut self, place: usize) -> &mut ExactSum {
         if self.0.len() <= place {
             self.0.resize_with(place + 1, ExactSum::default);
@@ -104,8 +123,7 @@ impl Accumulator for Places {
     }
 
     fn evaluate(&mut self) -> Result<ScalarValue, DataFusionError> {
-        let sums = self.0.iter().map(ExactSum::value).collect();
-        Ok(ScalarValue::List(Arc::new(list(sums))))
+        Ok(ScalarValue::List(Arc::new(list(self.sums()))))
     }
 
     fn size(&self) -> usize {
@@ -113,7 +131,7 @@ impl Accumulator for Places {
         size_of_val(self) + self.0.capacity() * size_of::<ExactSum>() + parts * size_of::<f64>()
     }
 
-    /// Place by place how many parts, and these.
+    /// As [`Places::merge`] takes it.
     fn state(&mut self) -> Result<Vec<ScalarValue>, DataFusionError> {
         let mut flat = Vec::new();
         for sum in &self.0 {
@@ -124,18 +142,7 @@ impl Accumulator for Places {
     }
 
     fn merge_batch(&mut self, states: &[ArrayRef]) -> Result<(), DataFusionError> {
-        each(states, |flat| {
-            let (mut rest, mut place) = (flat, 0);
-            while let Some((&count, after)) = rest.split_first() {
-                let (parts, next) = after.split_at((count as usize).min(after.len()));
-                for part in parts {
-                    self.at(place).add(*part);
-                }
-                // A place without parts is one all the same: its sum is 0.
-                self.at(place);
-                (rest, place) = (next, place + 1);
-            }
-        })
+        each(states, |state| self.merge(state))
     }
 }
 

@@ -31,18 +31,32 @@ fn started(arguments: &[String]) -> Process {
 /// A scheduler.
 pub struct Cluster {
     port: u16,
-    _scheduler: Process,
+    scheduler: Process,
+}
+
+fn scheduler(port: u16) -> Process {
+    let address = format!("127.0.0.1:{port}");
+    let scheduler = started(&["scheduler".into(), "--bind".into(), address]);
+    listens(port);
+    scheduler
 }
 
 impl Cluster {
     pub fn start() -> Self {
         let port = free_port();
-        let address = format!("127.0.0.1:{port}");
-        let scheduler = started(&["scheduler".into(), "--bind".into(), address]);
-        listens(port);
         Self {
             port,
-            _scheduler: scheduler,
+            scheduler: scheduler(port),
+        }
+    }
+
+    /// Kills the scheduler and starts another in its place, which knows of nothing.
+    pub fn restart(mut self) -> Self {
+        self.scheduler.0.kill().unwrap();
+        self.scheduler.0.wait().unwrap();
+        Self {
+            port: self.port,
+            scheduler: scheduler(self.port),
         }
     }
 
@@ -63,7 +77,7 @@ impl Cluster {
         worker
     }
 
-    fn settings(&self) -> FitSettings {
+    pub fn settings(&self) -> FitSettings {
         FitSettings {
             effects: vec!["backlash".into()],
             engine: Engine::Cluster {

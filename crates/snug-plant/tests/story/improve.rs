@@ -6,6 +6,11 @@ use arrow::array::{Array, AsArray, RecordBatch};
 use arrow::datatypes::{Float64Type, UInt32Type};
 use snug_plant::{Engine, ImproveSettings, Improved, PlantError, Simulation, improve};
 use std::fs;
+use std::sync::{Arc, Mutex};
+use std::time::{Duration, Instant};
+
+/// After which time a worker is killed in a pass that takes several times as long.
+const IN_THE_MIDDLE: Duration = Duration::from_millis(150);
 
 /// A sixth of the rows have it; two rows of every tool in every fifth of the time are asked.
 fn plant() -> Simulation {
@@ -153,6 +158,10 @@ async fn embedded_and_two_workers_give_the_same_bits() {
         ..without_results
     };
     improved(&plant, "cluster", &on_cluster).await.unwrap();
+    assert_same_bits(&plant, "cluster", "embedded");
+}
+
+fn assert_same_bits(plant: &Plant, one: &str, other: &str) {
     for table in [
         "sizes.parquet",
         "ladder.parquet",
@@ -161,8 +170,70 @@ async fn embedded_and_two_workers_give_the_same_bits() {
         "verdict.json",
     ] {
         let content = |to: &str| fs::read(plant.path(&format!("{to}/{table}"))).unwrap();
-        assert_eq!(content("cluster"), content("embedded"), "{table}");
+        assert_eq!(content(one), content(other), "{table}");
     }
+}
+
+/// Passes that were told, each with the time at which it ended.
+type Passes = Mutex<Vec<(String, Instant)>>;
+
+/// Of two workers one dies while the sums of a pass are with both: what it had is asked again, and nothing twice.
+#[tokio::test(flavor = "multi_thread")]
+async fn a_worker_killed_in_the_middle_of_a_pass_changes_no_bit() {
+    let plant = Plant::simulated(&Simulation {
+        tools: 6,
+        days: 5,
+        per_day: 60,
+        in_tools: vec![2],
+        from_day: 3,
+        ..plant()
+    })
+    .await;
+    let embedded = ImproveSettings {
+        share: 0.5,
+        results: false,
+        effects: vec!["cubic_stiffness".to_owned()],
+        ..settings()
+    };
+    improved(&plant, "embedded", &embedded).await.unwrap();
+    let cluster = Cluster::start();
+    let _first = cluster.worker();
+    let second = Mutex::new(Some(cluster.worker()));
+    let on_cluster = ImproveSettings {
+        engine: Engine::Cluster {
+            address: cluster.address(),
+            parts: 5,
+        },
+        ..embedded
+    };
+    let (passes, killed) = (Passes::default(), Arc::new(Mutex::new(None)));
+    let told = |text: &str| {
+        if !text.contains("over all rows") {
+            return;
+        }
+        let mut passes = passes.lock().unwrap();
+        passes.push((text.to_owned(), Instant::now()));
+        let Some(worker) = second.lock().unwrap().take() else {
+            return;
+        };
+        let killed = killed.clone();
+        std::thread::spawn(move || {
+            std::thread::sleep(IN_THE_MIDDLE);
+            drop(worker);
+            *killed.lock().unwrap() = Some(Instant::now());
+        });
+    };
+    let (data, to) = (plant.store("data"), plant.store("cluster"));
+    improve(data, to, &on_cluster, &told).await.unwrap();
+    assert_same_bits(&plant, "cluster", "embedded");
+    // The pass after the first had begun when the worker died, and ended afterwards.
+    let passes = passes.into_inner().unwrap();
+    let killed = killed.lock().unwrap().unwrap();
+    assert!(passes[1].0.contains("pass 2"), "{passes:?}");
+    assert!(
+        passes[0].1 < killed && killed < passes[1].1,
+        "{killed:?} {passes:?}"
+    );
 }
 
 #[tokio::test(flavor = "multi_thread")]

@@ -5,5 +5,6 @@ mod cluster;
 mod faults;
 mod import;
 mod improve;
+mod kills;
 mod plant;
 mod watch;
