@@ -18,7 +18,7 @@ use serde::Serialize;
 use snug_identify::{FitTask, SIDE_BY_SIDE, identify_all};
 use snug_model::Input;
 use snug_preprocess::Prepared;
-use snug_study::{Study, StudyError, fit_tightenings};
+use snug_study::{Study, StudyError, fit_numbers};
 use std::path::Path;
 use std::time::Duration;
 
@@ -42,7 +42,7 @@ pub struct Figures {
     pub bytes: u64,
     /// Least squares alone (`identify_all`), rows in memory \[1/s of processor time\].
     pub identified_in_memory_per_s: Option<f64>,
-    /// The same with all that is reported of a fit (`fit_tightenings`) \[1/s of processor time\].
+    /// The same with all that is reported of a fit (`fit_numbers`) \[1/s of processor time\].
     pub fitted_in_memory_per_s: Option<f64>,
     /// By the engine in one process, from Parquet to results \[1/s of processor time\].
     pub embedded_per_s: f64,
@@ -280,7 +280,7 @@ fn in_memory_rates(study: &Study, prepared: &[Prepared]) -> Result<(f64, f64), P
     let all: Vec<&Prepared> = prepared.iter().collect();
     let spent = Spent::since(&resources)?;
     let found = (all.par_chunks(SIDE_BY_SIDE))
-        .map(|some| fit_tightenings(study, some).map(|fitted| fitted.len()))
+        .map(|some| fit_numbers(study, some).map(|fitted| fitted.len()))
         .collect::<Result<Vec<usize>, _>>()?;
     let fitted = found.iter().sum::<usize>() as f64 / spent.so_far(&resources)?.1;
     Ok((identified, fitted))

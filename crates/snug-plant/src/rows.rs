@@ -9,6 +9,8 @@ pub use encode::batch;
 
 use arrow::array::RecordBatch;
 use arrow::compute::{SortColumn, lexsort_to_indices, take_record_batch};
+#[cfg(target_endian = "little")]
+use arrow::datatypes::ToByteSlice;
 use arrow::error::ArrowError;
 use snug_campaign::{Quantity, Tightening};
 use snug_preprocess::Prepared;
@@ -44,10 +46,7 @@ pub(crate) fn sorted(rows: &RecordBatch, by: &[&str]) -> Result<RecordBatch, Arr
     take_record_batch(rows, &order)
 }
 
-/// Values of which the bytes are put side by side for a checksum.
-const VALUES_AT_ONCE: usize = 256;
-
-/// CRC-32 of a tightening's signals.
+/// CRC-32 of a tightening's signals: of each its length and its values, in the byte order of little-endian machines.
 pub(crate) fn checksum(tightening: &Tightening) -> u32 {
     let motion = Quantity::ALL.map(|quantity| tightening.motion.get(quantity).unwrap_or(&[]));
     let force = tightening.grip_force_n.as_deref().unwrap_or(&[]);
@@ -58,12 +57,11 @@ pub(crate) fn checksum(tightening: &Tightening) -> u32 {
         .chain([force])
     {
         hasher.update(&(signal.len() as u64).to_le_bytes());
-        for some in signal.chunks(VALUES_AT_ONCE) {
-            let mut bytes = [0; VALUES_AT_ONCE * size_of::<f64>()];
-            for (place, value) in bytes.chunks_exact_mut(size_of::<f64>()).zip(some) {
-                place.copy_from_slice(&value.to_le_bytes());
-            }
-            hasher.update(&bytes[..size_of_val(some)]);
+        #[cfg(target_endian = "little")]
+        hasher.update(signal.to_byte_slice());
+        #[cfg(target_endian = "big")]
+        for value in signal {
+            hasher.update(&value.to_le_bytes());
         }
     }
     hasher.finalize()

@@ -36,5 +36,6 @@ pub use tightenings::diagnosed::{
 };
 pub use tightenings::prepared::{Prepared, prepare};
 pub use tightenings::{
-    FileTightenings, FittedTightening, fit_tightenings, fitted_files, read_tightenings, settled,
+    FileTightenings, FittedTightening, fit_numbers, fit_tightenings, fitted_files,
+    read_tightenings, settled,
 };

@@ -6,7 +6,7 @@ pub(crate) mod prepared;
 
 use crate::error::StudyError;
 use crate::evaluation::prepared_file::PreparedFile;
-use crate::evaluation::tightening::fitted;
+use crate::evaluation::tightening::{Kept, fitted, fitted_keeping};
 use crate::study::Study;
 use crate::tasks::cases::chosen;
 use crate::tasks::settling::{leaves_open, settle};
@@ -79,6 +79,21 @@ pub fn fit_tightenings(
     let outcomes = fitted(study, prepared)?.into_iter();
     Ok(outcomes
         .map(|outcome| outcome.map(|done| (done.result, done.traces)))
+        .collect())
+}
+
+/// The same numbers without the signals, for a table of results: of the measures, agreement of the displacement and with the noise,
+/// frequencies and damping; that of the fitted output only where the noise is not known.
+///
+/// # Errors
+/// As [`fit_tightenings`].
+pub fn fit_numbers(
+    study: &Study,
+    prepared: &[&Prepared],
+) -> Result<Vec<Result<TighteningResult, IdentifyError>>, StudyError> {
+    let outcomes = fitted_keeping(Kept::Numbers, study, prepared)?.into_iter();
+    Ok(outcomes
+        .map(|outcome| outcome.map(|done| done.result))
         .collect())
 }
 

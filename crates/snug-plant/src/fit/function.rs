@@ -12,9 +12,10 @@ use datafusion::logical_expr::{
     ColumnarValue, ReturnFieldArgs, ScalarFunctionArgs, ScalarUDF, ScalarUDFImpl, Signature,
     Volatility,
 };
+use snug_campaign::TighteningResult;
 use snug_identify::{IdentifyError, SIDE_BY_SIDE};
 use snug_preprocess::Prepared;
-use snug_study::{FittedTightening, Study, fit_tightenings};
+use snug_study::{Study, fit_numbers};
 use std::path::Path;
 use std::sync::{Arc, LazyLock, Mutex};
 
@@ -117,11 +118,9 @@ pub(crate) fn taken(
 /// Fits every row.
 fn fitted(study: &Study, prepared: &[Prepared]) -> Result<Vec<Outcome>, DataFusionError> {
     in_lanes(prepared, |side_by_side| {
-        let outcomes = fit_tightenings(study, side_by_side).map_err(external)?;
-        let outcome = |one: Result<FittedTightening, IdentifyError>| {
-            one.map(|(result, _)| result)
-                .map_err(|error| error.to_string())
-        };
+        let outcomes = fit_numbers(study, side_by_side).map_err(external)?;
+        let outcome =
+            |one: Result<TighteningResult, IdentifyError>| one.map_err(|error| error.to_string());
         Ok(outcomes.into_iter().map(outcome).collect())
     })
 }

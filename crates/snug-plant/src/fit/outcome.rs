@@ -60,20 +60,16 @@ pub(super) fn columns(
     outcomes: &[Outcome],
 ) -> Result<StructArray, ArrowError> {
     let done = || outcomes.iter().map(|outcome| outcome.as_ref().ok());
-    let estimate = |one: Option<&'_ TighteningResult>| one.and_then(|one| one.estimate.clone());
-    let estimates: Vec<Option<Estimate>> = done().map(estimate).collect();
-    let each = || estimates.iter().map(Option::as_ref);
+    let each = || done().map(|one| one.and_then(|one| one.estimate.as_ref()));
     let measure =
         |read: fn(&TighteningResult) -> Option<f64>| numbers(done().map(|one| read(one?)));
     let mut columns: Vec<ArrayRef> = Vec::with_capacity(fields.len());
     for index in 0..parameters {
-        let of = |estimate: Option<&Estimate>| {
-            estimate.and_then(|one| one.parameters.get(index).cloned())
-        };
-        columns.push(numbers(each().map(|one| Some(of(one)?.value))));
-        columns.push(numbers(each().map(|one| of(one)?.standard_error)));
-        columns.push(numbers(each().map(|one| Some(of(one)?.interval?.low))));
-        columns.push(numbers(each().map(|one| Some(of(one)?.interval?.high))));
+        let of = || each().map(|one| one?.parameters.get(index));
+        columns.push(numbers(of().map(|one| Some(one?.value))));
+        columns.push(numbers(of().map(|one| one?.standard_error)));
+        columns.push(numbers(of().map(|one| Some(one?.interval?.low))));
+        columns.push(numbers(of().map(|one| Some(one?.interval?.high))));
     }
     let mut selected = BooleanBuilder::new();
     done().for_each(|one| selected.append_value(one.is_some_and(|one| one.selection.selected())));

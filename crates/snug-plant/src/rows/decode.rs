@@ -69,13 +69,35 @@ fn count(column: &UInt32Array, row: usize) -> Option<usize> {
     column.is_valid(row).then(|| column.value(row) as usize)
 }
 
-fn list(column: &ListArray, row: usize) -> Result<Option<Vec<f64>>, ArrowError> {
-    if column.is_null(row) {
-        return Ok(None);
+/// A column of lists of numbers.
+struct Numbers<'a> {
+    lists: &'a ListArray,
+    values: &'a [f64],
+}
+
+impl<'a> Numbers<'a> {
+    fn of(lists: &'a ListArray) -> Result<Self, ArrowError> {
+        let values = lists.values().as_primitive_opt::<Float64Type>();
+        let values = typed("of a list", values)?.values();
+        Ok(Self { lists, values })
     }
-    let values = column.value(row);
-    let values = typed("of a list", values.as_primitive_opt::<Float64Type>())?;
-    Ok(Some(values.values().to_vec()))
+
+    /// The list of a row; `None` where there is none.
+    fn row(&self, row: usize) -> Option<&'a [f64]> {
+        let offsets = self.lists.value_offsets();
+        let range = offsets[row] as usize..offsets[row + 1] as usize;
+        self.lists.is_valid(row).then(|| &self.values[range])
+    }
+}
+
+/// What is found under each of some names.
+fn each<T, const N: usize>(
+    names: [&str; N],
+    find: impl FnMut(&str) -> Result<T, ArrowError>,
+) -> Result<[T; N], ArrowError> {
+    let found = names.into_iter().map(find).collect::<Result<Vec<T>, _>>()?;
+    let found = <[T; N]>::try_from(found);
+    Ok(found.unwrap_or_else(|_| unreachable!("there are as many as names")))
 }
 
 fn quantity(name: Option<String>) -> Result<Option<Quantity>, ArrowError> {
@@ -127,27 +149,32 @@ pub(crate) fn names_of(
 /// A column that is missing or of another type.
 pub(crate) fn conditions(batch: &RecordBatch) -> Result<Vec<Tightening>, ArrowError> {
     let columns = Columns(batch);
-    let [participants, strategies, joints] =
-        ["participant", "strategy", "joint"].map(|name| columns.texts(name));
-    let (participants, strategies, joints) = (participants?, strategies?, joints?);
-    let paces = columns.numbers("pace_per_min")?;
     let targets = columns.numbers("target_torque_nm")?;
     let rig = Rig {
         lever_arm_m: 1.0,
         known_inertia_kg_m2: 0.0,
     };
-    let of_row = |row: usize| {
+    let of_row = |(row, conditions)| {
         let mut one = Tightening::from_torque(rig, 1.0, Vec::new());
-        one.conditions = Conditions {
-            participant: text(participants, row),
-            strategy: text(strategies, row),
-            joint: text(joints, row),
-            pace_per_min: number(paces, row),
-        };
+        one.conditions = conditions;
         one.target_torque_nm = targets.value(row);
         one
     };
-    Ok((0..batch.num_rows()).map(of_row).collect())
+    let conditions = conditions_of(&columns, batch.num_rows())?;
+    Ok(conditions.into_iter().enumerate().map(of_row).collect())
+}
+
+fn conditions_of(columns: &Columns<'_>, rows: usize) -> Result<Vec<Conditions>, ArrowError> {
+    let names = ["participant", "strategy", "joint"];
+    let [participants, strategies, joints] = each(names, |name| columns.texts(name))?;
+    let paces = columns.numbers("pace_per_min")?;
+    let of_row = |row| Conditions {
+        participant: text(participants, row),
+        strategy: text(strategies, row),
+        joint: text(joints, row),
+        pace_per_min: number(paces, row),
+    };
+    Ok((0..rows).map(of_row).collect())
 }
 
 /// The prepared tightenings of a batch that has the columns of the table `tightenings`, but for key, day, tool and station.
@@ -156,53 +183,114 @@ pub(crate) fn conditions(batch: &RecordBatch) -> Result<Vec<Tightening>, ArrowEr
 /// A column that is missing or of another type, and signals whose checksum is not the stored one.
 pub(crate) fn prepared(batch: &RecordBatch) -> Result<Vec<Prepared>, ArrowError> {
     let columns = Columns(batch);
-    let ids = ids(batch)?;
+    let signals = Signals::of(&columns)?;
+    let numbers = [
+        "start_s",
+        "interval_s",
+        "lever_arm_m",
+        "known_inertia_kg_m2",
+        "peak_torque_nm",
+        "target_torque_nm",
+    ];
+    let numbers = each(numbers, |name| columns.numbers(name))?;
+    let [onsets, zeros, checksums] =
+        each(["onset_sample", "zero_sample", "signals_crc32"], |name| {
+            columns.counts(name)
+        })?;
+    let [rejects, up, down] = each(["data_quality_rejects", "goes_up", "goes_down"], |name| {
+        columns.flags(name)
+    })?;
+    let taken_out = columns.lists("corrections")?;
     let noises = noises(&columns, batch.num_rows())?;
-    let [participants, strategies, joints] =
-        ["participant", "strategy", "joint"].map(|name| columns.texts(name));
-    let (participants, strategies, joints) = (participants?, strategies?, joints?);
-    let number_of =
-        |name: &'static str, row: usize| Ok::<_, ArrowError>(columns.numbers(name)?.value(row));
-    let count_of = |name: &'static str, row| Ok::<_, ArrowError>(count(columns.counts(name)?, row));
-    let rejects = columns.flags("data_quality_rejects")?;
-    let paces = columns.numbers("pace_per_min")?;
+    let conditions = conditions_of(&columns, batch.num_rows())?;
+    let known = ids(batch)?.into_iter().zip(noises).zip(conditions);
     let mut all = Vec::with_capacity(batch.num_rows());
-    for ((row, id), noise) in ids.into_iter().enumerate().zip(noises) {
-        let time_base = TimeBase {
-            start_s: number_of("start_s", row)?,
-            interval_s: number_of("interval_s", row)?,
-        };
+    for (row, ((id, noise), conditions)) in known.enumerate() {
+        let [
+            start_s,
+            interval_s,
+            lever_arm_m,
+            known_inertia_kg_m2,
+            peak,
+            target,
+        ] = numbers.map(|column| column.value(row));
         let tightening = Tightening {
-            conditions: Conditions {
-                participant: text(participants, row),
-                strategy: text(strategies, row),
-                joint: text(joints, row),
-                pace_per_min: number(paces, row),
-            },
+            torque_nm: signals.torque.row(row).unwrap_or_default().to_vec(),
+            motion: signals.motion(row, interval_s)?,
+            grip_force_n: signals.force.row(row).map(<[f64]>::to_vec),
             rig: Rig {
-                lever_arm_m: number_of("lever_arm_m", row)?,
-                known_inertia_kg_m2: number_of("known_inertia_kg_m2", row)?,
+                lever_arm_m,
+                known_inertia_kg_m2,
             },
-            torque_nm: list(columns.lists("torque_nm")?, row)?.unwrap_or_default(),
-            motion: motion(&columns, row, time_base.interval_s)?,
-            grip_force_n: list(columns.lists("grip_force_n")?, row)?,
-            peak_torque_nm: number_of("peak_torque_nm", row)?,
-            target_torque_nm: number_of("target_torque_nm", row)?,
-            onset: count_of("onset_sample", row)?,
-            corrections: corrections(columns.lists("corrections")?, row)?,
-            time_base,
+            time_base: TimeBase {
+                start_s,
+                interval_s,
+            },
+            peak_torque_nm: peak,
+            target_torque_nm: target,
+            onset: count(onsets, row),
+            corrections: corrections(taken_out, row)?,
+            conditions,
             noise,
             id,
         };
-        check(&tightening, columns.counts("signals_crc32")?.value(row))?;
+        check(&tightening, checksums.value(row))?;
         all.push(Prepared {
             tightening,
-            thesis_checks: thesis_checks(&columns, row)?,
-            zero_sample: count_of("zero_sample", row)?,
+            thesis_checks: up.is_valid(row).then(|| ThesisChecks {
+                goes_up: up.value(row),
+                goes_down: down.value(row),
+            }),
+            zero_sample: count(zeros, row),
             data_quality_rejects: rejects.value(row),
         });
     }
     Ok(all)
+}
+
+/// The columns of signals.
+struct Signals<'a> {
+    torque: Numbers<'a>,
+    displacement: Numbers<'a>,
+    velocity: Numbers<'a>,
+    acceleration: Numbers<'a>,
+    force: Numbers<'a>,
+    integrated_from: &'a StringArray,
+}
+
+impl<'a> Signals<'a> {
+    fn of(columns: &Columns<'a>) -> Result<Self, ArrowError> {
+        let names = [
+            "torque_nm",
+            "displacement_rad",
+            "velocity_rad_per_s",
+            "acceleration_rad_per_s2",
+            "grip_force_n",
+        ];
+        let [torque, displacement, velocity, acceleration, force] =
+            each(names, |name| Numbers::of(columns.lists(name)?))?;
+        Ok(Self {
+            torque,
+            displacement,
+            velocity,
+            acceleration,
+            force,
+            integrated_from: columns.texts("integrated_from")?,
+        })
+    }
+
+    fn motion(&self, row: usize, interval_s: f64) -> Result<Motion, ArrowError> {
+        let own = |column: &Numbers<'_>| column.row(row).map(<[f64]>::to_vec);
+        let mut motion = Motion {
+            displacement_rad: own(&self.displacement),
+            velocity_rad_per_s: own(&self.velocity),
+            acceleration_rad_per_s2: own(&self.acceleration),
+        };
+        if let Some(from) = quantity(text(self.integrated_from, row))? {
+            complete(&mut motion, from, interval_s);
+        }
+        Ok(motion)
+    }
 }
 
 fn check(tightening: &Tightening, stored: u32) -> Result<(), ArrowError> {
@@ -216,33 +304,13 @@ fn check(tightening: &Tightening, stored: u32) -> Result<(), ArrowError> {
     )))
 }
 
-fn motion(columns: &Columns<'_>, row: usize, interval_s: f64) -> Result<Motion, ArrowError> {
-    let mut motion = Motion {
-        displacement_rad: list(columns.lists("displacement_rad")?, row)?,
-        velocity_rad_per_s: list(columns.lists("velocity_rad_per_s")?, row)?,
-        acceleration_rad_per_s2: list(columns.lists("acceleration_rad_per_s2")?, row)?,
-    };
-    if let Some(from) = quantity(text(columns.texts("integrated_from")?, row))? {
-        complete(&mut motion, from, interval_s);
-    }
-    Ok(motion)
-}
-
-fn thesis_checks(columns: &Columns<'_>, row: usize) -> Result<Option<ThesisChecks>, ArrowError> {
-    let (up, down) = (columns.flags("goes_up")?, columns.flags("goes_down")?);
-    Ok(up.is_valid(row).then(|| ThesisChecks {
-        goes_up: up.value(row),
-        goes_down: down.value(row),
-    }))
-}
-
 fn noises(columns: &Columns<'_>, rows: usize) -> Result<Vec<Option<NoiseFloor>>, ArrowError> {
     let (sources, quantities) = (
         columns.texts("noise_source")?,
         columns.texts("noise_quantity")?,
     );
     let deviations = columns.numbers("noise_standard_deviation")?;
-    let autoregressions = columns.lists("noise_autoregression")?;
+    let autoregressions = Numbers::of(columns.lists("noise_autoregression")?)?;
     let innovations = columns.numbers("noise_innovation_sd")?;
     let samples = columns.counts("noise_samples")?;
     let noise = |row| {
@@ -256,7 +324,7 @@ fn noises(columns: &Columns<'_>, rows: usize) -> Result<Vec<Option<NoiseFloor>>,
             source: known.ok_or_else(unknown)?.0,
             quantity,
             standard_deviation: deviations.value(row),
-            autoregression: list(autoregressions, row)?.unwrap_or_default(),
+            autoregression: autoregressions.row(row).unwrap_or_default().to_vec(),
             innovation_sd: innovations.value(row),
             samples: samples.value(row) as usize,
         }))
@@ -265,6 +333,9 @@ fn noises(columns: &Columns<'_>, rows: usize) -> Result<Vec<Option<NoiseFloor>>,
 }
 
 fn corrections(column: &ListArray, row: usize) -> Result<Vec<Correction>, ArrowError> {
+    if column.is_null(row) || column.value_length(row) == 0 {
+        return Ok(Vec::new());
+    }
     let items = column.value(row);
     let items: &StructArray = typed("corrections", items.as_struct_opt())?;
     let column = |name: &str| {

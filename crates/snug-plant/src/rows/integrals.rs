@@ -44,12 +44,14 @@ pub(super) fn complete(motion: &mut Motion, from: Quantity, interval_s: f64) {
     let Some((_, below)) = CHAINS.iter().find(|(known, _)| *known == from) else {
         return;
     };
-    let Some(mut above) = motion.get(from).map(<[f64]>::to_vec) else {
-        return;
-    };
+    let mut above = from;
     for quantity in *below {
-        above = cumulative_trapezoid(&above, interval_s);
-        motion.set(*quantity, above.clone());
+        let Some(samples) = motion.get(above) else {
+            return;
+        };
+        let integral = cumulative_trapezoid(samples, interval_s);
+        motion.set(*quantity, integral);
+        above = *quantity;
     }
 }
 

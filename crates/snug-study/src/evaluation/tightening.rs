@@ -23,8 +23,26 @@ pub struct Evaluated {
     pub onset: Option<usize>,
 }
 
+/// What is made of a simulated tightening.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kept {
+    /// Every signal, and all that follows from them.
+    Signals,
+    /// What selection and a table of results take: no signal, and no measure that needs one of its own.
+    Numbers,
+}
+
 /// Identifies tightenings side by side and simulates each with what was found.
 pub fn fitted(
+    study: &Study,
+    prepared: &[&Prepared],
+) -> Result<Vec<Result<Evaluated, IdentifyError>>, StudyError> {
+    fitted_keeping(Kept::Signals, study, prepared)
+}
+
+/// The same, of which so much is kept.
+pub fn fitted_keeping(
+    kept: Kept,
     study: &Study,
     prepared: &[&Prepared],
 ) -> Result<Vec<Result<Evaluated, IdentifyError>>, StudyError> {
@@ -40,12 +58,13 @@ pub fn fitted(
         .collect::<Result<Vec<FitTask<'_>>, StudyError>>()?;
     let estimates = identify_all(&tasks);
     Ok((estimates.into_iter().zip(&tasks).zip(prepared))
-        .map(|((estimate, task), one)| Ok(identified(study, task, one, estimate?)?))
+        .map(|((estimate, task), one)| Ok(identified(kept, study, task, one, estimate?)?))
         .collect())
 }
 
 /// A tightening simulated with its own estimate.
 fn identified(
+    kept: Kept,
     study: &Study,
     task: &FitTask<'_>,
     prepared: &Prepared,
@@ -66,7 +85,7 @@ fn identified(
         input,
         prepared,
         estimate,
-        study.identify.unscored_samples,
+        (study.identify.unscored_samples, kept),
         |estimate, measures| {
             let values: Vec<f64> = estimate.parameters.iter().map(|p| p.value).collect();
             let mut rejections = preparation_rejections(prepared, model, input, &values);
@@ -102,7 +121,7 @@ pub fn validated(
         &input,
         prepared,
         estimate,
-        study.validation.unscored_samples,
+        (study.validation.unscored_samples, Kept::Signals),
         |_, _| vec![Rejection::Validation],
     )?;
     evaluated.result.validation = (evaluated.traces.as_ref())
@@ -251,18 +270,27 @@ fn simulated(
     input: &Input,
     prepared: &Prepared,
     estimate: Estimate,
-    unscored: usize,
+    (unscored, kept): (usize, Kept),
     rejections: impl FnOnce(&Estimate, &FitMeasures) -> Vec<Rejection>,
 ) -> Result<Evaluated, ModelError> {
     let tightening = &prepared.tightening;
     let values: Vec<f64> = estimate.parameters.iter().map(|p| p.value).collect();
     let failed = estimate.status == FitStatus::Failed || values.iter().any(|v| !v.is_finite());
-    let traces = (!failed)
-        .then(|| traces(model, input, tightening, &values))
-        .transpose()?;
-    let measures = traces.as_ref().map_or_else(FitMeasures::default, |traces| {
-        measures(study, tightening, traces, &estimate, unscored)
-    });
+    let (measures, traces) = match kept {
+        _ if failed => (FitMeasures::default(), None),
+        Kept::Signals => {
+            let traces = traces(model, input, tightening, &values)?;
+            let measures = measures(study, tightening, &traces, &estimate, unscored);
+            (measures, Some(traces))
+        }
+        Kept::Numbers => {
+            let motion = model.simulate(&values, input)?;
+            (
+                numbers(study, tightening, &motion, &estimate, unscored),
+                None,
+            )
+        }
+    };
     let selection = Selection {
         rejections: rejections(&estimate, &measures),
     };
@@ -339,12 +367,50 @@ fn measures(
     estimate: &Estimate,
     unscored: usize,
 ) -> FitMeasures {
-    let scored = |samples: &[f64]| samples.get(unscored..).unwrap_or_default().to_vec();
-    let pair = |quantity| {
-        let measured = traces.measured.get(quantity)?;
-        Some((scored(measured), scored(traces.simulated.get(quantity)?)))
-    };
-    let displacement = pair(snug_campaign::Quantity::Displacement);
+    let pair = |quantity| pair(tightening, &traces.simulated, quantity, unscored);
+    let displacement = pair(Quantity::Displacement);
+    let euler = scored(&traces.euler_displacement_rad, unscored);
+    FitMeasures {
+        fit_percent_fitted_output: pair(study.identify.fitted_output)
+            .and_then(|(y, s)| agreement::fit_percent(y, s)),
+        rms_displacement_rad: displacement.map(|(y, s)| agreement::rms_residual(y, s)),
+        euler_accuracy_percent: displacement
+            .filter(|_| !traces.euler_displacement_rad.is_empty())
+            .and_then(|(y, _)| agreement::accuracy_percent(y, euler)),
+        peak_force_f1_n: peak(&traces.force_f1_n),
+        peak_force_f2_n: peak(&traces.force_f2_n),
+        peak_force_f3_n: peak(&traces.force_f3_n),
+        peak_grip_force_n: traces.grip_force_n.as_deref().and_then(peak),
+        ..numbers(study, tightening, &traces.simulated, estimate, unscored)
+    }
+}
+
+/// The samples that are compared.
+fn scored(samples: &[f64], unscored: usize) -> &[f64] {
+    samples.get(unscored..).unwrap_or_default()
+}
+
+/// What was measured and what was simulated of a quantity.
+fn pair<'a>(
+    tightening: &'a Tightening,
+    simulated: &'a Motion,
+    quantity: Quantity,
+    unscored: usize,
+) -> Option<(&'a [f64], &'a [f64])> {
+    let measured = tightening.motion.get(quantity)?;
+    let simulated = simulated.get(quantity)?;
+    Some((scored(measured, unscored), scored(simulated, unscored)))
+}
+
+/// The measures that selection and a table of results take; the fit of the fitted output only where it takes the noise's place.
+fn numbers(
+    study: &Study,
+    tightening: &Tightening,
+    simulated: &Motion,
+    estimate: &Estimate,
+    unscored: usize,
+) -> FitMeasures {
+    let pair = |quantity| pair(tightening, simulated, quantity, unscored);
     let [m, c, k] = std::array::from_fn(|index| estimate.parameters[index].value);
     let on_bound = |name: &str| {
         let mut active = estimate.active_constraints.iter();
@@ -358,25 +424,19 @@ fn measures(
     let ratio = derived::damping(rig, estimate);
     let low = |derived: Option<derived::Derived>| Some(derived?.interval?.low);
     let high = |derived: Option<derived::Derived>| Some(derived?.interval?.high);
+    let error_over_noise = tightening.noise.as_ref().and_then(|noise| {
+        let (measured, simulated) = pair(noise.quantity)?;
+        agreement::error_over_noise(measured, simulated, noise)
+    });
     FitMeasures {
-        fit_percent: displacement
-            .as_ref()
-            .and_then(|(y, s)| agreement::fit_percent(y, s)),
-        fit_percent_fitted_output: pair(study.identify.fitted_output)
-            .and_then(|(y, s)| agreement::fit_percent(&y, &s)),
-        error_over_noise: tightening.noise.as_ref().and_then(|noise| {
-            let (measured, simulated) = pair(noise.quantity)?;
-            agreement::error_over_noise(&measured, &simulated, noise)
-        }),
-        rms_displacement_rad: displacement
-            .as_ref()
-            .map(|(y, s)| agreement::rms_residual(y, s)),
-        euler_accuracy_percent: displacement.as_ref().and_then(|(y, _)| {
-            if traces.euler_displacement_rad.is_empty() {
-                return None;
+        fit_percent: pair(Quantity::Displacement).and_then(|(y, s)| agreement::fit_percent(y, s)),
+        fit_percent_fitted_output: match error_over_noise {
+            Some(_) => None,
+            None => {
+                pair(study.identify.fitted_output).and_then(|(y, s)| agreement::fit_percent(y, s))
             }
-            agreement::accuracy_percent(y, &scored(&traces.euler_displacement_rad))
-        }),
+        },
+        error_over_noise,
         natural_frequency_hz: natural.map(|natural| natural.value),
         natural_frequency_low_hz: low(natural),
         natural_frequency_high_hz: high(natural),
@@ -387,10 +447,7 @@ fn measures(
         damping_ratio_low: low(ratio),
         damping_ratio_high: high(ratio),
         thesis_damping_ratio: thesis_damping_ratio(study.selection.tool_mass_kg, m, c, k),
-        peak_force_f1_n: peak(&traces.force_f1_n),
-        peak_force_f2_n: peak(&traces.force_f2_n),
-        peak_force_f3_n: peak(&traces.force_f3_n),
-        peak_grip_force_n: traces.grip_force_n.as_deref().and_then(peak),
+        ..FitMeasures::default()
     }
 }
 
