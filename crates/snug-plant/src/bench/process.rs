@@ -1,7 +1,9 @@
 //! What a process spends, as Linux says it under /proc.
 
+use super::program;
 use crate::PlantError;
-use std::time::Instant;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
 
 /// Ticks of the processor time in /proc in a second: 100 wherever Linux runs programs (`getconf CLK_TCK`).
 const TICKS_PER_S: f64 = 100.0;
@@ -43,6 +45,58 @@ impl Resources {
         let line = text.lines().find_map(|line| line.strip_prefix("VmHWM:"));
         let kilobytes = line.and_then(|line| line.split_whitespace().next()?.parse::<u64>().ok());
         Ok(kilobytes.unwrap_or(0) * 1024)
+    }
+}
+
+/// How often a process is asked what it has spent.
+const ASKED_EVERY: Duration = Duration::from_millis(5);
+
+/// What a process spent from its beginning to its end.
+pub struct Whole {
+    /// Time \[s\].
+    pub wall_s: f64,
+    /// Processor time \[s\].
+    pub processor_s: f64,
+    /// Largest memory \[byte\].
+    pub peak_bytes: u64,
+}
+
+/// Runs this program with some arguments to its end: what it spends is nobody else's.
+///
+/// # Errors
+/// [`PlantError::Cluster`] where it does not end well.
+pub async fn run(arguments: &[&str]) -> Result<Whole, PlantError> {
+    let failed = |reason: String| PlantError::Cluster {
+        what: "a process",
+        address: arguments.join(" "),
+        reason,
+    };
+    let mut command = Command::new(program()?);
+    command.args(arguments).env("RUST_LOG", "error");
+    command.stdout(Stdio::null()).stderr(Stdio::null());
+    let began = Instant::now();
+    let mut child = command.spawn().map_err(|error| failed(error.to_string()))?;
+    let resources = Resources(child.id());
+    let (mut processor_s, mut peak_bytes) = (0.0, 0);
+    let status = loop {
+        // Its times stand until it is waited for, its memory goes with its end.
+        processor_s = resources.processor_s().unwrap_or(processor_s);
+        peak_bytes = peak_bytes.max(resources.peak_bytes().unwrap_or(0));
+        match child
+            .try_wait()
+            .map_err(|error| failed(error.to_string()))?
+        {
+            Some(status) => break status,
+            None => tokio::time::sleep(ASKED_EVERY).await,
+        }
+    };
+    match status.success() {
+        true => Ok(Whole {
+            wall_s: began.elapsed().as_secs_f64(),
+            processor_s,
+            peak_bytes,
+        }),
+        false => Err(failed(status.to_string())),
     }
 }
 
