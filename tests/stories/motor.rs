@@ -1,7 +1,7 @@
 //! Four tests of one motor, voltage in and speed out, as robotics teams make them: two slow ramps and two steps. Each by itself is
 //! explained by a mass and a damper of its own; all four by dry friction, as a plain regression says in milliseconds.
 
-use snug_campaign::words::headline::Headline;
+use snug_campaign::words::headline::{Headline, NoModel};
 use snug_campaign::words::reason::Reason;
 use snug_campaign::words::suspicion::Suspicion;
 use snug_campaign::{Diagnosis, Verdict};
@@ -152,7 +152,7 @@ fn recordings_in_other_units_than_the_others_are_no_physics() {
             RATE_HZ,
         );
         assert_eq!(told.verdict, Verdict::NotFitted);
-        let Headline::OtherUnits(units) = &told.headline else {
+        let Headline::NoModel(NoModel::OtherUnits(units)) = &told.headline else {
             panic!("{}", told.headline)
         };
         assert!(units.larger.contains("down") && units.smaller.contains("up"));

@@ -109,24 +109,8 @@ pub enum Headline {
         /// How much is explained, where no noise says what is enough.
         explained: Option<Explained>,
     },
-    /// Some recordings are in other units than others.
-    OtherUnits(OtherUnits),
-    /// The input has the other sign, or is the output: with it mended, mass, damping and stiffness alone explain this share \[–\].
-    OtherChannel {
-        /// Whether input and output are swapped; else it is the sign.
-        are_swapped: bool,
-        /// What would be explained then.
-        share: f64,
-    },
-    /// No model was found that deserves the question.
-    NotFitted(Explained),
-    /// Most effects could not be tried beside a model that explains so much.
-    HardlyTried {
-        /// How many were.
-        tried: usize,
-        /// Of how many.
-        of: usize,
-    },
+    /// There is no model that a question about effects could be about.
+    NoModel(NoModel),
     /// Compared only; nothing was looked for.
     Compared(Left),
     /// Too little to say.
@@ -192,6 +176,57 @@ impl Display for Headline {
                 f,
                 "Misfit that repeats from tightening to tightening remains ({left}), and no effect of the catalogue explains it."
             ),
+            Self::NoModel(why) => why.fmt(f),
+            Self::Adequate {
+                added,
+                further,
+                fall,
+                explained,
+            } => {
+                adequate(f, added, *fall, *explained)?;
+                aside(f, further)
+            }
+            Self::Compared(left) => {
+                write!(
+                    f,
+                    "The model leaves {left}; `diagnose` says what could be missing."
+                )
+            }
+            Self::TooLittle {
+                tightenings,
+                added,
+                fall,
+            } => too_little(f, *tightenings, added, *fall),
+        }
+    }
+}
+
+/// Why there is no model that a question about effects could be about.
+#[derive(Debug, Clone, PartialEq)]
+pub enum NoModel {
+    /// Some recordings are in other units than others.
+    OtherUnits(OtherUnits),
+    /// The input has the other sign, or is the output: with it mended, mass, damping and stiffness alone explain this share \[–\].
+    OtherChannel {
+        /// Whether input and output are swapped; else it is the sign.
+        are_swapped: bool,
+        /// What would be explained then.
+        share: f64,
+    },
+    /// No model was found that deserves the question.
+    NotFitted(Explained),
+    /// Most effects could not be tried beside a model that explains so much.
+    HardlyTried {
+        /// How many were.
+        tried: usize,
+        /// Of how many.
+        of: usize,
+    },
+}
+
+impl Display for NoModel {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
             Self::OtherUnits(units) => write!(
                 f,
                 "Recordings seem to be in different units: {units}. What is missing cannot be asked before that is mended."
@@ -213,26 +248,6 @@ impl Display for Headline {
                 f,
                 "What is missing is not known: only {tried} of {of} candidates could be tried on this rig as it is sampled."
             ),
-            Self::Adequate {
-                added,
-                further,
-                fall,
-                explained,
-            } => {
-                adequate(f, added, *fall, *explained)?;
-                aside(f, further)
-            }
-            Self::Compared(left) => {
-                write!(
-                    f,
-                    "The model leaves {left}; `diagnose` says what could be missing."
-                )
-            }
-            Self::TooLittle {
-                tightenings,
-                added,
-                fall,
-            } => too_little(f, *tightenings, added, *fall),
         }
     }
 }

@@ -209,11 +209,7 @@ impl Display for Reason {
                 p_family,
                 more,
             } => would_decide(f, effect, *p_family, *more),
-            Self::Restarted { missed, every_s } => write!(
-                f,
-                "Run freely from its first sample on, the study's own model misses {} of the measured motion, so that a free run says little about single effects. Every model is therefore judged by what it predicts over {every_s} s from the measured motion, again and again (`identify.simulation: Restarted(every_s: {every_s})`; `FreeRun` in the study file asks for the whole record at once).",
-                whole_percent(missed.min(9.99))
-            ),
+            Self::Restarted { missed, every_s } => restarted(f, *missed, *every_s),
             Self::Held {
                 spared,
                 is_half_an_interval,
@@ -321,6 +317,14 @@ fn tightenings_left_out(
     write!(
         f,
         "{left_out} of {all} tightenings took no part in the diagnosis: all must be judged by one measure, here {quantity} {measure}, and that could not be had of {these}. findings.json says why."
+    )
+}
+
+fn restarted(f: &mut Formatter<'_>, missed: f64, every_s: f64) -> fmt::Result {
+    write!(
+        f,
+        "Run freely from its first sample on, the study's own model misses {} of the measured motion, so that a free run says little about single effects. Every model is therefore judged by what it predicts over {every_s} s from the measured motion, again and again (`identify.simulation: Restarted(every_s: {every_s})`; `FreeRun` in the study file asks for the whole record at once).",
+        whole_percent(missed.min(9.99))
     )
 }
 

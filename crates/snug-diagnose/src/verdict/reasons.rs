@@ -10,7 +10,7 @@ use crate::selection::thresholds::SMALL;
 use crate::settings::DiagnoseSettings;
 use snug_campaign::words::effect_name::Named;
 use snug_campaign::words::explained::Explained;
-use snug_campaign::words::headline::{Fall, Headline, Left};
+use snug_campaign::words::headline::{Fall, Headline, Left, NoModel};
 use snug_campaign::words::reason::{MoreData, Reason};
 use snug_campaign::words::statement;
 use snug_campaign::words::stopped::Stopped;
@@ -155,20 +155,9 @@ pub(crate) fn headline(situation: &Situation<'_>) -> Headline {
             fall: fell,
             explained: situation.explained,
         },
-        (Verdict::NotFitted, _) => match (situation.suspicions.first(), situation.explained) {
-            (Some(Suspicion::Units(units)), _) => Headline::OtherUnits(units.clone()),
-            (Some(&Suspicion::Sign(share)), _) => Headline::OtherChannel {
-                are_swapped: false,
-                share,
-            },
-            (Some(&Suspicion::Swapped(share)), _) => Headline::OtherChannel {
-                are_swapped: true,
-                share,
-            },
-            (Some(&Suspicion::HardlyTried { tried, of }), _) => Headline::HardlyTried { tried, of },
-            (_, Some(explained)) => Headline::NotFitted(explained),
-            (_, None) => Headline::Compared(fell.after),
-        },
+        (Verdict::NotFitted, _) => {
+            no_model(situation).map_or(Headline::Compared(fell.after), Headline::NoModel)
+        }
         (Verdict::Undecided, _) if situation.verb == "compare" => Headline::Compared(fell.after),
         (Verdict::Undecided, _) if situation.is_more_than_noise => Headline::MoreThanNoise {
             added: [added, further].concat(),
@@ -184,6 +173,24 @@ pub(crate) fn headline(situation: &Situation<'_>) -> Headline {
             fall: fell,
         },
     }
+}
+
+/// Why there is no model: what is suspected first, else how much the best explains.
+fn no_model(situation: &Situation<'_>) -> Option<NoModel> {
+    let told = match situation.suspicions.first() {
+        Some(Suspicion::Units(units)) => NoModel::OtherUnits(units.clone()),
+        Some(&Suspicion::Sign(share)) => NoModel::OtherChannel {
+            are_swapped: false,
+            share,
+        },
+        Some(&Suspicion::Swapped(share)) => NoModel::OtherChannel {
+            are_swapped: true,
+            share,
+        },
+        Some(&Suspicion::HardlyTried { tried, of }) => NoModel::HardlyTried { tried, of },
+        _ => NoModel::NotFitted(situation.explained?),
+    };
+    Some(told)
 }
 
 /// Why.
