@@ -119,6 +119,7 @@ const hear = {
     delete one('tested').dataset.state;
     show('steps', '');
     show('by-hand', '');
+    state.values = null;
     items().forEach(item => { item.querySelector('[data-real]').textContent = ''; });
     performance.mark('fitting');
   },
@@ -131,6 +132,8 @@ const hear = {
   fitted(event) {
     document.body.classList.remove('fitting');
     fault('');
+    // The same model told anew, as after a closer look, leaves numbers that were set by hand.
+    if (event.effects.join() !== state.effects.join()) state.values = null;
     state.effects = event.effects;
     state.before = event.before;
     check();
@@ -144,7 +147,6 @@ const hear = {
     one('undo').disabled = !event.can_undo;
     one('redo').disabled = !event.can_redo;
     one('usable').textContent = '';
-    state.values = null;
     pinned();
     look();
     force();
@@ -365,6 +367,7 @@ items().forEach(item => item.querySelector('.switch').addEventListener('click', 
   const name = item.dataset.effect, has = state.effects.includes(name);
   const effects = has ? state.effects.filter(other => other !== name) : [...state.effects, name];
   state.effects = effects;
+  state.values = null;
   check();
   ask('/api/change', { kind: 'choose', effects: effects.join(',') });
 }));
