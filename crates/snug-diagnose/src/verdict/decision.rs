@@ -19,7 +19,8 @@ impl Examination<'_> {
             self.units_that_differ(true).map(Suspicion::Units),
             self.failed_fit().map(Suspicion::FailedFit),
         ];
-        let wrong: Vec<Suspicion> = wrong.into_iter().flatten().collect();
+        let mut wrong: Vec<Suspicion> = wrong.into_iter().flatten().collect();
+        wrong.extend(self.wrong_derivative(places));
         let verdict = match wrong.is_empty() || self.path.is_interrupted() {
             true => self.verdict(
                 places.last().repeatable_share,
@@ -47,12 +48,30 @@ impl Examination<'_> {
             let first = suspicions.iter().filter(is_of_channels).count();
             let wrong =
                 (wrong.into_iter()).filter(|one| first == 0 || !matches!(one, Suspicion::Units(_)));
-            suspicions.splice(first..first, wrong.collect::<Vec<_>>());
+            let wrong: Vec<Suspicion> = wrong.collect();
+            suspicions.retain(|one| !wrong.contains(one));
+            suspicions.splice(first..first, wrong);
         }
         match (&self.question.goal, suspicions.as_slice()) {
             (Goal::Compare, [Suspicion::NoOscillator]) => (Verdict::Undecided, Vec::new()),
             _ => (verdict, suspicions),
         }
+    }
+
+    /// That the output is another derivative, where the study's own model explains too little and with that alone it would explain
+    /// most: what effects make of it then is no rig.
+    fn wrong_derivative(&self, places: &Places) -> Option<Suspicion> {
+        let share = earned::share(self.question.cases, &self.path.rungs[0])?;
+        if earned::is_a_model(Some(share)) || self.path.last().effects == self.path.rungs[0].effects
+        {
+            return None;
+        }
+        let first = Explained {
+            share,
+            ..places.explained?
+        };
+        let suspicions = earned::suspicions(self.question.cases, first, None);
+        (suspicions.into_iter()).find(|one| matches!(one, Suspicion::Derivative { .. }))
     }
 
     /// That most candidates could not be tried, if so: then nothing is known of what is missing.
