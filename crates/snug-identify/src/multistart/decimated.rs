@@ -13,8 +13,8 @@ use crate::residual::restarts::motions_at;
 use crate::residual::tightening::TighteningResidual;
 use crate::settings::IdentifySettings;
 use crate::task::FitTask;
-use crate::task::decimated::means;
-use snug_campaign::{Intersample, Quantity};
+use crate::task::decimated::{decimated_input, means};
+use snug_campaign::Quantity;
 use snug_least_squares::{Constraints, Fit, Settings, SolveError, Work};
 use snug_model::{Input, Model};
 
@@ -53,17 +53,7 @@ impl DecimatedRecord {
         }
         let torque_nm: Vec<f64> =
             (input.grid_nm().iter().step_by(input.substeps()).copied()).collect();
-        // Means stand for the middle of what they are taken over.
-        let late_s = 0.5 * (factor - 1) as f64 * interval_s;
-        let decimated = Input::new(
-            &means(&torque_nm, factor),
-            interval_s * factor as f64,
-            Intersample::Linear,
-        )
-        .with_onset(input.onset_s() - late_s)
-        .with_rest_before(input.rest_before_s() + late_s)
-        .with_zero_at(input.zero_at().map(|sample| sample / factor))
-        .with_torque_before(input.torque_before_nm());
+        let decimated = decimated_input(input, &torque_nm, factor);
         let means_of = |quantity| Some(means(task.tightening.motion.get(quantity)?, factor));
         let restarted = || {
             let angle_rad = means_of(Quantity::Displacement)?;

@@ -29,15 +29,7 @@ impl FitTask<'_> {
         tightening.onset = before.onset.map(|sample| sample / factor);
         tightening.noise = None;
         let input = &*self.input;
-        let free = Input::new(
-            &means(input.logged_nm(), factor),
-            tightening.time_base.interval_s,
-            Intersample::Linear,
-        )
-        .with_onset(input.onset_s() - late_s)
-        .with_rest_before(input.rest_before_s() + late_s)
-        .with_zero_at(input.zero_at().map(|sample| sample / factor))
-        .with_torque_before(input.torque_before_nm());
+        let free = decimated_input(input, input.logged_nm(), factor);
         let simulation = match input.samples_between_restarts() {
             None => Simulation::FreeRun,
             Some(apart) => Simulation::Restarted {
@@ -53,6 +45,18 @@ impl FitTask<'_> {
             tightening: Cow::Owned(tightening),
         }
     }
+}
+
+/// An input of the means of `torque_nm`, one value for each of its samples; means stand for the middle of what they are taken over.
+pub(crate) fn decimated_input(input: &Input, torque_nm: &[f64], factor: usize) -> Input {
+    let interval_s = input.interval_s();
+    let late_s = 0.5 * (factor - 1) as f64 * interval_s;
+    let (torque_nm, interval_s) = (means(torque_nm, factor), interval_s * factor as f64);
+    input
+        .of_others(&torque_nm, interval_s, Intersample::Linear)
+        .with_onset(input.onset_s() - late_s)
+        .with_rest_before(input.rest_before_s() + late_s)
+        .with_zero_at(input.zero_at().map(|sample| sample / factor))
 }
 
 /// Of every `factor` samples; what is left over at the end is left out.

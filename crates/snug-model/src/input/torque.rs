@@ -65,6 +65,17 @@ impl Input {
         }
     }
 
+    /// An input of other samples \[Nm\], of which the same is known beside them.
+    pub fn of_others(&self, samples: &[f64], interval_s: f64, intersample: Intersample) -> Self {
+        Self {
+            rest_before_s: self.rest_before_s,
+            before_nm: self.before_nm,
+            onset_s: self.onset_s,
+            zero_at: self.zero_at,
+            ..Self::new(samples, interval_s, intersample)
+        }
+    }
+
     /// The same input with every value replaced by the mean over it and `reach` samples on either side.
     ///
     /// What is computed from it knows the torque's course, but hardly the noise of any one sample.

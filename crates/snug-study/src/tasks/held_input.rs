@@ -9,7 +9,7 @@ use crate::tasks::cases::with_settled;
 use snug_campaign::words::reason::Reason;
 use snug_campaign::{Diagnosis, Intersample};
 use snug_identify::{FitTask, identify_all};
-use snug_model::{Input, Scale};
+use snug_model::Scale;
 use std::borrow::Cow;
 
 /// The effect whose size is a delay.
@@ -74,12 +74,9 @@ pub(crate) fn held<'a>(
     let held = cases.iter().map(|case| {
         let interval_s = case.tightening.time_base.interval_s;
         let torque_nm = &case.tightening.torque_nm;
-        let input = Input::new(torque_nm, interval_s, Intersample::ZeroOrder)
-            .with_onset(case.input.onset_s())
-            .with_rest_before(case.input.rest_before_s())
-            .with_torque_before(case.input.torque_before_nm());
+        let input = &case.input;
         FitTask {
-            input: Cow::Owned(input),
+            input: Cow::Owned(input.of_others(torque_nm, interval_s, Intersample::ZeroOrder)),
             ..case.lent()
         }
     });
