@@ -190,8 +190,9 @@ fn free_input(study: &Study, prepared: &Prepared) -> Input {
 /// input is 0 anywhere on its way. An input that never is holds a load, before as then.
 pub(crate) fn torque_before_nm(study: &Study, torque_nm: &[f64]) -> Option<f64> {
     let is_machine = matches!(study.model.scale, Scale::Rig { .. });
-    let passes_zero = torque_nm.iter().any(|torque| *torque <= 0.0)
-        && torque_nm.iter().any(|torque| *torque >= 0.0);
+    let least = torque_nm.iter().copied().fold(f64::INFINITY, f64::min);
+    let most = torque_nm.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let passes_zero = least <= 0.0 && most >= 0.0;
     (is_machine && passes_zero).then_some(0.0)
 }
 

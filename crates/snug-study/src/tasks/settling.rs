@@ -201,11 +201,10 @@ fn mean_square(values: &[f64]) -> f64 {
     values.iter().map(|value| value * value).sum::<f64>() / values.len().max(1) as f64
 }
 
-/// What a free run leaves of the measured motion, all Σ over what is scored.
+/// What a free run leaves of the measured motion, both Σ over what is scored.
 struct Missed {
+    /// What is left at a sample times what is left at the next: noise is as often with as against its neighbour.
     left: f64,
-    /// Of what is left at a sample times what is left at the next: noise is as often with as against its neighbour.
-    beside: f64,
     about_mean: f64,
 }
 
@@ -213,7 +212,7 @@ impl Missed {
     /// Root mean square of what is left, over that of the motion about its mean, as far as it goes on from sample to sample: a record that
     /// is half noise is not followed better for being restarted from its noise.
     fn share(&self) -> f64 {
-        (self.beside.clamp(0.0, self.left) / self.about_mean).sqrt()
+        (self.left.max(0.0) / self.about_mean).sqrt()
     }
 
     /// Whether a free run follows the motion once one effect is added: then it is asked what is missing freely, which tells effects apart
@@ -226,7 +225,7 @@ impl Missed {
 /// What a free run of the study's own model leaves; `None` where restarts make no sense: an acceleration does not drift, and what is
 /// integrated from one has no measured motion to start from.
 fn missed(cases: &[FitTask<'_>]) -> Option<Missed> {
-    let (mut left, mut beside, mut about_mean) = (0.0, 0.0, 0.0);
+    let (mut left, mut about_mean) = (0.0, 0.0);
     for case in cases {
         let motion = &case.tightening.motion;
         if case.quantity() == Quantity::Acceleration || motion.acceleration_rad_per_s2.is_some() {
@@ -253,24 +252,16 @@ fn missed(cases: &[FitTask<'_>]) -> Option<Missed> {
                 .for_each(|(simulated, y)| *simulated -= y);
             Ok(error)
         });
-        let scored = measured.len() - case.unscored();
         let about: f64 = measured[case.unscored()..]
             .iter()
             .map(|y| (y - mean).powi(2))
             .sum();
         // What cannot even be simulated misses everything.
-        let (squares, products) = error.map_or((about, about), |error| {
-            let error = &error[case.unscored()..];
-            let products = error.windows(2).map(|pair| pair[0] * pair[1]).sum();
-            (scored as f64 * mean_square(error), products)
+        left += error.map_or(about, |error| {
+            let scored = &error[case.unscored()..];
+            scored.windows(2).map(|pair| pair[0] * pair[1]).sum()
         });
-        left += squares;
-        beside += products;
         about_mean += about;
     }
-    (about_mean > 0.0).then_some(Missed {
-        left,
-        beside,
-        about_mean,
-    })
+    (about_mean > 0.0).then_some(Missed { left, about_mean })
 }
