@@ -102,11 +102,19 @@ pub(crate) fn regression_start(pooled: &PooledModel<'_>, end: &Start) -> Option<
     falls_short(kept, &found, PROMISES).then_some(start)
 }
 
-/// Where the regression puts the numbers of a model whose effects have the shape they have at `place`.
-pub(crate) fn with_shape_of(pooled: &PooledModel<'_>, place: &Start) -> Option<Start> {
+/// Where the regression puts the numbers of a model whose effects have the shapes they have at one of `places`, of each for which it
+/// has an answer.
+pub(crate) fn with_shapes_of(pooled: &PooledModel<'_>, places: &[Start]) -> Vec<Start> {
     let all: &[FitTask<'_>] = &pooled.cases;
-    let (_, start) = regressed(&PlainEquation::of(all)?, pooled, place)?;
-    Some(start)
+    let plain = match places {
+        [] => None,
+        _ => PlainEquation::of(all),
+    };
+    let found = plain.iter().flat_map(|plain| {
+        let each = places.iter();
+        each.filter_map(|place| regressed(plain, pooled, place))
+    });
+    found.map(|(_, start)| start).collect()
 }
 
 fn regressed(

@@ -7,13 +7,12 @@ use crate::data::cases::{Cases, Tally};
 use crate::data::clusters::Clusters;
 use crate::error::DiagnoseError;
 use crate::library::is_unlisted;
-use crate::pooled::equation::with_base;
 use crate::pooled::fit::fit_effects;
 use crate::pooled::model::PooledModel;
 use crate::pooled::thresholds::A_FEW_STEPS;
 use crate::ranking::applicability::candidates;
 use crate::ranking::first_ranking::first_ranking;
-use crate::ranking::refit::with_effect;
+use crate::ranking::refit::as_regressed;
 use crate::ranking::thresholds::{RUN_FREELY, WORTH_A_START};
 use snug_identify::FitTask;
 use snug_model::Effect;
@@ -39,8 +38,7 @@ pub fn is_followed_with_an_effect(cases: &[FitTask<'_>], most: f64) -> Result<bo
     for promise in promising.take(RUN_FREELY) {
         let effects = [own.as_slice(), &[promise.effect]].concat();
         let mut pooled = PooledModel::new(cases, &effects)?;
-        let start = with_effect(&pooled, &current, promise.effect, &promise.own);
-        let start = with_base(&pooled, &start, &promise.base);
+        let start = as_regressed(&pooled, &current, promise);
         let Ok(end) = pooled.fit(&start, &A_FEW_STEPS) else {
             continue;
         };

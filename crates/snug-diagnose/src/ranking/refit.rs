@@ -4,7 +4,7 @@ use crate::data::cases::Cases;
 use crate::data::clusters::Clusters;
 use crate::error::DiagnoseError;
 use crate::library::is_unlisted;
-use crate::pooled::equation::{with_base, with_shape_of};
+use crate::pooled::equation::{with_base, with_shapes_of};
 use crate::pooled::fitted::Fitted;
 use crate::pooled::long_record;
 use crate::pooled::model::{PooledModel, Start, pick};
@@ -13,7 +13,7 @@ use crate::pooled::thresholds::A_FEW_STEPS;
 use crate::ranking::first_ranking::Promise;
 use crate::ranking::resonances;
 use crate::ranking::sensitivity::Column;
-use crate::ranking::simulable::make_simulable;
+use crate::ranking::simulable::simulable;
 use crate::ranking::thresholds::{
     CANDIDATE, FARTHER, FEW, FREELY, GLANCE, LED, LED_REACH, LEFT_BEHIND, LITTLE, MOST_ROUNDS,
     ROUGH_REFIT, WORTH_A_START,
@@ -48,26 +48,19 @@ pub(crate) fn refit(
     let starts = promising(effect, columns, most);
     let mut pooled = PooledModel::shared_by(cases, &effects, &current.sharing)?;
     let nothing = nothing_of(&pooled, effect, starts.first().copied());
+    let begun = |values: &[f64]| with_effect(&pooled, current, effect, values);
     let mut starts: Vec<Start> = (read_off.iter().map(Vec::as_slice).chain(starts))
-        .map(|values| with_effect(&pooled, current, effect, values))
+        .map(begun)
         .collect();
     if !clusters.are_whole() {
         // What the model lacks may have led its mass and damping so far off that the rig passes other waves than it did.
-        let regressed = starts[..read_off.len()].iter();
-        let regressed: Vec<Start> = regressed
-            .filter_map(|start| with_shape_of(&pooled, start))
-            .collect();
-        starts.extend(regressed);
+        starts.extend(with_shapes_of(&pooled, &starts[..read_off.len()]));
     }
-    starts
-        .iter_mut()
-        .for_each(|start| make_simulable(&pooled, start));
-    let mut nothing: Vec<Start> = (nothing.iter())
-        .map(|values| with_effect(&pooled, current, effect, values))
+    let simulable = |start: Start| simulable(&pooled, start);
+    let starts: Vec<Start> = starts.into_iter().map(simulable).collect();
+    let nothing: Vec<Start> = (nothing.iter())
+        .map(|values| simulable(begun(values)))
         .collect();
-    nothing
-        .iter_mut()
-        .for_each(|start| make_simulable(&pooled, start));
     let end = led_by(&mut pooled, current, &starts, clusters);
     let mut end = no_worse(&mut pooled, current, &nothing, end)?;
     if !clusters.are_whole() {
@@ -223,9 +216,7 @@ fn as_promised(
     let Some(promise) = promise.filter(|promise| promise.share >= WORTH_A_START) else {
         return Ok(end);
     };
-    let start = with_effect(pooled, current, promise.effect, &promise.own);
-    let mut start = with_base(pooled, &start, &promise.base);
-    make_simulable(pooled, &mut start);
+    let start = as_regressed(pooled, current, promise);
     let settings = match long_record::take_long(&pooled.cases) {
         true => &A_FEW_STEPS,
         false => &CANDIDATE,
@@ -234,6 +225,12 @@ fn as_promised(
         Ok(other) if other.cost() < end.cost() => Ok(other),
         _ => Ok(end),
     }
+}
+
+/// The place to which a regression of the equation of motion puts the numbers of the current model with one effect more.
+pub(crate) fn as_regressed(pooled: &PooledModel<'_>, current: &Fitted, promise: &Promise) -> Start {
+    let start = with_effect(pooled, current, promise.effect, &promise.own);
+    simulable(pooled, with_base(pooled, &start, &promise.base))
 }
 
 /// At most `most` different starts of an effect, those whose columns promise most.
