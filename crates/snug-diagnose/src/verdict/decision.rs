@@ -19,9 +19,9 @@ impl Examination<'_> {
             self.units_that_differ(true).map(Suspicion::Units),
             self.failed_fit().map(Suspicion::FailedFit),
         ];
-        let mut wrong: Vec<Suspicion> = wrong.into_iter().flatten().collect();
-        wrong.extend(self.wrong_derivative(places));
-        let verdict = match wrong.is_empty() || self.path.is_interrupted() {
+        let wrong: Vec<Suspicion> = wrong.into_iter().flatten().collect();
+        let is_open = wrong.is_empty() && !self.is_another_derivative();
+        let verdict = match is_open || self.path.is_interrupted() {
             true => self.verdict(
                 places.last().repeatable_share,
                 places.explained.as_ref(),
@@ -37,41 +37,23 @@ impl Examination<'_> {
         let (Verdict::NotFitted, Some(explained)) = (verdict, places.explained) else {
             return (verdict, wrong);
         };
-        let mut suspicions =
+        let suspicions =
             earned::suspicions(self.question.cases, explained, places.left_over.clone());
-        if !wrong.is_empty() {
-            suspicions.retain(|one| *one != Suspicion::NoOscillator);
-            // With the wrong sign or column no fit means anything, so that neither do differences between recordings' numbers.
-            let is_of_channels =
-                |one: &&Suspicion| matches!(one, Suspicion::Sign(_) | Suspicion::Swapped(_));
-            suspicions.sort_by_key(|one| !is_of_channels(&one));
-            let first = suspicions.iter().filter(is_of_channels).count();
-            let wrong =
-                (wrong.into_iter()).filter(|one| first == 0 || !matches!(one, Suspicion::Units(_)));
-            let wrong: Vec<Suspicion> = wrong.collect();
-            suspicions.retain(|one| !wrong.contains(one));
-            suspicions.splice(first..first, wrong);
-        }
+        let suspicions = match wrong.is_empty() {
+            true => suspicions,
+            false => beside(wrong, suspicions),
+        };
         match (&self.question.goal, suspicions.as_slice()) {
             (Goal::Compare, [Suspicion::NoOscillator]) => (Verdict::Undecided, Vec::new()),
             _ => (verdict, suspicions),
         }
     }
 
-    /// That the output is another derivative, where the study's own model explains too little and with that alone it would explain
-    /// most: what effects make of it then is no rig.
-    fn wrong_derivative(&self, places: &Places) -> Option<Suspicion> {
-        let share = earned::share(self.question.cases, &self.path.rungs[0])?;
-        if earned::is_a_model(Some(share)) || self.path.last().effects == self.path.rungs[0].effects
-        {
-            return None;
-        }
-        let first = Explained {
-            share,
-            ..places.explained?
-        };
-        let suspicions = earned::suspicions(self.question.cases, first, None);
-        (suspicions.into_iter()).find(|one| matches!(one, Suspicion::Derivative { .. }))
+    /// Whether the output is another derivative, where the study's own model explains too little and with that alone it would
+    /// explain most: what effects make of it then is no rig.
+    fn is_another_derivative(&self) -> bool {
+        let share = earned::share(self.question.cases, &self.path.rungs[0]);
+        !earned::is_a_model(share) && earned::is_another_derivative(self.question.cases)
     }
 
     /// That most candidates could not be tried, if so: then nothing is known of what is missing.
@@ -153,8 +135,8 @@ impl Examination<'_> {
 
     /// Whether more is left than the noise is uncertain by, or where nobody knows the noise a good part of the output, though no candidate
     /// is chosen or promising: that is no adequate model. A model that is restarted from the measured motion again and again predicts
-    /// nearly all, whatever it lacks: one that was given nothing must leave noise. Beside an effect that lets go, the instants at which the grip sets in
-    /// are never quite right.
+    /// nearly all, whatever it lacks: one that was given nothing must leave noise. Beside an effect that lets go, the instants at which the
+    /// grip sets in are never quite right.
     pub(super) fn is_more_than_noise(&self, explained: Option<&Explained>) -> bool {
         let last = self.path.last();
         let lets_go = last.effects.iter().any(|one| one.has_unilateral_contact());
@@ -170,4 +152,22 @@ impl Examination<'_> {
         };
         leaves_much && self.path.chosen.is_none() && self.path.is_promising(self.settings).is_none()
     }
+}
+
+/// What is `wrong` with the recordings or the fit, and what else is suspected. With the wrong sign or column no fit means anything, and
+/// neither do differences between recordings' numbers.
+fn beside(wrong: Vec<Suspicion>, suspected: Vec<Suspicion>) -> Vec<Suspicion> {
+    let is_of_channels =
+        |one: &Suspicion| matches!(one, Suspicion::Sign(_) | Suspicion::Swapped(_));
+    let (mut all, others): (Vec<Suspicion>, Vec<Suspicion>) =
+        suspected.into_iter().partition(is_of_channels);
+    let is_right = |one: &Suspicion| all.is_empty() || !matches!(one, Suspicion::Units(_));
+    let wrong: Vec<Suspicion> = wrong.into_iter().filter(is_right).collect();
+    all.extend(wrong);
+    all.extend(
+        others
+            .into_iter()
+            .filter(|one| *one != Suspicion::NoOscillator),
+    );
+    all
 }

@@ -145,60 +145,93 @@ fn promised(cases: &[FitTask<'_>]) -> Option<f64> {
     spectral_start(cases).map(|start| 1.0 - start.unexplained)
 }
 
-/// What to check, the likeliest first; what is `left_over` where nothing else is.
-pub(crate) fn suspicions(
-    cases: &[FitTask<'_>],
-    explained: Explained,
-    left_over: Option<Suspicion>,
-) -> Vec<Suspicion> {
-    let as_it_is = promised(cases).unwrap_or(0.0);
-    let share_of = |change: &dyn Fn(&mut FitTask<'_>)| -> f64 {
-        let changed: Vec<FitTask<'_>> = (cases.iter())
+/// How well m, c, k alone explain the records with a channel changed, where that is far better than as they are.
+struct Changed<'a> {
+    cases: &'a [FitTask<'a>],
+    as_it_is: f64,
+}
+
+impl<'a> Changed<'a> {
+    fn of(cases: &'a [FitTask<'a>]) -> Self {
+        Self {
+            cases,
+            as_it_is: promised(cases).unwrap_or(0.0),
+        }
+    }
+
+    fn share(&self, change: impl Fn(&mut FitTask<'_>)) -> Option<f64> {
+        let changed: Vec<FitTask<'_>> = (self.cases.iter())
             .map(|case| {
                 let mut case = case.lent();
                 change(&mut case);
                 case
             })
             .collect();
-        promised(&changed).unwrap_or(0.0)
-    };
-    let is_better = |share: &f64| *share >= LEAST_EXPLAINED && *share > as_it_is + FAR_BETTER;
-    let mut found = Vec::new();
-    let elsewhere = from_the_spectra(cases).unwrap_or(0.0);
-    if elsewhere >= LEAST_EXPLAINED.max(explained.share + SHORTFALL) {
-        found.push(Suspicion::PoorMinimum(elsewhere));
+        let share = promised(&changed).unwrap_or(0.0);
+        (share >= LEAST_EXPLAINED && share > self.as_it_is + FAR_BETTER).then_some(share)
     }
-    let sign = share_of(&|case| {
-        let torques = &mut case.tightening.to_mut().torque_nm;
-        torques.iter_mut().for_each(|torque| *torque = -*torque);
-    });
-    found.extend(Some(sign).filter(is_better).map(Suspicion::Sign));
-    let swapped = share_of(&|case| {
-        let quantity = case.quantity();
-        let output = case.measured().to_vec();
-        let tightening = case.tightening.to_mut();
-        let input = std::mem::replace(&mut tightening.torque_nm, output);
-        tightening.motion.set(quantity, input);
-    });
-    found.extend(Some(swapped).filter(is_better).map(Suspicion::Swapped));
-    let declared = explained.output;
-    for other in Quantity::ALL {
-        let share = share_of(&|case| {
-            let output = case.measured().to_vec();
-            case.tightening.to_mut().motion.set(other, output);
-            let mut settings = case.settings.clone().into_owned();
-            settings.fitted_output = other;
-            case.settings = Cow::Owned(settings);
+
+    fn sign(&self) -> Option<Suspicion> {
+        let share = self.share(|case| {
+            let torques = &mut case.tightening.to_mut().torque_nm;
+            torques.iter_mut().for_each(|torque| *torque = -*torque);
         });
-        let other = other.name();
-        if other != declared && is_better(&share) {
-            found.push(Suspicion::Derivative {
-                declared,
-                other,
-                share,
-            });
-        }
+        share.map(Suspicion::Sign)
     }
+
+    fn swapped(&self) -> Option<Suspicion> {
+        let share = self.share(|case| {
+            let quantity = case.quantity();
+            let output = case.measured().to_vec();
+            let tightening = case.tightening.to_mut();
+            let input = std::mem::replace(&mut tightening.torque_nm, output);
+            tightening.motion.set(quantity, input);
+        });
+        share.map(Suspicion::Swapped)
+    }
+
+    fn derivatives(&self) -> impl Iterator<Item = Suspicion> {
+        let declared = self.cases.first().map(FitTask::quantity);
+        let others = Quantity::ALL.into_iter();
+        others
+            .filter(move |other| Some(*other) != declared)
+            .filter_map(move |other| {
+                let share = self.share(|case| {
+                    let output = case.measured().to_vec();
+                    case.tightening.to_mut().motion.set(other, output);
+                    let mut settings = case.settings.clone().into_owned();
+                    settings.fitted_output = other;
+                    case.settings = Cow::Owned(settings);
+                })?;
+                Some(Suspicion::Derivative {
+                    declared: declared?.name(),
+                    other: other.name(),
+                    share,
+                })
+            })
+    }
+}
+
+/// Whether the output is another derivative of the angle than is declared, as far as m, c, k alone say.
+pub(crate) fn is_another_derivative(cases: &[FitTask<'_>]) -> bool {
+    Changed::of(cases).derivatives().next().is_some()
+}
+
+/// What to check, the likeliest first; what is `left_over` where nothing else is.
+pub(crate) fn suspicions(
+    cases: &[FitTask<'_>],
+    explained: Explained,
+    left_over: Option<Suspicion>,
+) -> Vec<Suspicion> {
+    let elsewhere = from_the_spectra(cases).unwrap_or(0.0);
+    let is_elsewhere = elsewhere >= LEAST_EXPLAINED.max(explained.share + SHORTFALL);
+    let changed = Changed::of(cases);
+    let mut found: Vec<Suspicion> = (is_elsewhere.then_some(Suspicion::PoorMinimum(elsewhere)))
+        .into_iter()
+        .chain(changed.sign())
+        .chain(changed.swapped())
+        .chain(changed.derivatives())
+        .collect();
     if found.is_empty() {
         found.push(left_over.unwrap_or(Suspicion::NoOscillator));
     }
