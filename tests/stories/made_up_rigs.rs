@@ -15,6 +15,24 @@ struct Rig {
 }
 
 impl Rig {
+    /// A drive whose angle is measured.
+    fn that_turns(recordings: Vec<Vec<[f64; 2]>>) -> Self {
+        Self {
+            recordings,
+            declared: [TORQUE, "Displacement", "Radian"],
+            fitted: "Displacement",
+        }
+    }
+
+    /// A slide whose place is measured.
+    fn that_slides(recordings: Vec<Vec<[f64; 2]>>) -> Self {
+        Self {
+            recordings,
+            declared: [FORCE, "Displacement", "Metre"],
+            fitted: "Displacement",
+        }
+    }
+
     /// The diagnosis of a study as README teaches it, sampled at 1 kHz.
     fn told(&self, verb: &Verb) -> Diagnosis {
         let (folder, out) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
@@ -138,19 +156,12 @@ fn a_motor_turned_both_ways_lacks_dry_friction_and_an_offset() {
         let rate =
             |[_, v]: [f64; 2], u: f64| [v, (u - 0.1 * v - 0.3 * (v / 0.01).tanh() - 0.08) / 0.05];
         let speeds = moved(&inputs, 6, rate).map(|[_, v]| v);
-        let measured = inputs.iter().zip(speeds);
-        measured
-            .map(|(&u, v)| [u, v + 0.03 * noise.draw()])
-            .collect()
+        noise.with(&inputs, speeds, 0.03)
     };
     let ways = [1.0, -1.0, 1.0, -1.0];
     let rig = Rig {
         recordings: ways.map(|way| recording(way, &mut noise)).to_vec(),
-        declared: [
-            "signal: Torque, unit: NewtonMetre",
-            "Velocity",
-            "RadianPerSecond",
-        ],
+        declared: [TORQUE, "Velocity", "RadianPerSecond"],
         fitted: "Velocity",
     };
     let diagnosis = rig.told(&Verb::Improve);
@@ -197,16 +208,9 @@ fn a_screw_s_ripple_comes_first_of_eight_recordings() {
             [v, (u - 20.0 * v - 400.0 * x - ripple) / 3.0]
         };
         let places = moved(&inputs, 10, rate).map(|[x, _]| x);
-        let measured = inputs.iter().zip(places);
-        measured
-            .map(|(&u, x)| [u, x + 1e-4 * noise.draw()])
-            .collect()
+        noise.with(&inputs, places, 1e-4)
     };
-    let rig = Rig {
-        recordings: (0..8).map(|_| recording(&mut noise)).collect(),
-        declared: ["signal: Force, unit: Newton", "Displacement", "Metre"],
-        fitted: "Displacement",
-    };
+    let rig = Rig::that_slides((0..8).map(|_| recording(&mut noise)).collect());
     let diagnosis = rig.told(&Verb::Diagnose);
     let first = &diagnosis.ranking[0];
     assert_eq!(first.effect, "torque_ripple", "{}", diagnosis.headline);
@@ -232,26 +236,11 @@ fn a_pendulum_driven_by_a_held_torque_is_known_to_its_noise() {
         let inputs: Vec<f64> = (0..1500).map(|k| levels[k / 130]).collect();
         let rate = |[x, v]: [f64; 2], u: f64| [v, (u - 0.025 * v - 8.0 * x.sin()) / 0.012];
         let angles = moved(&inputs, 20, rate).map(|[x, _]| x);
-        let measured = inputs.iter().zip(angles);
-        measured
-            .map(|(&u, x)| [u, x + NOISE * noise.draw()])
-            .collect()
+        noise.with(&inputs, angles, NOISE)
     };
-    let rig = Rig {
-        recordings: (0..3).map(|_| recording()).collect(),
-        declared: [
-            "signal: Torque, unit: NewtonMetre",
-            "Displacement",
-            "Radian",
-        ],
-        fitted: "Displacement",
-    };
+    let rig = Rig::that_turns((0..3).map(|_| recording()).collect());
     let diagnosis = rig.told(&Verb::Improve);
-    let names: Vec<&str> = diagnosis
-        .added
-        .iter()
-        .map(|one| one.effect.as_str())
-        .collect();
+    let names = names(&diagnosis);
     assert_eq!(names, ["gravity_torque"], "{}", diagnosis.headline);
     let weight = &diagnosis.added[0].parameters[0];
     let (low, high) = (weight.low.unwrap(), weight.high.unwrap());
@@ -279,10 +268,7 @@ fn a_valve_that_sticks_lacks_dry_friction_and_no_law_that_nobody_knows() {
             ]
         };
         let places = moved(&inputs, 20, rate).map(|[x, _]| x);
-        let measured = inputs.iter().zip(places);
-        measured
-            .map(|(&u, x)| [u, x + 2e-5 * noise.draw()])
-            .collect()
+        noise.with(&inputs, places, 2e-5)
     };
     let rig = Rig {
         recordings: (0..3).map(|_| recording()).collect(),
@@ -296,11 +282,7 @@ fn a_valve_that_sticks_lacks_dry_friction_and_no_law_that_nobody_knows() {
         "{}",
         diagnosis.headline
     );
-    let names: Vec<&str> = diagnosis
-        .added
-        .iter()
-        .map(|one| one.effect.as_str())
-        .collect();
+    let names = names(&diagnosis);
     let frictions = ["coulomb_friction", "stribeck_friction"];
     assert!(
         names.first().is_some_and(|first| frictions.contains(first)),
@@ -327,11 +309,7 @@ fn a_servo_that_answers_late_lacks_a_delay_and_no_lag() {
         let angles = moved(&late, 4, rate).map(|[x, _]| x);
         noise.with(&inputs, angles, 2e-3)
     };
-    let rig = Rig {
-        recordings: (0..3).map(|_| recording()).collect(),
-        declared: [TORQUE, "Displacement", "Radian"],
-        fitted: "Displacement",
-    };
+    let rig = Rig::that_turns((0..3).map(|_| recording()).collect());
     let diagnosis = rig.told(&Verb::Improve);
     assert_eq!(
         names(&diagnosis),
@@ -359,11 +337,7 @@ fn a_suspension_measured_at_the_wheel_lacks_a_second_mode_and_nothing_else() {
         let wheel = moved(&inputs, 10, rate).map(|[_, _, y, _]| y);
         noise.with(&inputs, wheel, NOISE)
     };
-    let rig = Rig {
-        recordings: (0..2).map(|_| recording()).collect(),
-        declared: [FORCE, "Displacement", "Metre"],
-        fitted: "Displacement",
-    };
+    let rig = Rig::that_slides((0..2).map(|_| recording()).collect());
     let diagnosis = rig.told(&Verb::Improve);
     assert_eq!(names(&diagnosis), ["second_mode"], "{}", diagnosis.headline);
     let left = diagnosis.ladder.last().unwrap().rms_fitted_output;
@@ -380,11 +354,7 @@ fn what_moves_without_a_mass_that_shows_is_asked_what_it_lacks() {
         let angles = moved(&inputs, 4, rate).map(|[x, _]| x);
         noise.with(&inputs, angles, 0.03)
     };
-    let rig = Rig {
-        recordings: (0..3).map(|_| recording()).collect(),
-        declared: [TORQUE, "Displacement", "Radian"],
-        fitted: "Displacement",
-    };
+    let rig = Rig::that_turns((0..3).map(|_| recording()).collect());
     let diagnosis = rig.told(&Verb::Improve);
     assert_eq!(
         names(&diagnosis),
@@ -406,11 +376,7 @@ fn an_input_of_the_other_sign_is_said_before_anything_else() {
         let places = moved(&inputs, 10, rate).map(|[x, _]| x);
         noise.with(&inputs, places, 1e-5)
     };
-    let rig = Rig {
-        recordings: (0..3).map(|_| recording()).collect(),
-        declared: [FORCE, "Displacement", "Metre"],
-        fitted: "Displacement",
-    };
+    let rig = Rig::that_slides((0..3).map(|_| recording()).collect());
     let diagnosis = rig.told(&Verb::Diagnose);
     let headline = diagnosis.headline.to_string();
     assert_eq!(diagnosis.verdict, Verdict::NotFitted, "{headline}");
@@ -427,11 +393,7 @@ fn noise_as_large_as_the_motion_is_called_noise() {
         let places = moved(&inputs, 10, rate).map(|[x, _]| x);
         noise.with(&inputs, places, 4e-3)
     };
-    let rig = Rig {
-        recordings: (0..3).map(|_| recording()).collect(),
-        declared: [FORCE, "Displacement", "Metre"],
-        fitted: "Displacement",
-    };
+    let rig = Rig::that_slides((0..3).map(|_| recording()).collect());
     let diagnosis = rig.told(&Verb::Improve);
     assert_eq!(names(&diagnosis), [""; 0], "{}", diagnosis.headline);
     let reasons: Vec<String> = diagnosis.reasons.iter().map(ToString::to_string).collect();

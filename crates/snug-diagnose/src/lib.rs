@@ -1,3 +1,4 @@
+//! Which physical effect a model lacks, how large it is, how sure that is, and when to stop.
 #![doc = include_str!("../README.md")]
 
 mod data;

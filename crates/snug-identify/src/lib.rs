@@ -1,3 +1,4 @@
+//! From a tightening to mass, damping, stiffness and sizes of effects, with their intervals.
 #![doc = include_str!("../README.md")]
 
 mod base_model;

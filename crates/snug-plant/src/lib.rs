@@ -1,3 +1,4 @@
+//! Thousands of tightenings as columns: kept, fitted and watched on an existing engine, on one machine or many.
 #![doc = include_str!("../README.md")]
 
 mod bench;
