@@ -181,7 +181,7 @@ impl SelectionPath {
                         && gain > SMALL * misfit(first)
                 }
             };
-            candidate.p_family > settings.level
+            !candidate.is_supported(settings)
                 && (is_seldom || explains)
                 && gain > 2.0 * settings.smallest_gain * last.squares()
                 && candidate.clearness() > 1.0
