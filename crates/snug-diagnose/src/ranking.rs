@@ -16,6 +16,7 @@ pub(crate) mod resonances;
 mod score_of_groups;
 pub(crate) mod score_test;
 pub(crate) mod sensitivity;
+mod shows;
 mod simulable;
 pub(crate) mod thresholds;
 pub(crate) mod wavelengths;

@@ -12,30 +12,75 @@ use snug_campaign::{Factor, TighteningId};
 use snug_identify::FitTask;
 use snug_least_squares::matrix::{SymmetricMatrix, inner_product as dot};
 
+/// How the tightenings of a campaign follow each other.
+#[derive(Debug, Clone, Copy)]
+enum Order {
+    /// By the number within a file, whatever the file.
+    Number,
+    /// By the place in the campaign.
+    Place,
+}
+
+impl Order {
+    /// Those that are not the same.
+    fn worth_trying(cases: &[FitTask<'_>]) -> &'static [Self] {
+        let is_one_file = cases
+            .windows(2)
+            .all(|pair| pair[0].tightening.id.file == pair[1].tightening.id.file);
+        match is_one_file {
+            true => &[Self::Number],
+            false => &[Self::Number, Self::Place],
+        }
+    }
+
+    fn key(self, id: &TighteningId) -> TighteningId {
+        match self {
+            Self::Number => TighteningId {
+                file: String::new(),
+                number: id.number,
+            },
+            Self::Place => id.clone(),
+        }
+    }
+
+    fn factor(self, from: TighteningId) -> Factor {
+        match self {
+            Self::Number => Factor::FromNumber(from.number),
+            Self::Place => Factor::Since(from),
+        }
+    }
+
+    /// The tightenings in this order, and every place at which a size may change: how many come before, and the first after it.
+    fn changes(self, cases: &[FitTask<'_>]) -> (Vec<usize>, Vec<(usize, TighteningId)>) {
+        let id = |member: usize| self.key(&cases[member].tightening.id);
+        let mut order: Vec<usize> = (0..cases.len()).collect();
+        order.sort_by_key(|&member| id(member));
+        let last = (order.len() + 1).saturating_sub(FEWEST_BESIDE_A_CHANGE);
+        let places = (FEWEST_BESIDE_A_CHANGE..last)
+            .map(|count| (count, id(order[count])))
+            .filter(|(count, from)| *from != id(order[count - 1]))
+            .collect();
+        (order, places)
+    }
+}
+
+/// Every change by the number within a file, and every one by the place in the campaign, as groups of before and after.
+pub(super) fn changes(cases: &[FitTask<'_>]) -> Vec<Vec<Groups>> {
+    let of_order = |order: &Order| {
+        let places = order.changes(cases).1.into_iter();
+        let groups = places.map(|(_, from)| Groups::of(cases, &order.factor(from)));
+        groups.flatten().collect()
+    };
+    let orders = Order::worth_trying(cases).iter();
+    orders.map(of_order).collect()
+}
+
 /// The best change by the number within a file, the best by the place in the campaign, and the even course over the number.
 pub(super) fn promises(cases: &Cases<'_>, fitted: &Fitted, places: &[usize]) -> Vec<Promise> {
     let mut found = Vec::new();
-    let by_number = |id: &TighteningId| TighteningId {
-        file: String::new(),
-        number: id.number,
-    };
-    let number = change(cases, fitted, places, &by_number);
-    let is_one_file = cases
-        .windows(2)
-        .all(|pair| pair[0].tightening.id.file == pair[1].tightening.id.file);
-    let place = match is_one_file {
-        true => None,
-        false => change(cases, fitted, places, &TighteningId::clone),
-    };
-    for (change, factor) in [
-        (
-            number,
-            (|id| Factor::FromNumber(id.number)) as fn(TighteningId) -> Factor,
-        ),
-        (place, Factor::Since),
-    ] {
-        if let Some((id, tried)) = change
-            && let Some(groups) = Groups::of(cases, &factor(id))
+    for &order in Order::worth_trying(cases) {
+        if let Some((from, tried)) = change(cases, fitted, places, order)
+            && let Some(groups) = Groups::of(cases, &order.factor(from))
         {
             found.extend(promise(fitted, places, groups, tried));
         }
@@ -57,33 +102,27 @@ fn course(cases: &[FitTask<'_>]) -> Option<Groups> {
     }
 }
 
-/// The first tightening, in the order of `key`, from which on a size of its own promises most, and among how many it was chosen.
+/// The first tightening, in this order, from which on a size of its own promises most, and among how many it was chosen.
 fn change(
     cases: &[FitTask<'_>],
     fitted: &Fitted,
     places: &[usize],
-    key: &dyn Fn(&TighteningId) -> TighteningId,
+    order: Order,
 ) -> Option<(TighteningId, usize)> {
-    let mut order: Vec<usize> = (0..cases.len()).collect();
-    let id = |member: usize| key(&cases[member].tightening.id);
-    order.sort_by_key(|&member| id(member));
+    let (order, changes) = order.changes(cases);
     let (all, pull) = fitted.of_sizes(&order, places)?;
     let (mut before, mut pull_before) =
         (SymmetricMatrix::zero(places.len()), vec![0.0; places.len()]);
     let mut best: Option<(f64, TighteningId)> = None;
-    let mut tried = 0;
-    for (count, pair) in (1..).zip(order.windows(2)) {
-        let (own, g) = fitted.of_sizes(&pair[..1], places)?;
+    let (mut summed, tried) = (0, changes.len());
+    for (count, from) in changes {
+        let (own, g) = fitted.of_sizes(&order[summed..count], places)?;
+        summed = count;
         before.add(&own);
         pull_before
             .iter_mut()
             .zip(&g)
             .for_each(|(sum, g)| *sum += g);
-        let from = id(pair[1]);
-        let least = count.min(order.len() - count);
-        if from == id(pair[0]) || least < FEWEST_BESIDE_A_CHANGE {
-            continue;
-        }
         let mut after = all.clone();
         after.subtract(&before);
         let pull_after: Vec<f64> = pull
@@ -91,7 +130,6 @@ fn change(
             .zip(&pull_before)
             .map(|(all, own)| all - own)
             .collect();
-        tried += 1;
         let gain = fall(&before, &pull_before) + fall(&after, &pull_after);
         if best.as_ref().is_none_or(|(known, _)| gain > *known) {
             best = Some((gain, from));

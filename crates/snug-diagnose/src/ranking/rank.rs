@@ -19,6 +19,7 @@ use crate::ranking::pairs::{Pair, promising_pairs};
 use crate::ranking::refit::{followed, possible, refit};
 use crate::ranking::score_test::{Control, Scored, Scorer};
 use crate::ranking::sensitivity::Column;
+use crate::ranking::shows::where_it_shows;
 use crate::ranking::thresholds::{
     BEST, BEST_BY_GROUP, BEST_OF_LONG, CONTROL_FLIPS, MOST_OF_ALL, SHAPES_TRIED, STRICTER,
 };
@@ -303,19 +304,25 @@ fn look_where_it_shows(
         .map(|candidate| candidate.effect)
         .filter(|effect| !is_unlisted(*effect))
         .collect();
-    let found = best_where_it_shows(
-        cases, current, &effects, &groupings, clusters, settings, watch,
-    )?;
     let heldout = current.heldout_beyond_torque_noise();
     let forms = candidates.len() * (1 + groupings.len());
-    for (effect, fitted) in found {
-        let least = fitted.smallest_gain(settings) * fitted.squares();
-        let candidate = candidates.iter_mut().find(|one| one.effect == effect);
-        if let Some(candidate) = candidate
-            && fitted.is_at_floor()
-            && explains_more(&candidate.fitted, &fitted, least)
-        {
-            candidate.becomes(fitted, &cases, &heldout, forms);
+    for shows in where_it_shows(&cases, current, &groupings) {
+        let found =
+            best_where_it_shows(cases, current, &effects, &shows, clusters, settings, watch)?;
+        let mut is_found = false;
+        for (effect, fitted) in found {
+            let least = fitted.smallest_gain(settings) * fitted.squares();
+            let candidate = candidates.iter_mut().find(|one| one.effect == effect);
+            if let Some(candidate) = candidate
+                && fitted.is_at_floor()
+                && explains_more(&candidate.fitted, &fitted, least)
+            {
+                candidate.becomes(fitted, &cases, &heldout, forms);
+                is_found = true;
+            }
+        }
+        if is_found {
+            break;
         }
     }
     sort(candidates);

@@ -33,6 +33,9 @@ pub(crate) const FEWEST_BESIDE_A_CHANGE: usize = 3;
 /// that leaves least for an effect to show in it: the least of six lies 1.3 below their mean, the largest as much above. Chosen; with
 /// 0.03 of the noise in its place two who had nothing were asked beside the one whose grip had play, which was not found then.
 pub(crate) const BEYOND_THE_QUIET: f64 = 4.5;
+/// Standard deviations, of the mean squared residuals of those that are left at the noise, by which that of a tightening must lie above
+/// their mean for it not to be one of them. Chosen: one in a thousand does by chance.
+pub(crate) const BEYOND_QUIET_ONES: f64 = 3.0;
 /// Tightenings in which it must show for an effect to be looked for in them alone. Chosen.
 pub(crate) const FEWEST_WHERE_IT_SHOWS: usize = 4;
 /// Candidates, the best, whose sizes are tried to differ between groups. Chosen.
