@@ -141,7 +141,7 @@ const DRAWN_FROM: [(Hidden, f64); 20] = [
 /// Campaigns drawn from a number: each effect as likely as any other, and so is each form; what few have is stronger, so that the
 /// error of all rises by a tenth to a half.
 fn drawn(number: u64) -> Vec<Case> {
-    let mut state = number.wrapping_mul(0x9E37_79B9_7F4A_7C15);
+    let mut state = number.wrapping_mul(0xD1B5_4A32_D192_ED03);
     // SplitMix64 (Steele, Lea, Flood 2014): uniform in [0, 1).
     let mut uniform = move || {
         state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
