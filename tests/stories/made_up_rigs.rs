@@ -410,3 +410,29 @@ fn noise_as_large_as_the_motion_is_called_noise() {
         "{reasons:?}"
     );
 }
+
+/// A fan that runs when recording begins: how it runs then is no effect, what resists it is its air and its bearing.
+#[test]
+fn a_fan_that_runs_already_lacks_what_air_and_bearing_do() {
+    const NOISE: f64 = 0.04;
+    let mut noise = Noise(13);
+    let mut recording = || {
+        let inputs = noise.levels([0.3, 6.0], 100, 4000);
+        let resists = |w: f64| 0.002 * w + 0.0015 * w * w.abs() + 0.15 * (w / 0.05).tanh();
+        let rate = |[w]: [f64; 1], u: f64| [(u - resists(w)) / 0.005];
+        let speeds: Vec<f64> = moved(&inputs, 4, rate).map(|[w]| w).collect();
+        noise.with(&inputs[1050..], speeds[1050..].iter().copied(), NOISE)
+    };
+    let rig = Rig {
+        recordings: (0..3).map(|_| recording()).collect(),
+        declared: [TORQUE, "Velocity", "RadianPerSecond"],
+        fitted: "Velocity",
+    };
+    let diagnosis = rig.told(&Verb::Improve);
+    let names = names(&diagnosis);
+    assert_eq!(names[..2], ["initial_motion", "quadratic_damping"]);
+    let air = &diagnosis.added[1].parameters[0];
+    assert!((air.value / 0.0015 - 1.0).abs() < 0.02, "{air:?}");
+    let left = diagnosis.ladder.last().unwrap().rms_fitted_output;
+    assert!(left < 1.1 * NOISE, "{left}: {}", diagnosis.headline);
+}

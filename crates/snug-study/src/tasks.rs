@@ -3,4 +3,5 @@
 pub(crate) mod cases;
 pub(crate) mod comparable;
 pub(crate) mod held_input;
+mod initial_state;
 pub(crate) mod settling;

@@ -1,6 +1,7 @@
 //! What a fitted pooled model leaves in tightenings, or stretches, that took no part in fixing its sizes.
 
 use crate::pooled::fitted::Fitted;
+use crate::pooled::parameter_place::effect_of;
 use snug_least_squares::matrix::{SymmetricMatrix, inner_product as dot};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -29,7 +30,7 @@ impl Fitted {
             if let Some(inverse) = &inverse {
                 self.hold_out_of_groups(clusters, inverse, &mut squares);
             } else if self.clusters.are_whole() {
-                self.hold_out(clusters, all.clone(), &mut squares);
+                self.hold_out(clusters, all.clone(), &[], &mut squares);
             } else {
                 self.hold_out_stretches(clusters, &mut squares);
             }
@@ -41,7 +42,14 @@ impl Fitted {
         squares
     }
 
-    fn hold_out(&self, clusters: &[usize], total: SymmetricMatrix, squares: &mut [f64]) {
+    /// The parameters at `kept` stay as they were fitted.
+    fn hold_out(
+        &self,
+        clusters: &[usize],
+        total: SymmetricMatrix,
+        kept: &[usize],
+        squares: &mut [f64],
+    ) {
         let mut rest = total;
         let mut gradient = vec![0.0; rest.size()];
         for &cluster in clusters {
@@ -49,6 +57,14 @@ impl Fitted {
             for (sum, g) in gradient.iter_mut().zip(&self.blocks[cluster].gradient) {
                 *sum += g;
             }
+        }
+        for &place in kept {
+            for other in 0..rest.size() {
+                rest.set(place, other, 0.0);
+                rest.set(other, place, 0.0);
+            }
+            rest.set(place, place, 1.0);
+            gradient[place] = 0.0;
         }
         let shift = rest.solve_scaled(&gradient);
         for &cluster in clusters {
@@ -110,6 +126,16 @@ impl Fitted {
         }
     }
 
+    /// Where among a record's own parameters those stand that say how it begins.
+    fn initial_states(&self) -> Vec<usize> {
+        let says_it = |index: &usize| {
+            effect_of(&self.effects, *index).is_some_and(|(of, _)| of.sets_initial_motion())
+        };
+        (0..self.own_indices().len())
+            .filter(|&column| says_it(&self.own_indices()[column]))
+            .collect()
+    }
+
     /// Where among `places` those of one tightening stand.
     fn among(&self, places: &[usize], member: usize) -> Vec<usize> {
         let own = self.shared_of[member].iter();
@@ -131,7 +157,8 @@ impl Fitted {
         (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
     }
 
-    /// Own parameters are fixed by the other stretches of the same tightening, the shared ones by everything else.
+    /// Own parameters are fixed by the other stretches of the same tightening, the shared ones by everything else. How a record
+    /// begins is no law that other stretches could tell: it stays as it was fitted.
     fn hold_out_stretches(&self, clusters: &[usize], squares: &mut [f64]) {
         let mut by_member: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
         for &cluster in clusters {
@@ -140,6 +167,7 @@ impl Fitted {
                 .or_default()
                 .push(cluster);
         }
+        let states = self.initial_states();
         for (member, own_clusters) in by_member {
             let mut total = self.member_curvature[member].clone();
             let first_shared = total.size() - self.shared.len();
@@ -148,7 +176,7 @@ impl Fitted {
                     total.add_at(first_shared, curvature);
                 }
             }
-            self.hold_out(&own_clusters, total, squares);
+            self.hold_out(&own_clusters, total, &states, squares);
         }
     }
 }

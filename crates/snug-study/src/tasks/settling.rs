@@ -4,6 +4,7 @@
 use crate::evaluation::validation::every_s_of;
 use crate::study::Study;
 use crate::tasks::cases::with_settled;
+use crate::tasks::initial_state;
 use snug_campaign::Quantity;
 use snug_campaign::words::reason::Reason;
 use snug_diagnose::is_followed_with_an_effect;
@@ -39,7 +40,7 @@ pub(crate) fn settle(study: &Study, cases: &[FitTask<'_>]) -> Option<Settled> {
         study: study.clone(),
         reasons: Vec::new(),
     };
-    if let Some(start) = start.filter(|_| !states_a_start(study)) {
+    if let Some(start) = start.as_ref().filter(|_| !states_a_start(study)) {
         for (name, value) in BASE_PARAMETERS.iter().zip(start.values) {
             let told = settled.study.model.parameters.entry((*name).to_owned());
             told.or_default().value = Some(value);
@@ -52,6 +53,9 @@ pub(crate) fn settle(study: &Study, cases: &[FitTask<'_>]) -> Option<Settled> {
             time_s: sizes.time_s,
         };
     }
+    let runs_freely = !matches!(study.identify.simulation, Simulation::Restarted { .. });
+    let mut begins =
+        runs_freely && initial_state::settle(&mut settled.study, cases, start.as_ref());
     let cases = &with_settled(&settled.study, cases.iter().map(FitTask::lent).collect()).ok()?;
     if study.identify.simulation == Simulation::Automatic {
         let missed = missed(cases);
@@ -60,6 +64,10 @@ pub(crate) fn settle(study: &Study, cases: &[FitTask<'_>]) -> Option<Settled> {
             (Some(missed), Some(every_s))
                 if missed.share() > POOR && !missed.would_be_less_with_an_effect(cases) =>
             {
+                if begins {
+                    initial_state::take_back(&mut settled.study, study);
+                    begins = false;
+                }
                 settled.reasons.push(Reason::Restarted {
                     missed: missed.share(),
                     every_s,
@@ -75,6 +83,9 @@ pub(crate) fn settle(study: &Study, cases: &[FitTask<'_>]) -> Option<Settled> {
             }
             _ => Simulation::FreeRun,
         };
+    }
+    if begins {
+        settled.reasons.push(Reason::BeginsMoving);
     }
     Some(settled)
 }

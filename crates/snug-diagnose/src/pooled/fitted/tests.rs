@@ -6,7 +6,8 @@ use crate::pooled::fit::fit_effects;
 use crate::tests::made_up::{NOISE, SAMPLES, WHOLE, close, custom_force, exact, hand, noisy, term};
 use snug_campaign::{Factor, Level, Tightening};
 use snug_identify::FitTask;
-use snug_model::Effect::{CubicStiffness, TorqueOffset};
+use snug_model::BASE_PARAMETERS;
+use snug_model::Effect::{CubicStiffness, InitialMotion, TorqueOffset};
 
 /// Three tightenings of one residual each, y = 1, 2, 6 about one shared mean α = 3: r = y − α, ∂r/∂α = −1.
 fn mean_of_three() -> Fitted {
@@ -87,6 +88,17 @@ fn a_stretch_is_held_out_of_its_own_record_and_of_what_all_share() {
     let heldout = two_lines().heldout(&|cluster| cluster);
     close(heldout[2], (39.0_f64 / 17.0).powi(2), 1e-12);
     close(heldout[1], 1.5 * 1.5, 1e-12);
+}
+
+/// Where β is how a record begins it stays: without (1, 5) all others say of α a ninth of −1.3 more, and 1.3 + 1.3/9 is left.
+#[test]
+fn how_a_record_begins_is_not_held_out_with_its_stretches() {
+    let mut begins = two_lines();
+    begins.effects = vec![InitialMotion, CubicStiffness];
+    begins.own_indices = vec![BASE_PARAMETERS.len()];
+    let heldout = begins.heldout(&|cluster| cluster);
+    close(heldout[2], (13.0_f64 / 9.0).powi(2), 1e-12);
+    close(heldout[1], 1.0, 1e-12);
 }
 
 /// What the stretches of both pull at α, whose β are in their middle: −t r.
