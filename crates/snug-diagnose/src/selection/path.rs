@@ -264,8 +264,12 @@ pub(crate) fn justified(
     let supported = |index: &usize| all[*index].is_supported(settings);
     let share = |index: usize, of: &Fitted| all[index].gain_beside(current) / of.squares();
     let matters = |index: &usize| share(*index, current) >= current.smallest_gain(settings);
+    // What takes most of the rest leaves the other sizes wrong while it is missing, however little that is beside the beginning.
+    let takes_most = |index: usize| !is_unlisted(all[index].effect) && share(index, current) > MOST;
     let is_enough = |index: &usize| {
-        current.is_weighted || share(*index, first) >= least_share(all[*index].effect)
+        current.is_weighted
+            || share(*index, first) >= least_share(all[*index].effect)
+            || takes_most(*index)
     };
     match (0..all.len()).find(supported) {
         Some(best) => {
