@@ -3,8 +3,8 @@
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 use snug_campaign::words::program;
 use snug_plant::{
-    BenchSettings, CLUSTER_PARTS, Engine, FitSettings, ImproveSettings, Naming, PlantError,
-    Simulation, Store, WorkerSettings,
+    BenchSettings, CLUSTER_PARTS, Engine, FitSettings, GIVEN_UP_AFTER_S, ImproveSettings, Naming,
+    PlantError, STANDS_STILL_AFTER_S, SchedulerSettings, Simulation, Store, WorkerSettings,
 };
 use snug_study::Study;
 use std::net::{IpAddr, SocketAddr};
@@ -12,7 +12,8 @@ use std::path::PathBuf;
 
 /// A plant's tightenings as Parquet: brought in, fitted on one machine or many, asked and watched.
 ///
-/// URL is a folder or file:///….
+/// URL is a folder, file:///… or s3://BUCKET/…; where a bucket is and who asks for it, the environment says (AWS_ENDPOINT_URL,
+/// AWS_ACCESS_KEY_ID, AWS_SECRET_ACCESS_KEY, AWS_REGION, AWS_ALLOW_HTTP).
 #[derive(Debug, Parser)]
 #[command(version)]
 pub struct Arguments {
@@ -191,6 +192,7 @@ impl FitOptions {
             engine: self.engine.engine(),
             resume: self.engine.resume,
             rows_per_job: self.engine.rows_per_job.unwrap_or(usual.rows_per_job),
+            given_up_after_s: self.engine.give_up_after,
         }
     }
 }
@@ -234,6 +236,7 @@ impl ImproveOptions {
             seed: self.seed,
             engine: self.engine.engine(),
             rows_per_job: self.engine.rows_per_job.unwrap_or(usual.rows_per_job),
+            given_up_after_s: self.engine.give_up_after,
             results: !self.no_results,
             resume: self.engine.resume,
         }
@@ -255,6 +258,9 @@ pub struct EngineOptions {
     /// Rows of one job.
     #[arg(long, value_name = "N")]
     rows_per_job: Option<usize>,
+    /// What is left is not tried when for so many seconds no partition came out and those that were tried failed.
+    #[arg(long, value_name = "S", default_value_t = GIVEN_UP_AFTER_S)]
+    give_up_after: u64,
 }
 
 impl EngineOptions {
@@ -274,7 +280,20 @@ impl EngineOptions {
 pub struct SchedulerOptions {
     /// Address that it listens at. Whoever reaches it may run plans: keep it on loopback or a network of its own.
     #[arg(long, value_name = "IP:PORT", default_value = "127.0.0.1:50050")]
-    pub bind: SocketAddr,
+    bind: SocketAddr,
+    /// A job is given up when for so many seconds no part of it was finished or begun and none ran at a living worker.
+    #[arg(long, value_name = "S", default_value_t = STANDS_STILL_AFTER_S)]
+    give_up_after: u64,
+}
+
+impl SchedulerOptions {
+    /// How it is started.
+    pub fn settings(&self) -> SchedulerSettings {
+        SchedulerSettings {
+            bind: self.bind,
+            give_up_after_s: self.give_up_after,
+        }
+    }
 }
 
 /// Of `worker`.

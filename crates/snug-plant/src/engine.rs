@@ -1,7 +1,14 @@
 //! The engine: DataFusion in this process on all cores, or the same plans on a Ballista cluster.
 
+mod cluster;
+mod stalled;
+pub(crate) mod thresholds;
+
+pub use cluster::{SchedulerSettings, WorkerSettings, scheduler, worker};
+
 use crate::fit::function::function;
 use crate::pooled::{block_function, group_function, sum_function};
+use crate::store::Places;
 use crate::{PlantError, Store};
 use arrow::array::RecordBatch;
 use ballista::prelude::{SessionConfigExt, SessionContextExt};
@@ -10,6 +17,7 @@ use datafusion::common::{DataFusionError, internal_err};
 use datafusion::dataframe::DataFrame;
 use datafusion::datasource::file_format::options::ParquetReadOptions;
 use datafusion::execution::SessionStateBuilder;
+use datafusion::execution::runtime_env::{RuntimeEnv, RuntimeEnvBuilder};
 use datafusion::logical_expr::ScalarUDF;
 use datafusion::physical_plan::aggregates::{AggregateExec, AggregateMode};
 use datafusion::physical_plan::{ExecutionPlan, collect};
@@ -19,7 +27,6 @@ use datafusion_proto::protobuf::PhysicalPlanNode;
 use futures::TryStreamExt;
 use std::sync::Arc;
 use std::thread::available_parallelism;
-use std::time::Duration;
 
 /// Rows that an operator hands on at a time: four batches of side-by-side fits, some 3 MB of signals.
 const ROWS_AT_ONCE: usize = 64;
@@ -98,16 +105,12 @@ impl Session {
     /// once or more often. No part waits for another: where a worker dies, what it had is done again and nothing else.
     ///
     /// # Errors
-    /// [`PlantError::Engine`], also where it does not end.
-    pub async fn states_of(
-        &self,
-        aggregate: DataFrame,
-        rows: usize,
-    ) -> Result<Vec<RecordBatch>, PlantError> {
+    /// As [`Session::answer_of`].
+    pub async fn states_of(&self, aggregate: DataFrame) -> Result<Vec<RecordBatch>, PlantError> {
         let context = Arc::new(aggregate.task_ctx());
         let plan = of_each_part(&planned(aggregate).await?)?;
         let Some(scheduler) = &self.scheduler else {
-            return in_time(collect(plan, context), rows).await;
+            return Ok(collect(plan, context).await?);
         };
         let config = context.session_config().clone();
         let codec = config.ballista_physical_extension_codec();
@@ -123,8 +126,38 @@ impl Session {
             );
             batches.await?.try_collect().await
         };
-        in_time(answer, rows).await
+        self.heard(answer.await)
     }
+
+    /// What a job answers.
+    ///
+    /// # Errors
+    /// [`PlantError::Engine`], [`PlantError::StandsStill`] where a cluster's scheduler gave it up.
+    pub async fn answer_of(&self, frame: DataFrame) -> Result<Vec<RecordBatch>, PlantError> {
+        self.heard(frame.collect().await)
+    }
+
+    fn heard<T>(&self, answer: Result<T, DataFusionError>) -> Result<T, PlantError> {
+        answer.map_err(|error| match &self.scheduler {
+            Some(scheduler) if error.to_string().contains(GIVEN_UP) => PlantError::StandsStill {
+                scheduler: scheduler.clone(),
+            },
+            _ => error.into(),
+        })
+    }
+}
+
+/// What a client hears of a job that its scheduler ended: nobody but the scheduler itself ends one.
+const GIVEN_UP: &str = "failed: Cancelled";
+
+/// What reads every place that a plan may name.
+pub(crate) fn runtime(spills_to: Option<&str>) -> Result<RuntimeEnv, DataFusionError> {
+    let mut builder =
+        RuntimeEnvBuilder::new().with_object_store_registry(Arc::new(Places::default()));
+    if let Some(folder) = spills_to {
+        builder = builder.with_temp_file_path(folder);
+    }
+    builder.build()
 }
 
 /// The plan that the engine would carry out in this process.
@@ -202,38 +235,6 @@ pub(crate) async fn rows_of(
 ) -> Result<DataFrame, PlantError> {
     let options = ParquetReadOptions::default().schema(schema);
     Ok(session.read_parquet(urls, options).await?)
-}
-
-/// A job that has not ended after this time, and so much for each of its rows, is given up \[s\]. A scheduler that loses a worker in the
-/// instant in which it hands it work may wait for ever; a row takes 0.08 s with an effect that is tried from several starts.
-const GIVEN_UP_AFTER_S: f64 = 60.0;
-/// See [`GIVEN_UP_AFTER_S`].
-const GIVEN_UP_AFTER_S_PER_ROW: f64 = 1.0;
-
-/// What a job over so many rows answers.
-///
-/// # Errors
-/// [`PlantError::Engine`], also where it does not end.
-pub(crate) async fn answered(
-    frame: DataFrame,
-    rows: usize,
-) -> Result<Vec<RecordBatch>, PlantError> {
-    in_time(frame.collect(), rows).await
-}
-
-async fn in_time(
-    answer: impl Future<Output = Result<Vec<RecordBatch>, DataFusionError>>,
-    rows: usize,
-) -> Result<Vec<RecordBatch>, PlantError> {
-    let longest_s = GIVEN_UP_AFTER_S + GIVEN_UP_AFTER_S_PER_ROW * rows as f64;
-    let longest = Duration::from_secs_f64(longest_s);
-    match tokio::time::timeout(longest, answer).await {
-        Ok(answer) => Ok(answer?),
-        Err(_) => {
-            let text = format!("the job did not end within {longest_s:.0} s and was given up");
-            Err(DataFusionError::Execution(text).into())
-        }
-    }
 }
 
 #[cfg(test)]

@@ -104,6 +104,14 @@ pub enum PlantError {
     /// A query that the engine refuses or could not carry out.
     #[error("{0}")]
     Engine(#[from] datafusion::error::DataFusionError),
+    /// A job that a cluster's scheduler gave up.
+    #[error(
+        "{scheduler} gave the job up: no part of it was finished, and none ran at a worker that is alive"
+    )]
+    StandsStill {
+        /// URL of the scheduler.
+        scheduler: String,
+    },
     /// The engine's own processes.
     #[error("{what} at {address}: {reason}")]
     Cluster {

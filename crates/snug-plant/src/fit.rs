@@ -2,8 +2,10 @@
 
 pub(crate) mod columns;
 pub(crate) mod function;
+mod in_vain;
 mod job;
 mod outcome;
 
+pub(crate) use in_vain::InVain;
 pub use job::{FitSettings, Fitted, fit};
 pub(crate) use job::{fit_with, jobs, reason};

@@ -37,6 +37,8 @@ pub struct ImproveSettings {
     pub engine: Engine,
     /// Rows of one job.
     pub rows_per_job: usize,
+    /// A pass, or the fit of every row, is given up when for so long no partition came out and those that were tried failed \[s\].
+    pub given_up_after_s: u64,
     /// Whether every row is fitted with the model that was found, and tools are watched.
     pub results: bool,
     /// Whether partitions that have results of the same rows and the same model are left as they are.
@@ -53,6 +55,7 @@ impl Default for ImproveSettings {
             seed: 0,
             engine: Engine::default(),
             rows_per_job: usual.rows_per_job,
+            given_up_after_s: usual.given_up_after_s,
             results: true,
             resume: false,
         }
@@ -244,6 +247,7 @@ async fn results(
         engine: settings.engine.clone(),
         resume: settings.resume,
         rows_per_job: settings.rows_per_job,
+        given_up_after_s: settings.given_up_after_s,
     };
     let progress = |fitted: &Fitted| {
         told(&format!(

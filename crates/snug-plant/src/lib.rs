@@ -2,7 +2,6 @@
 #![doc = include_str!("../README.md")]
 
 mod bench;
-mod cluster;
 mod dataset;
 mod engine;
 mod error;
@@ -21,9 +20,9 @@ mod store;
 mod watch;
 
 pub use bench::{BenchSettings, Figures, bench};
-pub use cluster::{WorkerSettings, scheduler, worker};
 pub use dataset::{Commit, CommittedFile, Dataset, Manifest};
-pub use engine::{CLUSTER_PARTS, Engine};
+pub use engine::thresholds::{GIVEN_UP_AFTER_S, STANDS_STILL_AFTER_S};
+pub use engine::{CLUSTER_PARTS, Engine, SchedulerSettings, WorkerSettings, scheduler, worker};
 pub use error::PlantError;
 pub use fit::{FitSettings, Fitted, fit};
 pub use import::{Imported, import};

@@ -74,7 +74,7 @@ async fn work(command: Command) -> Result<String, PlantError> {
             Ok(improved(&done))
         }
         Command::Scheduler(options) => {
-            snug_plant::scheduler(options.bind).await?;
+            snug_plant::scheduler(&options.settings()).await?;
             Ok("the scheduler has ended".to_owned())
         }
         Command::Worker(options) => {

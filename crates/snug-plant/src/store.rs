@@ -1,4 +1,10 @@
-//! Where a dataset lies: a local folder. Objects are there whole or not at all.
+//! Where a dataset lies: a local folder, or a bucket of an S3-compatible store. Objects are there whole or not at all.
+
+mod bucket;
+mod registry;
+mod thresholds;
+
+pub(crate) use registry::Places;
 
 use crate::PlantError;
 use bytes::Bytes;
@@ -18,7 +24,7 @@ pub struct Store {
 }
 
 impl Store {
-    /// Opens a folder's path or a URL.
+    /// Opens a folder's path, `file:///FOLDER/` or `s3://BUCKET/FOLDER/`; a bucket's endpoint and credentials stand in the environment.
     ///
     /// # Errors
     /// [`PlantError::Place`] for what leads nowhere.
@@ -53,8 +59,20 @@ impl Store {
                     prefix,
                 })
             }
+            "s3" => {
+                let name = url.host_str().filter(|name| !name.is_empty());
+                let name = name.ok_or_else(|| place("it names no bucket".to_owned()))?;
+                let opened = bucket::bucket(name).map_err(|error| place(error.to_string()))?;
+                let prefix = Path::from_url_path(url.path());
+                Ok(Self {
+                    objects: opened,
+                    prefix: prefix.map_err(|error| place(error.to_string()))?,
+                    root: url,
+                })
+            }
             scheme => {
-                let reason = format!("{scheme:?} is not known; known are folders and file://");
+                let reason =
+                    format!("{scheme:?} is not known; known are folders, file:// and s3://");
                 Err(place(reason))
             }
         }

@@ -2,8 +2,10 @@
 
 use super::columns;
 use super::function::{TAKEN, function};
+use super::in_vain::InVain;
 use crate::dataset::{Commit, Dataset};
-use crate::engine::{Engine, Session, answered, rows_of};
+use crate::engine::thresholds::GIVEN_UP_AFTER_S;
+use crate::engine::{Engine, Session, rows_of};
 use crate::partition::{Partition, of_row};
 use crate::rows;
 use crate::schema::{self, IDENTITY};
@@ -15,12 +17,10 @@ use datafusion::common::Column;
 use datafusion::logical_expr::{Expr, lit};
 use snug_study::Study;
 use std::collections::{BTreeMap, BTreeSet};
+use std::time::Duration;
 
 /// Rows of one job, unless told otherwise: some 20 s of one core for three parameters, and 1 GB of signals that are read.
 pub const ROWS_PER_JOB: usize = 20_000;
-
-/// Jobs in a row of which not one partition could be fitted, after which no other is tried: the cluster or the store is gone.
-const GIVEN_UP_AFTER: usize = 2;
 
 /// How a dataset is fitted.
 #[derive(Debug, Clone)]
@@ -33,6 +33,8 @@ pub struct FitSettings {
     pub resume: bool,
     /// Rows of one job.
     pub rows_per_job: usize,
+    /// What is left is not tried when for so long no partition was fitted and those that were tried failed \[s\].
+    pub given_up_after_s: u64,
 }
 
 impl Default for FitSettings {
@@ -42,6 +44,7 @@ impl Default for FitSettings {
             engine: Engine::default(),
             resume: false,
             rows_per_job: ROWS_PER_JOB,
+            given_up_after_s: GIVEN_UP_AFTER_S,
         }
     }
 }
@@ -103,23 +106,9 @@ pub(crate) async fn fit_with(
         }
     }
     let mut failed: Vec<(String, String)> = Vec::new();
-    let mut in_vain = 0;
+    let mut in_vain = InVain::none(Duration::from_secs(settings.given_up_after_s));
     for job in jobs(&to_do, settings.rows_per_job) {
-        if in_vain >= GIVEN_UP_AFTER {
-            let reason = "not tried: of the jobs before it nothing could be fitted";
-            failed.extend(
-                job.iter()
-                    .map(|(part, _)| (part.to_string(), reason.to_owned())),
-            );
-            continue;
-        }
-        let lost = work.job(job, &mut fitted).await?;
-        in_vain = if lost.len() == job.len() {
-            in_vain + 1
-        } else {
-            0
-        };
-        failed.extend(lost);
+        failed.extend(work.job(job, &mut fitted, &mut in_vain).await?);
         progress(&fitted);
     }
     match failed.is_empty() {
@@ -167,23 +156,27 @@ impl Work<'_> {
         &self,
         parts: &[Part],
         fitted: &mut Fitted,
+        in_vain: &mut InVain,
     ) -> Result<Vec<(String, String)>, PlantError> {
-        let error = match self.fitted(parts).await {
-            Ok(rows) => return self.publish(parts, &rows, fitted).await,
-            Err(error) => error,
-        };
-        tracing::warn!(partitions = parts.len(), %error, "a job failed");
-        if let [(part, _)] = parts {
-            return Ok(vec![(part.to_string(), reason(&error))]);
+        if in_vain.given_up().is_none() {
+            match self.fitted(parts).await {
+                Ok(rows) => return self.publish(parts, &rows, fitted, in_vain).await,
+                Err(error) => tracing::warn!(partitions = parts.len(), %error, "a job failed"),
+            }
         }
         let mut failed = Vec::new();
         for part in parts {
-            match self.fitted(std::slice::from_ref(part)).await {
-                Ok(rows) => {
-                    let one = std::slice::from_ref(part);
-                    failed.extend(self.publish(one, &rows, fitted).await?);
+            if let Some(why) = in_vain.given_up() {
+                failed.push((part.0.to_string(), why));
+                continue;
+            }
+            let one = std::slice::from_ref(part);
+            match self.fitted(one).await {
+                Ok(rows) => failed.extend(self.publish(one, &rows, fitted, in_vain).await?),
+                Err(error) => {
+                    in_vain.count(false);
+                    failed.push((part.0.to_string(), reason(&error)));
                 }
-                Err(error) => failed.push((part.0.to_string(), reason(&error))),
             }
         }
         Ok(failed)
@@ -198,8 +191,7 @@ impl Work<'_> {
         taken.extend(TAKEN.fields().iter().map(|field| named(field.name())));
         let mut wanted: Vec<Expr> = IDENTITY.iter().map(|(name, ..)| named(name)).collect();
         wanted.push(function().call(taken).alias("fit"));
-        let count = parts.iter().map(|(_, commit)| commit.rows()).sum();
-        let batches = answered(rows.select(wanted)?, count).await?;
+        let batches = self.session.answer_of(rows.select(wanted)?).await?;
         let flat: Vec<RecordBatch> = (batches.iter())
             .map(|batch| flattened(batch, &self.schema))
             .collect::<Result<_, _>>()?;
@@ -214,10 +206,15 @@ impl Work<'_> {
         parts: &[Part],
         rows: &RecordBatch,
         fitted: &mut Fitted,
+        in_vain: &mut InVain,
     ) -> Result<Vec<(String, String)>, PlantError> {
         let found = by_partition(rows)?;
         let mut failed = Vec::new();
         for (part, commit) in parts {
+            if let Some(why) = in_vain.given_up() {
+                failed.push((part.to_string(), why));
+                continue;
+            }
             let own = found
                 .get(part)
                 .map_or_else(|| rows.slice(0, 0), Clone::clone);
@@ -230,10 +227,13 @@ impl Work<'_> {
                     own.num_rows(),
                     keys.len()
                 );
+                in_vain.count(false);
                 failed.push((part.to_string(), reason));
                 continue;
             }
-            match self.made_to_count(part, commit, own).await {
+            let written = self.made_to_count(part, commit, own).await;
+            in_vain.count(written.is_ok());
+            match written {
                 Ok(()) => {
                     fitted.rows += commit.rows();
                     fitted.partitions += 1;

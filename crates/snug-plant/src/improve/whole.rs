@@ -12,6 +12,7 @@ use snug_diagnose::SharedParameter;
 use snug_preprocess::Prepared;
 use snug_study::{Compared, PreparedDiagnosis, Study, shared_parameters};
 use std::collections::BTreeMap;
+use std::time::Duration;
 
 /// A rung of the ladder over all rows.
 #[derive(Debug, Clone)]
@@ -116,6 +117,7 @@ impl Whole<'_> {
             study: &text,
             parts: self.parts,
             rows_per_job: self.settings.rows_per_job,
+            given_up_after: Duration::from_secs(self.settings.given_up_after_s),
         };
         let effects = study.model.effects.join(" + ");
         let name = match effects.is_empty() {

@@ -7,7 +7,7 @@ use super::sum::{Places, sum_function};
 use crate::PlantError;
 use crate::dataset::{Commit, Dataset};
 use crate::engine::{Session, rows_of};
-use crate::fit::{jobs, reason};
+use crate::fit::{InVain, jobs, reason};
 use crate::partition::{Partition, of_row};
 use crate::schema;
 use arrow::array::{Array, AsArray, RecordBatch};
@@ -16,6 +16,7 @@ use arrow::error::ArrowError;
 use datafusion::common::Column;
 use datafusion::logical_expr::{Expr, lit};
 use std::collections::BTreeMap;
+use std::time::Duration;
 
 /// What can be passed over: a dataset, the study whose model its rows are asked with, and where that is done.
 pub(crate) struct Pass<'a> {
@@ -25,6 +26,8 @@ pub(crate) struct Pass<'a> {
     pub study: &'a str,
     pub parts: &'a [(Partition, Commit)],
     pub rows_per_job: usize,
+    /// Given up when for so long nothing came out.
+    pub given_up_after: Duration,
 }
 
 /// What the rows of one group say; those of no group under `None`.
@@ -57,18 +60,30 @@ impl Pass<'_> {
         let text = serde_json::to_string(held)?;
         let mut all = Found::new();
         let mut failed = Vec::new();
+        let mut in_vain = InVain::none(self.given_up_after);
         for job in jobs(self.parts, self.rows_per_job) {
-            match self.whole(job, held, &text).await {
-                Ok(found) => all.extend(found),
-                Err(error) if job.len() == 1 => failed.push((job[0].0.to_string(), reason(&error))),
-                Err(error) => {
-                    tracing::warn!(partitions = job.len(), %error, "a job of a pass failed");
-                    for part in job {
-                        match self.whole(std::slice::from_ref(part), held, &text).await {
-                            Ok(found) => all.extend(found),
-                            Err(error) => failed.push((part.0.to_string(), reason(&error))),
-                        }
+            if in_vain.given_up().is_none() {
+                match self.whole(job, held, &text).await {
+                    Ok(found) => {
+                        in_vain.count(true);
+                        all.extend(found);
+                        continue;
                     }
+                    Err(error) => {
+                        tracing::warn!(partitions = job.len(), %error, "a job of a pass failed");
+                    }
+                }
+            }
+            for part in job {
+                if let Some(why) = in_vain.given_up() {
+                    failed.push((part.0.to_string(), why));
+                    continue;
+                }
+                let found = self.whole(std::slice::from_ref(part), held, &text).await;
+                in_vain.count(found.is_ok());
+                match found {
+                    Ok(found) => all.extend(found),
+                    Err(error) => failed.push((part.0.to_string(), reason(&error))),
                 }
             }
         }
@@ -130,10 +145,9 @@ impl Pass<'_> {
         }
         wanted.push(block_function().call(asked).alias("said"));
         let sums = vec![sum_function().call(vec![named("said")]).alias("sums")];
-        let count = job.iter().map(|(_, commit)| commit.rows()).sum();
         let said = rows.select(wanted)?.aggregate(by, sums)?;
         let mut sums = Sums::new();
-        for batch in self.session.states_of(said, count).await? {
+        for batch in self.session.states_of(said).await? {
             read(&batch, held.sharing.factor.is_some(), &mut sums)?;
         }
         let mut found = Found::new();

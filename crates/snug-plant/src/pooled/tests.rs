@@ -145,6 +145,7 @@ async fn sizes_of_all_rows_are_those_of_one_machine() {
         data: &data,
         study: &text,
         parts: &parts,
+        given_up_after: std::time::Duration::from_secs(60),
         rows_per_job: 20,
     };
     let first = Prepared {

@@ -21,9 +21,13 @@ fn free_port() -> u16 {
     listener.local_addr().unwrap().port()
 }
 
-fn started(arguments: &[String]) -> Process {
+/// Names and values of variables.
+type Environment = Vec<(String, String)>;
+
+fn started(arguments: &[String], environment: &Environment) -> Process {
     let mut command = Command::new(env!("CARGO_BIN_EXE_snug-plant"));
     command.args(arguments).env("RUST_LOG", "warn");
+    command.envs(environment.iter().cloned());
     command.stdout(Stdio::null()).stderr(Stdio::inherit());
     Process(command.spawn().unwrap())
 }
@@ -32,21 +36,32 @@ fn started(arguments: &[String]) -> Process {
 pub struct Cluster {
     port: u16,
     scheduler: Process,
+    environment: Environment,
+    options: Vec<String>,
 }
 
-fn scheduler(port: u16) -> Process {
-    let address = format!("127.0.0.1:{port}");
-    let scheduler = started(&["scheduler".into(), "--bind".into(), address]);
+fn scheduler(port: u16, environment: &Environment, options: &[String]) -> Process {
+    let mut arguments = vec!["scheduler".into(), format!("--bind=127.0.0.1:{port}")];
+    arguments.extend(options.iter().cloned());
+    let scheduler = started(&arguments, environment);
     listens(port);
     scheduler
 }
 
 impl Cluster {
     pub fn start() -> Self {
+        Self::start_in(Environment::new(), &[])
+    }
+
+    /// The scheduler's options, and what stands in its environment and its workers'.
+    pub fn start_in(environment: Environment, options: &[&str]) -> Self {
         let port = free_port();
+        let options: Vec<String> = options.iter().map(|&option| option.to_owned()).collect();
         Self {
             port,
-            scheduler: scheduler(port),
+            scheduler: scheduler(port, &environment, &options),
+            environment,
+            options,
         }
     }
 
@@ -54,10 +69,8 @@ impl Cluster {
     pub fn restart(mut self) -> Self {
         self.scheduler.0.kill().unwrap();
         self.scheduler.0.wait().unwrap();
-        Self {
-            port: self.port,
-            scheduler: scheduler(self.port),
-        }
+        self.scheduler = scheduler(self.port, &self.environment, &self.options);
+        self
     }
 
     pub fn address(&self) -> String {
@@ -65,14 +78,20 @@ impl Cluster {
     }
 
     pub fn worker(&self) -> Process {
+        self.worker_with(&[])
+    }
+
+    pub fn worker_with(&self, options: &[String]) -> Process {
         let (port, command_port) = (free_port(), free_port());
-        let worker = started(&[
+        let mut arguments = vec![
             "worker".into(),
             format!("--scheduler=127.0.0.1:{}", self.port),
             format!("--port={port}"),
             format!("--command-port={command_port}"),
             "--cores=1".into(),
-        ]);
+        ];
+        arguments.extend(options.iter().cloned());
+        let worker = started(&arguments, &self.environment);
         listens(port);
         worker
     }
@@ -155,6 +174,63 @@ async fn a_worker_that_is_killed_costs_no_row() {
         plant.digests("cluster").await,
         plant.digests("embedded").await
     );
+}
+
+/// Nobody works, or the only one who did is gone: the scheduler says so after a time that does not depend on the rows.
+#[tokio::test(flavor = "multi_thread")]
+async fn a_job_that_stands_still_is_given_up_and_resumed() {
+    let plant = Plant::simulated(&small()).await;
+    let cluster = Cluster::start_in(Vec::new(), &["--give-up-after=3"]);
+    let settings = FitSettings {
+        given_up_after_s: 8,
+        ..cluster.settings()
+    };
+    let began = Instant::now();
+    let error = plant.fit("results", &settings).await.unwrap_err();
+    let took = began.elapsed();
+    let PlantError::Partitions { failed, partitions } = error else {
+        panic!("{error}");
+    };
+    assert_eq!((failed.len(), partitions), (6, 6));
+    assert!(
+        failed[0].1.contains("none ran at a worker that is alive"),
+        "{failed:?}"
+    );
+    assert!(failed[5].1.contains("not tried"), "{failed:?}");
+    // A job and three partitions that stood still for 3 s each, seen every 2 s.
+    assert!(took < Duration::from_secs(40), "{took:?}");
+    let _worker = cluster.worker();
+    let resumed = FitSettings {
+        resume: true,
+        ..settings
+    };
+    let done = plant.fit("results", &resumed).await.unwrap();
+    assert_eq!((done.rows, done.partitions, done.left), (72, 6, 0));
+}
+
+/// A part of some seconds is work, not standing still.
+#[tokio::test(flavor = "multi_thread")]
+async fn a_part_that_takes_long_is_not_given_up() {
+    let plant = Plant::simulated(&Simulation {
+        per_day: 20,
+        ..small()
+    })
+    .await;
+    let cluster = Cluster::start_in(Vec::new(), &["--give-up-after=1"]);
+    let _worker = cluster.worker();
+    let settings = FitSettings {
+        engine: Engine::Cluster {
+            address: cluster.address(),
+            parts: 1,
+        },
+        ..cluster.settings()
+    };
+    let began = Instant::now();
+    let done = plant.fit("results", &settings).await.unwrap();
+    assert_eq!((done.rows, done.partitions), (120, 6));
+    // Long enough for what stands still to be seen.
+    let took = began.elapsed();
+    assert!(took > Duration::from_secs(3), "{took:?}");
 }
 
 #[tokio::test]

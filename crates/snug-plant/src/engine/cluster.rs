@@ -1,23 +1,29 @@
 //! The engine's own processes, with Snug's functions registered: a scheduler and as many workers as wanted.
 
+use super::stalled::{Server, end_what_stands_still};
+use super::thresholds::{DEAD_AFTER_S, HEARTBEAT_S};
+use super::{runtime, scalar_functions};
 use crate::PlantError;
-use crate::engine::scalar_functions;
 use crate::pooled::sum_function;
 use ballista_core::registry::BallistaFunctionRegistry;
 use ballista_executor::executor_process::{ExecutorProcessConfig, start_executor_process};
 use ballista_scheduler::cluster::BallistaCluster;
 use ballista_scheduler::config::SchedulerConfig;
-use ballista_scheduler::scheduler_process::start_server;
+use ballista_scheduler::scheduler_process::{create_scheduler, start_grpc_service};
 use datafusion::execution::{FunctionRegistry, SessionState, SessionStateBuilder};
 use datafusion::prelude::SessionConfig;
 use std::net::SocketAddr;
 use std::sync::Arc;
+use std::time::Duration;
 
-/// A worker says that it is alive so often \[s\].
-const HEARTBEAT_S: u64 = 2;
-
-/// A worker that was silent for so long is dead, and its work is another's \[s\].
-const DEAD_AFTER_S: u64 = 10;
+/// How a scheduler is started.
+#[derive(Debug, Clone)]
+pub struct SchedulerSettings {
+    /// Address that it binds to.
+    pub bind: SocketAddr,
+    /// A job that stands still for so long is given up \[s\].
+    pub give_up_after_s: u64,
+}
 
 /// How a worker is started.
 #[derive(Debug, Clone)]
@@ -39,6 +45,7 @@ pub struct WorkerSettings {
 fn state(config: SessionConfig) -> datafusion::error::Result<SessionState> {
     let mut state = SessionStateBuilder::new()
         .with_config(config)
+        .with_runtime_env(Arc::new(runtime(None)?))
         .with_default_features()
         .build();
     for one in scalar_functions() {
@@ -51,8 +58,12 @@ fn state(config: SessionConfig) -> datafusion::error::Result<SessionState> {
 /// Runs a scheduler until the process ends.
 ///
 /// # Errors
-/// [`PlantError::Cluster`] where it cannot be bound.
-pub async fn scheduler(address: SocketAddr) -> Result<(), PlantError> {
+/// [`PlantError::Setting`] for a time of nothing, [`PlantError::Cluster`] where it cannot be bound.
+pub async fn scheduler(settings: &SchedulerSettings) -> Result<(), PlantError> {
+    let (address, after_s) = (settings.bind, settings.give_up_after_s);
+    if after_s == 0 {
+        return Err(PlantError::setting("give-up-after", "0", "1 s and more"));
+    }
     let failed = |reason: String| PlantError::Cluster {
         what: "scheduler",
         address: address.to_string(),
@@ -68,7 +79,13 @@ pub async fn scheduler(address: SocketAddr) -> Result<(), PlantError> {
     let cluster = BallistaCluster::new_from_config(&config)
         .await
         .map_err(|error| failed(error.to_string()))?;
-    let served = start_server(cluster, address, Arc::new(config)).await;
+    let server: Server = create_scheduler(cluster, Arc::new(config))
+        .await
+        .map_err(|error| failed(error.to_string()))?;
+    let after = Duration::from_secs(after_s);
+    let watched = tokio::spawn(end_what_stands_still(server.clone(), after));
+    let served = start_grpc_service(address, server).await;
+    watched.abort();
     served.map_err(|error| failed(error.to_string()))
 }
 
@@ -85,6 +102,7 @@ pub async fn worker(settings: &WorkerSettings) -> Result<(), PlantError> {
     let sum = sum_function();
     let name = sum.name().to_owned();
     registry.aggregate_functions.insert(name, Arc::new(sum));
+    let reads = Arc::new(runtime(settings.work_dir.as_deref())?);
     let mut config = ExecutorProcessConfig {
         bind_host: settings.bind.to_string(),
         external_host: Some(settings.bind.to_string()),
@@ -96,6 +114,7 @@ pub async fn worker(settings: &WorkerSettings) -> Result<(), PlantError> {
         work_dir: settings.work_dir.clone(),
         executor_heartbeat_interval_seconds: HEARTBEAT_S,
         override_function_registry: Some(Arc::new(registry)),
+        override_runtime_producer: Some(Arc::new(move |_| Ok(Arc::clone(&reads)))),
         ..ExecutorProcessConfig::default()
     };
     if let Some(cores) = settings.cores {
