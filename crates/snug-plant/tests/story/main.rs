@@ -3,6 +3,7 @@
 
 mod buckets;
 mod cluster;
+mod disks;
 mod faults;
 mod import;
 mod improve;
