@@ -12,7 +12,7 @@ use crate::schema;
 use crate::simulate::{Simulation, simulate_plant};
 use crate::{Engine, PlantError, Store};
 use cluster::Cluster;
-use process::{Resources, Spent, run};
+use process::{Resources, Spent, Whole, run};
 use rayon::prelude::*;
 use serde::Serialize;
 use snug_identify::{FitTask, SIDE_BY_SIDE, identify_all};
@@ -64,6 +64,19 @@ pub struct Figures {
     pub with_a_death_s: f64,
     /// Rows that were lost or doubled then.
     pub lost_or_doubled: usize,
+    /// The same with one effect in the model, where arithmetic is the larger share.
+    pub with_effect: Option<WithEffect>,
+}
+
+/// Fits with one effect beside mass, damping and stiffness.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct WithEffect {
+    /// The effect.
+    pub effect: &'static str,
+    /// In memory, with all that is reported of a fit \[1/s of processor time\].
+    pub fitted_in_memory_per_s: f64,
+    /// By the engine in one process of its own, from Parquet to results \[1/s of processor time\].
+    pub embedded_per_s: f64,
 }
 
 /// Makes every dataset and measures; `told` hears of each figure's beginning.
@@ -86,6 +99,9 @@ pub async fn bench(
 /// Tools and days of a dataset.
 const TOOLS: usize = 10;
 const DAYS: usize = 10;
+
+/// The effect that rows are also fitted with: one size, from one start.
+const EFFECT: &str = "cubic_stiffness";
 
 /// Parts of a cluster's plans.
 const PARTS: usize = 8;
@@ -152,8 +168,7 @@ impl Bench<'_> {
         }
         found.plain_bytes_per_s = found.bytes as f64 / spent.wall_s();
         (self.told)("embedded");
-        let to = self.at.below("embedded")?;
-        let spent = run(&["fit", "--data", self.data.store.url(), "--to", to.url()]).await?;
+        let spent = self.embedded_fit("embedded", &[]).await?;
         found.embedded_s = spent.wall_s;
         found.embedded_per_s = found.rows as f64 / spent.processor_s;
         found.embedded_bytes_per_s = found.bytes as f64 / spent.processor_s;
@@ -163,13 +178,30 @@ impl Bench<'_> {
 
     async fn in_memory(&self, found: &mut Figures) -> Result<(), PlantError> {
         (self.told)("in memory");
-        let study = self.data.study()?;
+        let mut study = self.data.study()?;
         let prepared = in_one_batch(&self.data).await?;
         let rates = || in_memory_rates(&study, &prepared);
         let (identified, fitted) = tokio::task::block_in_place(rates)?;
         found.identified_in_memory_per_s = Some(identified);
         found.fitted_in_memory_per_s = Some(fitted);
+        (self.told)("with one effect, in memory and embedded");
+        study.model.effects.push(EFFECT.to_owned());
+        let rate = || fitted_per_s(&study, &prepared);
+        let in_memory = tokio::task::block_in_place(rate)?;
+        let spent = self.embedded_fit("effect", &["--effects", EFFECT]).await?;
+        found.with_effect = Some(WithEffect {
+            effect: EFFECT,
+            fitted_in_memory_per_s: in_memory,
+            embedded_per_s: found.rows as f64 / spent.processor_s,
+        });
         Ok(())
+    }
+
+    /// A fit in one process of its own.
+    async fn embedded_fit(&self, to: &str, options: &[&str]) -> Result<Whole, PlantError> {
+        let to = self.at.below(to)?;
+        let fit = ["fit", "--data", self.data.store.url(), "--to", to.url()];
+        run(&[&fit, options].concat()).await
     }
 
     async fn on_cluster(&self, found: &mut Figures) -> Result<(), PlantError> {
@@ -276,13 +308,18 @@ fn in_memory_rates(study: &Study, prepared: &[Prepared]) -> Result<(f64, f64), P
         estimates.iter().filter(|one| one.is_ok()).count()
     });
     let identified = found.sum::<usize>() as f64 / spent.so_far(&resources)?.1;
+    Ok((identified, fitted_per_s(study, prepared)?))
+}
+
+/// Rows per second of processor time on all cores, with all that is reported.
+fn fitted_per_s(study: &Study, prepared: &[Prepared]) -> Result<f64, PlantError> {
+    let resources = Resources::of(std::process::id())?;
     let all: Vec<&Prepared> = prepared.iter().collect();
     let spent = Spent::since(&resources)?;
     let found = (all.par_chunks(SIDE_BY_SIDE))
         .map(|some| fit_numbers(study, some).map(|fitted| fitted.len()))
         .collect::<Result<Vec<usize>, _>>()?;
-    let fitted = found.iter().sum::<usize>() as f64 / spent.so_far(&resources)?.1;
-    Ok((identified, fitted))
+    Ok(found.iter().sum::<usize>() as f64 / spent.so_far(&resources)?.1)
 }
 
 impl Figures {
@@ -313,6 +350,15 @@ impl Figures {
             self.embedded_s,
             mega(self.embedded_peak_bytes as f64)
         ));
+        if let Some(with) = &self.with_effect {
+            lines.push(format!(
+                "  with {}: embedded {:.0} rows/s and core, in memory {:.0}: {:.2} of the same work",
+                with.effect,
+                with.embedded_per_s,
+                with.fitted_in_memory_per_s,
+                with.embedded_per_s / with.fitted_in_memory_per_s
+            ));
+        }
         lines.push(format!(
             "  plain reading: {}/s",
             mega(self.plain_bytes_per_s)

@@ -72,7 +72,7 @@ pub async fn import(study: &Study, naming: &Naming, to: Store) -> Result<Importe
 }
 
 /// A file's digest, what its name says, and what it holds.
-type Read = (String, Named, FileTightenings);
+pub(crate) type Read = (String, Named, FileTightenings);
 
 /// Files whose rows are `known` are not prepared.
 fn read(

@@ -1,7 +1,7 @@
 //! A plant of simulated tools straight into a dataset, some of which an effect comes over on some day.
 
 use crate::dataset::{Dataset, digest};
-use crate::import::{Growing, Imported};
+use crate::import::{Growing, Imported, Read};
 use crate::naming::Named;
 use crate::partition::{Partition, date_of, days_since_1970};
 use crate::{PlantError, Store};
@@ -10,8 +10,9 @@ use snug_preprocess::preprocess;
 use snug_study::{FileTightenings, Study};
 use snug_synthetic::{
     CampaignPlan, ChannelNames, FilePlan, HiddenEffect, Joint, Strategy, SyntheticFile, Whose,
-    simulate,
+    simulate_part,
 };
+use std::ops::Range;
 
 /// What is simulated.
 #[derive(Debug, Clone)]
@@ -76,51 +77,94 @@ pub async fn simulate_plant(simulation: &Simulation, to: Store) -> Result<Import
     let dataset = Dataset::make(to, "tightenings", &study).await?;
     let mut imported = Imported::default();
     for day in 0..simulation.days {
-        let plan = plan(
-            simulation,
-            effect.filter(|_| day + 1 >= simulation.from_day),
-        );
-        let seed = simulation
-            .seed
-            .wrapping_mul(1_000_003)
-            .wrapping_add(day as u64);
-        let campaign = simulate(&plan, seed)?;
-        let date = date_of(first + day as i32);
-        let named: Vec<Named> = (1..=simulation.tools)
-            .map(|tool| {
-                Ok(Named {
-                    partition: Partition::new(&date, &format!("T{tool:04}"))?,
-                    station: Some(format!("S{:02}", (tool - 1) / 4 + 1)),
-                    time_of_day_s: Some(6.0 * 3600.0),
-                })
-            })
-            .collect::<Result<_, PlantError>>()?;
-        let read: Vec<_> = (campaign.files.par_iter().zip(named))
-            .map(|(file, named)| {
-                let source = digest(format!("{seed} {plan:?} {}", named.partition).as_bytes());
-                Ok((source, file_tightenings(&study, file, &named)?, named))
-            })
-            .collect::<Result<_, PlantError>>()?;
-        for (source, file, named) in read {
-            let partition = named.partition.clone();
-            let before = dataset.commit_of(&partition).await?.unwrap_or_default();
-            let mut growing = Growing::new(&dataset, partition, before);
-            growing
-                .take(vec![(source, named, file)], &mut imported)
-                .await?;
-            growing.finish(&mut imported).await?;
-        }
+        let effect = effect.filter(|_| day + 1 >= simulation.from_day);
+        let day = Day {
+            plan: plan(simulation, effect),
+            seed: (simulation.seed.wrapping_mul(1_000_003)).wrapping_add(day as u64),
+            date: date_of(first + day as i32),
+            study: &study,
+        };
+        day.put(&dataset, &mut imported).await?;
     }
     Ok(imported)
+}
+
+/// Tightenings that are simulated as one file: at 10 kHz some 20 MB of recording.
+const AT_ONCE: usize = 128;
+
+/// A day of all tools.
+struct Day<'a> {
+    plan: CampaignPlan,
+    seed: u64,
+    date: String,
+    study: &'a Study,
+}
+
+/// The number of a tool's file, from 0, and which of its tightenings.
+type Part = (usize, Range<usize>);
+
+impl Day<'_> {
+    /// Every tool's partition, one after another: of each only some parts are in memory.
+    async fn put(&self, dataset: &Dataset, imported: &mut Imported) -> Result<(), PlantError> {
+        let parts_of = |(number, file): (usize, &FilePlan)| {
+            let last = file.tightenings;
+            let starts = (0..last).step_by(AT_ONCE);
+            starts.map(move |start| (number, start..last.min(start + AT_ONCE)))
+        };
+        let parts: Vec<Part> = (self.plan.files.iter().enumerate())
+            .flat_map(parts_of)
+            .collect();
+        let mut growing: Option<(usize, Growing<'_>)> = None;
+        for some in parts.chunks(rayon::current_num_threads()) {
+            let made = some.par_iter().map(|part| Ok((part.0, self.part(part)?)));
+            for (number, read) in made.collect::<Result<Vec<_>, PlantError>>()? {
+                if growing.as_ref().is_none_or(|(known, _)| *known != number) {
+                    if let Some((_, whole)) = growing.take() {
+                        whole.finish(imported).await?;
+                    }
+                    let partition = read.1.partition.clone();
+                    let before = dataset.commit_of(&partition).await?.unwrap_or_default();
+                    growing = Some((number, Growing::new(dataset, partition, before)));
+                }
+                if let Some((_, growing)) = &mut growing {
+                    growing.take(vec![read], imported).await?;
+                }
+            }
+        }
+        match growing {
+            Some((_, whole)) => whole.finish(imported).await,
+            None => Ok(()),
+        }
+    }
+
+    fn part(&self, (number, tightenings): &Part) -> Result<Read, PlantError> {
+        let tool = number + 1;
+        let named = Named {
+            partition: Partition::new(&self.date, &format!("T{tool:04}"))?,
+            station: Some(format!("S{:02}", number / 4 + 1)),
+            time_of_day_s: Some(6.0 * 3600.0),
+        };
+        let (plan, seed) = (&self.plan, self.seed);
+        // A file of one part is called as a file is; parts of a longer one have their number.
+        let part = match tightenings.start / AT_ONCE {
+            0 => String::new(),
+            behind => format!("_{}", behind + 1),
+        };
+        let file = simulate_part(plan, *number, tightenings.clone(), seed)?;
+        let source = digest(format!("{seed} {plan:?} {}{part}", named.partition).as_bytes());
+        let name = format!("{}_{}{part}.mat", named.partition.tool, named.partition.day);
+        let file = file_tightenings(self.study, &file, name)?;
+        Ok((source, named, file))
+    }
 }
 
 fn file_tightenings(
     study: &Study,
     file: &SyntheticFile,
-    named: &Named,
+    name: String,
 ) -> Result<FileTightenings, PlantError> {
     let mut recording = file.recording();
-    recording.file = format!("{}_{}.mat", named.partition.tool, named.partition.day);
+    recording.file = name;
     let prepared = preprocess(&recording, &study.preprocess, study.identify.fitted_output);
     let prepared = prepared.map_err(snug_study::StudyError::from)?;
     Ok(FileTightenings {

@@ -27,4 +27,4 @@ pub use plan::population::{HandArm, Population};
 pub use plan::sensors::{Sensors, ZeroErrors};
 pub use plan::whose::Whose;
 pub use random::noise::NoiseKind;
-pub use simulate::simulate;
+pub use simulate::{simulate, simulate_part};

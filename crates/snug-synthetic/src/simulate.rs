@@ -16,6 +16,7 @@ use crate::random::Stream;
 use crate::random::noise::NoiseKind;
 use crate::sensing::{Channels, sense};
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 /// Samples of rest before the window that are integrated as well, so that nothing starts by surprise.
 const REST_SAMPLES: usize = 200;
@@ -32,12 +33,9 @@ pub fn simulate(plan: &CampaignPlan, seed: u64) -> Result<SyntheticCampaign, Syn
     let mut files = Vec::with_capacity(plan.files.len());
     let mut tightenings = Vec::new();
     for (number, file_plan) in plan.files.iter().enumerate() {
-        let mut file = SyntheticFile::empty(plan, file_plan, number);
-        for index in 0..file_plan.tightenings {
-            let (channels, truth) = Bench { plan, seed }.tightening(number, file_plan, index)?;
-            file.append(channels, plan);
-            tightenings.push(truth);
-        }
+        let all = 0..file_plan.tightenings;
+        let (file, truths) = Bench { plan, seed }.file(number, file_plan, all)?;
+        tightenings.extend(truths);
         files.push(file);
     }
     let hides = !plan.effects.is_empty();
@@ -60,6 +58,25 @@ pub fn simulate(plan: &CampaignPlan, seed: u64) -> Result<SyntheticCampaign, Syn
     Ok(SyntheticCampaign { files, truth })
 }
 
+/// Some tightenings of one file of a plan, with the bits that [`simulate`] gives them: a long file in parts, each without the others in
+/// memory. They are counted from 0, as files are.
+///
+/// # Errors
+/// As [`simulate`].
+///
+/// # Panics
+/// Where the plan has no file of this number.
+pub fn simulate_part(
+    plan: &CampaignPlan,
+    file: usize,
+    tightenings: Range<usize>,
+    seed: u64,
+) -> Result<SyntheticFile, SyntheticError> {
+    plan.check()?;
+    let (part, _) = Bench { plan, seed }.file(file, &plan.files[file], tightenings)?;
+    Ok(part)
+}
+
 /// Where tightenings are made: the plan and the seed.
 struct Bench<'a> {
     plan: &'a CampaignPlan,
@@ -67,6 +84,22 @@ struct Bench<'a> {
 }
 
 impl Bench<'_> {
+    fn file(
+        &self,
+        number: usize,
+        file_plan: &FilePlan,
+        tightenings: Range<usize>,
+    ) -> Result<(SyntheticFile, Vec<TighteningTruth>), SyntheticError> {
+        let mut file = SyntheticFile::empty(self.plan, file_plan, number);
+        let mut truths = Vec::with_capacity(tightenings.len());
+        for index in tightenings {
+            let (channels, truth) = self.tightening(number, file_plan, index)?;
+            file.append(channels, self.plan);
+            truths.push(truth);
+        }
+        Ok((file, truths))
+    }
+
     fn tightening(
         &self,
         number: usize,
