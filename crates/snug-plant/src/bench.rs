@@ -4,13 +4,15 @@
 mod cluster;
 mod process;
 
-use crate::dataset::Dataset;
+use crate::engine::Engine;
 use crate::engine::{reading_session, rows_of};
+use crate::error::PlantError;
 use crate::fit::{FitSettings, fit};
+use crate::intake::simulate::{Simulation, simulate_plant};
 use crate::rows;
-use crate::schema;
-use crate::simulate::{Simulation, simulate_plant};
-use crate::{Engine, PlantError, Store};
+use crate::storage::dataset::Dataset;
+use crate::storage::schema;
+use crate::storage::store::Store;
 use cluster::Cluster;
 use process::{Resources, Spent, Whole, run};
 use rayon::prelude::*;

@@ -6,10 +6,11 @@ pub(crate) mod thresholds;
 
 pub use cluster::{SchedulerSettings, WorkerSettings, scheduler, worker};
 
-use crate::fit::function::function;
-use crate::pooled::{block_function, group_function, sum_function};
-use crate::store::Places;
-use crate::{PlantError, Store};
+use crate::error::PlantError;
+use crate::functions::scalar_functions;
+use crate::functions::sum::sum_function;
+use crate::storage::store::Places;
+use crate::storage::store::Store;
 use arrow::array::RecordBatch;
 use ballista::prelude::{SessionConfigExt, SessionContextExt};
 use ballista_core::execution_plans::execute_physical_plan;
@@ -18,7 +19,6 @@ use datafusion::dataframe::DataFrame;
 use datafusion::datasource::file_format::options::ParquetReadOptions;
 use datafusion::execution::SessionStateBuilder;
 use datafusion::execution::runtime_env::{RuntimeEnv, RuntimeEnvBuilder};
-use datafusion::logical_expr::ScalarUDF;
 use datafusion::physical_plan::aggregates::{AggregateExec, AggregateMode};
 use datafusion::physical_plan::{ExecutionPlan, collect};
 use datafusion::physical_planner::{DefaultPhysicalPlanner, PhysicalPlanner};
@@ -200,11 +200,6 @@ pub(crate) fn reading_session(stores: &[&Store]) -> SessionContext {
     session
 }
 
-/// Snug's functions of single rows.
-pub(crate) fn scalar_functions() -> [ScalarUDF; 3] {
-    [function(), block_function(), group_function()]
-}
-
 fn register(session: &SessionContext, stores: &[&Store]) {
     for store in stores {
         let (url, objects) = store.engine_store();
@@ -241,7 +236,7 @@ pub(crate) async fn rows_of(
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
-    use crate::schema;
+    use crate::storage::schema;
     use datafusion::common::Column;
     use datafusion::logical_expr::{Expr, lit};
 
@@ -262,7 +257,7 @@ mod tests {
         let table = schema::tightenings();
         let file = |number: usize| {
             let path = folder.path().join(format!("{number}.parquet"));
-            let bytes = crate::parquet_file::written("a", &table, &[]).unwrap();
+            let bytes = crate::storage::parquet_file::written("a", &table, &[]).unwrap();
             std::fs::write(&path, bytes).unwrap();
             path.to_str().unwrap().to_owned()
         };
@@ -273,9 +268,11 @@ mod tests {
         let keys = vec![named("day"), named("tool")];
         let summed = rows().await.unwrap().aggregate(keys, vec![list]).unwrap();
         let study = lit(snug_study::Study::default().to_ron().unwrap());
-        let taken = crate::fit::function::TAKEN.fields().iter();
+        let taken = crate::functions::fit::TAKEN.fields().iter();
         let taken = std::iter::once(study).chain(taken.map(|field| named(field.name())));
-        let fitted = function().call(taken.collect()).alias("fit");
+        let fitted = crate::functions::fit::function()
+            .call(taken.collect())
+            .alias("fit");
         let fitted = rows().await.unwrap().select(vec![named("key"), fitted]);
         let mut whole = Vec::new();
         let summed = planned(summed).await.unwrap();

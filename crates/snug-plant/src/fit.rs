@@ -1,10 +1,7 @@
 //! Every row of a dataset fitted inside the engine, on this machine or on a cluster, partition by partition.
 
-pub(crate) mod columns;
-pub(crate) mod function;
 mod in_vain;
 mod job;
-mod outcome;
 
 pub(crate) use in_vain::InVain;
 pub use job::{FitSettings, Fitted, fit};

@@ -7,12 +7,14 @@ mod shows;
 mod thresholds;
 mod whole;
 
-use crate::dataset::{Commit, Dataset};
+use crate::engine::Engine;
+use crate::error::PlantError;
 use crate::fit::{FitSettings, Fitted, fit_with};
-use crate::partition::{Partition, date_of};
-use crate::pooled::{State, States};
+use crate::functions::question::{State, States};
+use crate::storage::dataset::{Commit, Dataset};
+use crate::storage::partition::{Partition, date_of};
+use crate::storage::store::Store;
 use crate::watch::{WatchSettings, Watched, watch};
-use crate::{Engine, PlantError, Store};
 use outputs::{Outputs, written};
 use sample::{Sample, SampleSize, sample};
 use serde::Serialize;

@@ -2,35 +2,30 @@
 #![doc = include_str!("../README.md")]
 
 mod bench;
-mod dataset;
 mod engine;
 mod error;
 mod fit;
-mod import;
+mod functions;
 mod improve;
-mod naming;
-mod parquet_file;
-mod partition;
+mod intake;
 mod pooled;
 mod rows;
-mod schema;
-mod simulate;
 mod sql;
-mod store;
+mod storage;
 mod watch;
 
 pub use bench::{BenchSettings, Figures, bench};
-pub use dataset::{Commit, CommittedFile, Dataset, Manifest};
 pub use engine::thresholds::{GIVEN_UP_AFTER_S, STANDS_STILL_AFTER_S};
 pub use engine::{CLUSTER_PARTS, Engine, SchedulerSettings, WorkerSettings, scheduler, worker};
 pub use error::PlantError;
 pub use fit::{FitSettings, Fitted, fit};
-pub use import::{Imported, import};
 pub use improve::{ImproveSettings, Improved, improve};
-pub use naming::{Named, Naming};
-pub use partition::Partition;
-pub use schema::SCHEMA_VERSION;
-pub use simulate::{Simulation, simulate_plant};
+pub use intake::import::{Imported, import};
+pub use intake::naming::{Named, Naming};
+pub use intake::simulate::{Simulation, simulate_plant};
 pub use sql::{Tables, as_text, query};
-pub use store::Store;
+pub use storage::dataset::{Commit, CommittedFile, Dataset, Manifest};
+pub use storage::partition::Partition;
+pub use storage::schema::SCHEMA_VERSION;
+pub use storage::store::Store;
 pub use watch::{Found, WatchSettings, Watched, watch};

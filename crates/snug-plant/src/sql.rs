@@ -1,9 +1,11 @@
 //! Questions in SQL over a dataset, its findings and results.
 
-use crate::dataset::{Commit, Dataset};
 use crate::engine::{reading_session, rows_of};
-use crate::fit::columns;
-use crate::{PlantError, Store, schema};
+use crate::error::PlantError;
+use crate::functions::results;
+use crate::storage::dataset::{Commit, Dataset};
+use crate::storage::schema;
+use crate::storage::store::Store;
 use arrow::array::RecordBatch;
 use arrow::datatypes::SchemaRef;
 use arrow::util::pretty::pretty_format_batches;
@@ -43,7 +45,7 @@ pub async fn query(tables: &Tables, text: &str) -> Result<Vec<RecordBatch>, Plan
     }
     if let Some(store) = &tables.results {
         let results = Dataset::open(store.clone(), "results", "fit").await?;
-        let schema = columns::results(&results.study()?)?;
+        let schema = results::results(&results.study()?)?;
         register(&session, "results", &results, &schema, |commit| {
             &commit.files
         })
@@ -62,7 +64,7 @@ async fn register(
     name: &str,
     dataset: &Dataset,
     schema: &SchemaRef,
-    files: fn(&Commit) -> &Vec<crate::dataset::CommittedFile>,
+    files: fn(&Commit) -> &Vec<crate::storage::dataset::CommittedFile>,
 ) -> Result<(), PlantError> {
     let commits = dataset.partitions().await?;
     let files = commits.iter().flat_map(|(_, commit)| files(commit));

@@ -12,8 +12,9 @@ mod thresholds;
 
 pub use summary::{Found, Watched};
 
-use crate::dataset::Dataset;
-use crate::{PlantError, Store};
+use crate::error::PlantError;
+use crate::storage::dataset::Dataset;
+use crate::storage::store::Store;
 use daily::{By, Series, daily};
 use quantities::Quantities;
 use summary::Judged;

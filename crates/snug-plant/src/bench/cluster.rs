@@ -2,7 +2,7 @@
 
 use super::process::Resources;
 use super::program;
-use crate::PlantError;
+use crate::error::PlantError;
 use std::net::{TcpListener, TcpStream};
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};

@@ -1,7 +1,7 @@
 //! What a process spends, as Linux says it under /proc.
 
 use super::program;
-use crate::PlantError;
+use crate::error::PlantError;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 

@@ -1,10 +1,11 @@
 //! The engine's own processes, with Snug's functions registered: a scheduler and as many workers as wanted.
 
+use super::runtime;
 use super::stalled::{Server, end_what_stands_still};
 use super::thresholds::{DEAD_AFTER_S, HEARTBEAT_S};
-use super::{runtime, scalar_functions};
-use crate::PlantError;
-use crate::pooled::sum_function;
+use crate::error::PlantError;
+use crate::functions::scalar_functions;
+use crate::functions::sum::sum_function;
 use ballista_core::registry::BallistaFunctionRegistry;
 use ballista_executor::executor_process::{ExecutorProcessConfig, start_executor_process};
 use ballista_scheduler::cluster::BallistaCluster;

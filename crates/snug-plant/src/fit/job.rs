@@ -1,15 +1,16 @@
 //! The fit of a dataset: jobs of some partitions each, results written and made to count partition by partition.
 
-use super::columns;
-use super::function::{TAKEN, function};
 use super::in_vain::InVain;
-use crate::dataset::{Commit, Dataset};
 use crate::engine::thresholds::GIVEN_UP_AFTER_S;
 use crate::engine::{Engine, Session, rows_of};
-use crate::partition::{Partition, of_row};
+use crate::error::PlantError;
+use crate::functions::fit::{TAKEN, function};
+use crate::functions::results;
 use crate::rows;
-use crate::schema::{self, IDENTITY};
-use crate::{PlantError, Store};
+use crate::storage::dataset::{Commit, Dataset};
+use crate::storage::partition::{Partition, of_row};
+use crate::storage::schema::{self, IDENTITY};
+use crate::storage::store::Store;
 use arrow::array::{ArrayRef, AsArray, RecordBatch};
 use arrow::compute::{concat_batches, partition};
 use arrow::datatypes::SchemaRef;
@@ -91,7 +92,7 @@ pub(crate) async fn fit_with(
     let results = Dataset::make(to, "results", study).await?;
     let session = settings.engine.session(&[&data.store]).await?;
     let work = Work {
-        schema: columns::results(study)?,
+        schema: results::results(study)?,
         study: results.manifest.study.clone(),
         session,
         data,
@@ -322,7 +323,7 @@ fn by_partition(rows: &RecordBatch) -> Result<BTreeMap<Partition, RecordBatch>, 
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
-    use crate::dataset::CommittedFile;
+    use crate::storage::dataset::CommittedFile;
 
     #[test]
     fn jobs_hold_whole_partitions_and_all_of_them() {

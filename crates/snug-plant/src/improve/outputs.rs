@@ -2,8 +2,10 @@
 
 use super::whole::Rung;
 use super::{Asked, Improved};
+use crate::error::PlantError;
 use crate::pooled::{GroupErrors, PooledOverAll};
-use crate::{PlantError, Store, parquet_file};
+use crate::storage::parquet_file;
+use crate::storage::store::Store;
 use arrow::array::{ArrayRef, BooleanArray, Float64Array, RecordBatch, StringArray, UInt32Array};
 use arrow::datatypes::{DataType, Field};
 use snug_campaign::{EffectParameter, Factor, GroupSize, Interval};
@@ -207,7 +209,7 @@ fn table(
         let about = [("description".to_owned(), (*told).to_owned())];
         Field::new(*name, kind.clone(), true).with_metadata(about.into())
     };
-    let schema = crate::schema::schema(name, columns.iter().map(field));
+    let schema = crate::storage::schema::schema(name, columns.iter().map(field));
     let values = columns.into_iter().map(|(.., values)| values).collect();
     let batch = RecordBatch::try_new(schema.clone(), values).map_err(PlantError::columns(name))?;
     parquet_file::written(name, &schema, &[batch])

@@ -4,14 +4,14 @@
 //! are in the partitions' names; of those that are taken the rows' joints and persons are read, and then the rows.
 
 use super::thresholds::{EACH, FAMILY_Z, FEWEST, MOST, SHOWN_SD, WHERE_IT_SHOWS};
-use crate::PlantError;
-use crate::dataset::{Commit, Dataset, digest};
 use crate::engine::{reading_session, rows_of};
+use crate::error::PlantError;
 use crate::fit::reason;
-use crate::partition::Partition;
-use crate::pooled::States;
+use crate::functions::question::States;
 use crate::rows;
-use crate::schema;
+use crate::storage::dataset::{Commit, Dataset, digest};
+use crate::storage::partition::Partition;
+use crate::storage::schema;
 use arrow::array::{Array, AsArray, RecordBatch};
 use arrow::compute::concat_batches;
 use datafusion::common::Column;
@@ -250,7 +250,7 @@ fn second_stage(
             column.is_valid(row).then(|| column.value(row).to_owned())
         };
         for row in 0..batch.num_rows() {
-            let part = crate::partition::of_row(batch.column(1), batch.column(2), row)?;
+            let part = crate::storage::partition::of_row(batch.column(1), batch.column(2), row)?;
             let key = keys.value(row).to_owned();
             let lot = digest(format!("{seed} {key}").as_bytes());
             let group = (value(joints, row), value(people, row));
@@ -286,7 +286,7 @@ fn second_stage(
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
-    use crate::dataset::CommittedFile;
+    use crate::storage::dataset::CommittedFile;
 
     /// SciPy 1.17.1: `(3 + norm.ppf(0.9))**2 / 0.1` is 183.3; at half the share twice as many.
     #[test]

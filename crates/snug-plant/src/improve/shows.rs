@@ -5,8 +5,8 @@
 //! decides of which rows how many are in the sample, and whose sizes may differ; whether an effect is there the ranking says.
 
 use super::thresholds::{ALLOWANCE_SD, CLIPPED_SD, DECISION_SD};
-use crate::partition::Partition;
-use crate::pooled::{State, States, Totals};
+use crate::functions::question::{State, States, Totals};
+use crate::storage::partition::Partition;
 use snug_statistics::descriptive::median;
 use std::collections::BTreeMap;
 

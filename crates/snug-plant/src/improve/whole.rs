@@ -1,11 +1,12 @@
 //! The models of a sample's ladder, fitted to all rows.
 
 use super::ImproveSettings;
-use crate::PlantError;
-use crate::dataset::{Commit, Dataset};
 use crate::engine::Session;
-use crate::partition::Partition;
-use crate::pooled::{Held, Pass, PooledOverAll, Sharing, States, pooled_over_all};
+use crate::error::PlantError;
+use crate::functions::question::{Held, Sharing, States};
+use crate::pooled::{Pass, PooledOverAll, pooled_over_all};
+use crate::storage::dataset::{Commit, Dataset};
+use crate::storage::partition::Partition;
 use serde::Serialize;
 use snug_campaign::Factor;
 use snug_diagnose::SharedParameter;

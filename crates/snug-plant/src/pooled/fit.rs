@@ -1,14 +1,14 @@
 //! The pooled fit over all rows: passes over the dataset, between which the client steps the sizes that rows share.
 
 use super::pass::{ByGroup, Pass, added_up};
-use super::question::{Held, Totals};
 use super::solve::{Layout, Local, step};
 use super::thresholds::{
     DAMPING_FACTOR, FIRST_DAMPING, MOST_SIZES, MOST_STEPS, RESOLUTION, SUFFICIENT, TOLERANCE,
     TOLERANCE_ERRORS,
 };
-use crate::PlantError;
-use crate::partition::Partition;
+use crate::error::PlantError;
+use crate::functions::question::{Held, Totals};
+use crate::storage::partition::Partition;
 use snug_statistics::distributions::student_t_quantile;
 use std::collections::BTreeMap;
 

@@ -1,15 +1,15 @@
 //! One pass over a dataset: every row is asked, what the rows of a partition and a group say is added up by the engine part by part, and
 //! here the parts.
 
-use super::function::{ASKED, GROUPED, block_function, group_function};
-use super::question::{Held, Totals};
-use super::sum::{Places, sum_function};
-use crate::PlantError;
-use crate::dataset::{Commit, Dataset};
 use crate::engine::{Session, rows_of};
+use crate::error::PlantError;
 use crate::fit::{InVain, jobs, reason};
-use crate::partition::{Partition, of_row};
-use crate::schema;
+use crate::functions::block::{ASKED, GROUPED, block_function, group_function};
+use crate::functions::question::{Held, Totals};
+use crate::functions::sum::{Places, sum_function};
+use crate::storage::dataset::{Commit, Dataset};
+use crate::storage::partition::{Partition, of_row};
+use crate::storage::schema;
 use arrow::array::{Array, AsArray, RecordBatch};
 use arrow::datatypes::{Float64Type, SchemaRef};
 use arrow::error::ArrowError;

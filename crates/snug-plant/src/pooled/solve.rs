@@ -1,7 +1,7 @@
 //! The client's part of the pooled fit: what groups say put together over all sizes, and a damped Gauss–Newton step within bounds.
 
 use super::pass::ByGroup;
-use super::question::{Held, Sharing};
+use crate::functions::question::{Held, Sharing};
 use snug_least_squares::matrix::SymmetricMatrix;
 
 /// Where the sizes stand among the unknowns: first those that all rows share, then group by group those that are a group's own.
@@ -187,7 +187,7 @@ impl Local {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::pooled::question::Totals;
+    use crate::functions::question::Totals;
 
     /// ½ Σ (xᵢ − tᵢ)² over two groups that share the first of two unknowns.
     fn said(at: &[f64], target: &[f64]) -> ByGroup {

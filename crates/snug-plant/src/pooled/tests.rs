@@ -2,10 +2,12 @@
 #![allow(clippy::unwrap_used)]
 
 use super::*;
-use crate::dataset::{Commit, Dataset};
-use crate::partition::Partition;
+use crate::engine::Engine;
+use crate::functions::question::{Held, Sharing, States};
 use crate::rows::{Row, batch};
-use crate::{Engine, Store};
+use crate::storage::dataset::{Commit, Dataset};
+use crate::storage::partition::Partition;
+use crate::storage::store::Store;
 use snug_campaign::{NoiseFloor, Quantity, Rig, Tightening, TighteningId};
 use snug_diagnose::fit_together;
 use snug_identify::{FitTask, IdentifySettings};

@@ -2,9 +2,9 @@
 
 use super::integrals::{follows, integrated_from};
 use super::{Row, checksum};
-use crate::PlantError;
-use crate::partition::Partition;
-use crate::schema::{self, CORRECTION};
+use crate::error::PlantError;
+use crate::storage::partition::Partition;
+use crate::storage::schema::{self, CORRECTION};
 use arrow::array::{
     Array, ArrayRef, BooleanArray, Date32Array, Float64Array, Float64Builder, ListArray,
     ListBuilder, RecordBatch, StringArray, StructArray, UInt32Array,

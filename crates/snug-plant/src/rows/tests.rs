@@ -1,8 +1,9 @@
 //! Every field of a row through Parquet and back, and what is noticed when one changed.
 #![allow(clippy::unwrap_used)]
 use super::*;
-use crate::partition::Partition;
-use crate::{parquet_file, schema};
+use crate::storage::parquet_file;
+use crate::storage::partition::Partition;
+use crate::storage::schema;
 use snug_preprocess::{PreprocessSettings, Preset, preprocess};
 use snug_synthetic::{CampaignPlan, NoiseKind, simulate};
 

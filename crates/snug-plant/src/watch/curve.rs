@@ -3,12 +3,15 @@
 use super::quantities::ERROR;
 use super::summary::{Found, Watched};
 use super::thresholds::MOST_CURVES;
-use crate::dataset::{Commit, Dataset};
 use crate::engine::{reading_session, rows_of};
-use crate::fit::columns;
-use crate::fit::function::TAKEN;
-use crate::partition::Partition;
-use crate::{PlantError, Store, rows, schema};
+use crate::error::PlantError;
+use crate::functions::fit::TAKEN;
+use crate::functions::results;
+use crate::rows;
+use crate::storage::dataset::{Commit, Dataset};
+use crate::storage::partition::Partition;
+use crate::storage::schema;
+use crate::storage::store::Store;
 use arrow::array::{AsArray, RecordBatch};
 use arrow::datatypes::Date32Type;
 use datafusion::prelude::{col, lit};
@@ -73,7 +76,7 @@ async fn worst(
         return Ok(None);
     }
     let session = reading_session(&[&results.store]);
-    let rows = rows_of(&session, urls, &columns::results(study)?).await?;
+    let rows = rows_of(&session, urls, &results::results(study)?).await?;
     let largest = rows
         .filter(col(ERROR).is_not_null().and(col("day").is_not_null()))?
         .sort(vec![
@@ -85,7 +88,7 @@ async fn worst(
     for batch in largest.collect().await? {
         if batch.num_rows() > 0 {
             let day = batch.column(1).as_primitive::<Date32Type>().value(0);
-            let partition = Partition::new(&crate::partition::date_of(day), &found.name)?;
+            let partition = Partition::new(&crate::storage::partition::date_of(day), &found.name)?;
             let key = batch.column(0).as_string::<i32>().value(0).to_owned();
             return Ok(Some((partition, key)));
         }

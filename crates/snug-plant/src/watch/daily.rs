@@ -1,10 +1,10 @@
 //! One value a day of every group and quantity: the median of its tightenings, so that one bad fit moves nothing.
 
 use super::quantities::Quantities;
-use crate::PlantError;
-use crate::dataset::Dataset;
 use crate::engine::{reading_session, rows_of};
-use crate::fit::columns;
+use crate::error::PlantError;
+use crate::functions::results;
+use crate::storage::dataset::Dataset;
 use arrow::array::{Array, AsArray, RecordBatch};
 use arrow::datatypes::{Date32Type, Float64Type, Int64Type};
 use std::collections::BTreeMap;
@@ -62,7 +62,7 @@ pub async fn daily(
         return Ok(Vec::new());
     }
     let session = reading_session(&[&results.store]);
-    let schema = columns::results(&results.study()?)?;
+    let schema = results::results(&results.study()?)?;
     let rows = rows_of(&session, urls, &schema).await?;
     session.register_table("results", rows.into_view())?;
     let each = quantities.0.iter().map(|quantity| {

@@ -1,7 +1,7 @@
 //! What is watched of a fit: how much is left over, m, c, k, and the size of each effect.
 
-use crate::PlantError;
-use crate::fit::columns::model;
+use crate::error::PlantError;
+use crate::functions::results::model;
 use snug_campaign::words::effect_name::effect_name;
 use snug_model::BASE_PARAMETERS;
 use snug_study::Study;

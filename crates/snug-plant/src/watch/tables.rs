@@ -2,8 +2,9 @@
 
 use super::daily::Series;
 use super::summary::{Judged, JudgedSeries};
-use crate::schema::{Kind, field, schema};
-use crate::{PlantError, parquet_file};
+use crate::error::PlantError;
+use crate::storage::parquet_file;
+use crate::storage::schema::{Kind, field, schema};
 use arrow::array::{
     ArrayRef, BooleanArray, Date32Array, Float64Array, RecordBatch, StringArray, UInt32Array,
 };

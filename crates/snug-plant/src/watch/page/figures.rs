@@ -2,7 +2,7 @@
 
 use super::super::curve::Curve;
 use super::super::summary::JudgedSeries;
-use crate::partition::date_of;
+use crate::storage::partition::date_of;
 use maud::{Markup, html};
 use std::fmt::Write;
 

@@ -348,7 +348,7 @@ mod tests {
 
     #[test]
     fn every_column_stands_in_the_documentation() {
-        let readme = include_str!("../README.md");
+        let readme = include_str!("../../README.md");
         for (name, ..) in IDENTITY
             .iter()
             .chain(PREPARED)

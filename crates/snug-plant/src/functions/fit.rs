@@ -1,9 +1,9 @@
 //! `snug_fit(study, columns …)`: Snug's fit as a function of the engine, the same on every machine that has it.
 
-use super::columns;
 use super::outcome::{self, Outcome};
+use super::results;
 use crate::rows;
-use crate::schema::{IDENTITY, PREPARED, field};
+use crate::storage::schema::{IDENTITY, PREPARED, field};
 use arrow::array::{Array, ArrayRef, RecordBatch};
 use arrow::compute::cast;
 use arrow::datatypes::{DataType, Field, FieldRef, Schema, SchemaRef};
@@ -66,7 +66,7 @@ impl ScalarUDFImpl for Fit {
         args: ReturnFieldArgs<'_>,
     ) -> Result<FieldRef, DataFusionError> {
         let study = study(args.scalar_arguments.first().copied().flatten())?;
-        let fields = columns::outcome(&study).map_err(external)?;
+        let fields = results::outcome(&study).map_err(external)?;
         Ok(Arc::new(Field::new(NAME, DataType::Struct(fields), true)))
     }
 
@@ -78,8 +78,8 @@ impl ScalarUDFImpl for Fit {
         let batch = taken(&TAKEN, &args.args[1..], args.number_rows)?;
         let prepared = rows::prepared(&batch)?;
         let outcomes = fitted(&study, &prepared)?;
-        let fields = columns::outcome(&study).map_err(external)?;
-        let parameters = columns::model(&study).map_err(external)?.parameters().len();
+        let fields = results::outcome(&study).map_err(external)?;
+        let parameters = results::model(&study).map_err(external)?.parameters().len();
         let answer = outcome::columns(&fields, parameters, &outcomes)?;
         Ok(ColumnarValue::Array(Arc::new(answer)))
     }

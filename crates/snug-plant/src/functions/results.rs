@@ -1,7 +1,7 @@
 //! The columns of a fit: what the function answers for a study, and how results are laid out.
 
-use crate::PlantError;
-use crate::schema::{Kind, field, identity, schema};
+use crate::error::PlantError;
+use crate::storage::schema::{Kind, field, identity, schema};
 use arrow::datatypes::{Field, Fields, SchemaRef};
 use snug_campaign::Rig;
 use snug_model::Model;

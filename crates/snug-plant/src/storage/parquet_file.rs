@@ -1,6 +1,6 @@
 //! One Parquet file in memory: written whole, read back whole.
 
-use crate::PlantError;
+use crate::error::PlantError;
 use arrow::array::RecordBatch;
 use arrow::datatypes::{DataType, Schema, SchemaRef};
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! What every row is asked in one pass: the sizes that it shares, as a literal of the plan, and which of them are its group's own.
 
-use crate::partition::date_of;
+use crate::storage::partition::date_of;
 use serde::{Deserialize, Serialize};
 use snug_campaign::{Factor, Tightening};
 use snug_study::Compared;

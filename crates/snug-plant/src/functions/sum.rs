@@ -65,7 +65,7 @@ impl AggregateUDFImpl for Sum {
 
 /// The sums of every place of the lists.
 #[derive(Debug, Default)]
-pub(super) struct Places(Vec<ExactSum>);
+pub(crate) struct Places(Vec<ExactSum>);
 
 impl Places {
     /// Adds what another's state says: place by place how many parts, and these.

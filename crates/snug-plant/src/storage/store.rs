@@ -6,7 +6,7 @@ mod thresholds;
 
 pub(crate) use registry::Places;
 
-use crate::PlantError;
+use crate::error::PlantError;
 use bytes::Bytes;
 use futures::TryStreamExt;
 use object_store::local::LocalFileSystem;

@@ -1,7 +1,7 @@
 //! What a measurement file's name says of tool, day, station and time: measurement formats know none of them.
 
-use crate::PlantError;
-use crate::partition::{Partition, UNKNOWN, check_name};
+use crate::error::PlantError;
+use crate::storage::partition::{Partition, UNKNOWN, check_name};
 
 /// How files are named, and what holds for all of them.
 #[derive(Debug, Clone, Default)]

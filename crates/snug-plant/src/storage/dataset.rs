@@ -9,9 +9,11 @@
 //!
 //! A file that no marker names is not there: it is what a killed process left, and the next one writes it anew.
 
-use crate::partition::Partition;
-use crate::schema::SCHEMA_VERSION;
-use crate::{PlantError, Store, parquet_file};
+use crate::error::PlantError;
+use crate::storage::parquet_file;
+use crate::storage::partition::Partition;
+use crate::storage::schema::SCHEMA_VERSION;
+use crate::storage::store::Store;
 use arrow::array::RecordBatch;
 use arrow::datatypes::SchemaRef;
 use serde::de::DeserializeOwned;

@@ -1,10 +1,11 @@
 //! A plant of simulated tools straight into a dataset, some of which an effect comes over on some day.
 
-use crate::dataset::{Dataset, digest};
-use crate::import::{Growing, Imported, Read};
-use crate::naming::Named;
-use crate::partition::{Partition, date_of, days_since_1970};
-use crate::{PlantError, Store};
+use crate::error::PlantError;
+use crate::intake::import::{Growing, Imported, Read};
+use crate::intake::naming::Named;
+use crate::storage::dataset::{Dataset, digest};
+use crate::storage::partition::{Partition, date_of, days_since_1970};
+use crate::storage::store::Store;
 use rayon::prelude::*;
 use snug_preprocess::preprocess;
 use snug_study::{FileTightenings, Study};

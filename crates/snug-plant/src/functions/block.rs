@@ -1,11 +1,11 @@
 //! `snug_block(study, sizes, columns …)` and `snug_group(sizes, columns …)`: what a row says of the sizes that it shares, and whose
 //! they are.
 
+use super::fit::{TAKEN, external, in_lanes, study, taken};
 use super::question::{Held, Totals};
 use super::sum::list_type;
-use crate::fit::function::{TAKEN, external, in_lanes, study, taken};
 use crate::rows;
-use crate::schema::{IDENTITY, field};
+use crate::storage::schema::{IDENTITY, field};
 use arrow::array::{ArrayRef, Float64Builder, ListBuilder, StringArray};
 use arrow::datatypes::{DataType, Schema, SchemaRef};
 use datafusion::common::{DataFusionError, ScalarValue, exec_err, plan_err};

@@ -1,6 +1,6 @@
 //! The parts of a dataset that are written, replaced and read whole: one tool's tightenings of one day.
 
-use crate::PlantError;
+use crate::error::PlantError;
 use arrow::array::{Array, ArrayRef, AsArray};
 use arrow::datatypes::Date32Type;
 use serde::{Deserialize, Serialize};

@@ -1,11 +1,12 @@
 //! Measurement files to a dataset: each file once, partition after partition, so that memory holds one part of one.
 
-use crate::dataset::{Commit, CommittedFile, Dataset, digest};
-use crate::naming::{Named, Naming};
-use crate::partition::Partition;
+use crate::error::PlantError;
+use crate::intake::naming::{Named, Naming};
 use crate::rows::{Row, batch};
-use crate::schema;
-use crate::{PlantError, Store};
+use crate::storage::dataset::{Commit, CommittedFile, Dataset, digest};
+use crate::storage::partition::Partition;
+use crate::storage::schema;
+use crate::storage::store::Store;
 use arrow::array::{ArrayRef, Date32Array, RecordBatch, StringArray, UInt32Array};
 use rayon::prelude::*;
 use snug_campaign::{Finding, Severity};
