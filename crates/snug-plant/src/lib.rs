@@ -14,6 +14,12 @@ mod sql;
 mod storage;
 mod watch;
 
+// Declared for their features alone: the program and its tests share one build of the engine.
+use arrayvec as _;
+use digest as _;
+use simdutf8 as _;
+use subtle as _;
+
 pub use bench::{BenchSettings, Figures, bench};
 pub use engine::thresholds::{GIVEN_UP_AFTER_S, STANDS_STILL_AFTER_S};
 pub use engine::{CLUSTER_PARTS, Engine, SchedulerSettings, WorkerSettings, scheduler, worker};
