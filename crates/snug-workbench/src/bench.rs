@@ -10,8 +10,10 @@ use crate::campaign::focus::Closer;
 use crate::changes::{Changes, EffectSet};
 use crate::error::WorkbenchError;
 use crate::kept::fits::Fits;
+pub(crate) use crate::kept::locked;
 use crate::kept::looks::Looks;
 use crate::kept::results::Results;
+use crate::kept::turns::Turns;
 use crate::session::{Session, Ticket};
 use crate::told;
 use after::Tests;
@@ -21,7 +23,7 @@ use snug_study::{FilesRead, Study};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex};
 use std::time::Instant;
 use tokio::sync::{broadcast, watch};
 
@@ -48,6 +50,8 @@ pub struct Bench {
     /// Single tightenings under fits, and results as files.
     pub(crate) looks: Mutex<Looks>,
     pub(crate) results: Mutex<Results>,
+    /// Of which models results are being made.
+    pub(crate) making: Turns<EffectSet>,
     sessions: Mutex<BTreeMap<String, Session>>,
     /// What was saved, and where.
     pub(crate) saved: Mutex<Option<(PathBuf, String)>>,
@@ -70,11 +74,6 @@ impl Work {
     }
 }
 
-/// What nobody can leave in disorder: every change of it is one assignment.
-pub(crate) fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    mutex.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
 impl Bench {
     /// The workbench on `study`, of which nothing is read yet; `study_file` is where that came from.
     pub fn new(study: Study, study_file: Option<PathBuf>) -> Arc<Self> {
@@ -88,6 +87,7 @@ impl Bench {
             tests: Mutex::default(),
             looks: Mutex::default(),
             results: Mutex::default(),
+            making: Turns::default(),
             sessions: Mutex::default(),
             saved: Mutex::default(),
         })

@@ -21,6 +21,9 @@ impl Bench {
     pub(crate) fn make_results(&self, effects: &EffectSet) -> Result<usize, WorkbenchError> {
         let campaign = self.campaign()?;
         campaign.prepared.named(effects.names())?;
+        // Two that ask at the same moment: the second waits, and finds what the first has made.
+        let turn = self.making.of(effects);
+        let _turn = locked(&turn);
         let known = locked(&self.results).number(effects);
         if let Some(number) = known {
             return Ok(number);
@@ -54,6 +57,33 @@ impl Bench {
         match (folder, file) {
             (Some(folder), Some((name, kind))) => Ok((folder.join(name), kind)),
             _ => Err(WorkbenchError::NoResults),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use snug_study::Study;
+    use std::path::Path;
+    use std::sync::Arc;
+
+    #[test]
+    fn two_who_ask_at_the_same_moment_get_the_same_files_made_once() {
+        let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fixtures/mystery");
+        let bench = Bench::new(Study::on(data), None);
+        bench.read();
+        let ask = || {
+            let bench = Arc::clone(&bench);
+            std::thread::spawn(move || bench.make_results(&EffectSet::default()).unwrap())
+        };
+        let asked: Vec<_> = (0..3).map(|_| ask()).collect();
+        let numbers: Vec<usize> = asked.into_iter().map(|one| one.join().unwrap()).collect();
+        assert_eq!(numbers, [numbers[0]; 3]);
+        assert_eq!(locked(&bench.results).made(), 1);
+        for (name, _) in FILES {
+            assert!(bench.result_file(numbers[0], name).unwrap().0.is_file());
         }
     }
 }

@@ -27,6 +27,12 @@ impl Results {
         found.map(|(_, _, folder)| folder.path())
     }
 
+    /// How often some were made, those that are forgotten too.
+    #[cfg(test)]
+    pub fn made(&self) -> usize {
+        self.count
+    }
+
     /// Keeps a model's, and forgets the oldest where there are too many; the number under which they are kept.
     pub fn keep(&mut self, effects: EffectSet, folder: TempDir) -> usize {
         self.count += 1;
