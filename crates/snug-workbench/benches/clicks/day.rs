@@ -1,8 +1,8 @@
 //! A day's use: two tabs, 500 clicks, 50 reloads; what the server's memory and the page's come to.
 
+use crate::apart::Apart;
 use crate::browser::{Headless, LOADING, Tab};
 use crate::many::study_of;
-use crate::server::Server;
 use std::path::Path;
 use tempfile::TempDir;
 
@@ -26,7 +26,7 @@ const BUTTONS: [&str; 4] = [
 /// Clicks and reloads; the table of memory.
 pub async fn of_use(program: &Path) {
     let folder = TempDir::new().unwrap();
-    let server = Server::begin(0, &study_of(folder.path(), 1));
+    let server = Apart::begin(&study_of(folder.path(), 1));
     let browser = Headless::launch(program.to_owned()).await;
     let tabs = [
         browser.open(&server.address(), 1400, "light").await,
@@ -36,9 +36,10 @@ pub async fn of_use(program: &Path) {
         tab.is_ready("1.541").await;
     }
     println!("a day's use      server [MB]  page [MB]  nodes");
+    let mut memory = Vec::new();
     for click in 0..CLICKS {
         if click % BETWEEN_LINES == 0 {
-            line(click, &tabs[0]).await;
+            memory.push(line(click, &server, &tabs[0]).await);
         }
         let tab = &tabs[click % 2];
         tab.page.bring_to_front().await.unwrap();
@@ -61,7 +62,11 @@ pub async fn of_use(program: &Path) {
                 .await;
         }
     }
-    line(CLICKS, &tabs[0]).await;
+    memory.push(line(CLICKS, &server, &tabs[0]).await);
+    println!(
+        "  grown by {:.0} MB over the second half",
+        grown_mb(&memory)
+    );
     for tab in &tabs {
         tab.was_well(server.port);
     }
@@ -69,22 +74,21 @@ pub async fn of_use(program: &Path) {
     server.end();
 }
 
-async fn line(click: usize, tab: &Tab) {
+/// One line of the table; what the server has in memory \[MB\].
+async fn line(click: usize, server: &Apart, tab: &Tab) -> f64 {
     tab.page.bring_to_front().await.unwrap();
     let heap = tab.value("performance.memory.usedJSHeapSize").await;
     let nodes = tab.value("document.getElementsByTagName('*').length").await;
+    let memory_mb = server.memory_mb();
     println!(
-        "  {click:>3} clicks    {:>10.0} {:>10.1} {:>6}",
-        own_memory_mb(),
+        "  {click:>3} clicks    {memory_mb:>10.0} {:>10.1} {:>6}",
         heap.as_f64().unwrap_or(f64::NAN) / 1e6,
         nodes.as_f64().unwrap_or(f64::NAN)
     );
+    memory_mb
 }
 
-/// Resident memory of this process, which is the server \[MB\]; NaN where the system does not tell it.
-fn own_memory_mb() -> f64 {
-    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
-    let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:"));
-    let kb = line.and_then(|line| line.trim().trim_end_matches(" kB").parse::<f64>().ok());
-    kb.map_or(f64::NAN, |kb| kb / 1e3)
+/// From the middle of a day to its end \[MB\].
+fn grown_mb(memory: &[f64]) -> f64 {
+    memory[memory.len() - 1] - memory[memory.len() / 2]
 }

@@ -7,7 +7,7 @@ use std::path::Path;
 use std::time::Instant;
 use tempfile::TempDir;
 
-/// Effects that are clicked, each from the study's own model.
+/// Effects that are clicked on a large campaign, each from the study's own model; on a small one all are.
 const EFFECTS: [&str; 8] = [
     "stretch_reflex",
     "directional_damping",
@@ -60,28 +60,46 @@ pub async fn of_clicks(program: &Path, copies: usize) {
         24 * copies,
         begun.elapsed().as_secs_f64()
     );
-    println!("  click                  first [ms]  last [ms]");
-    for effect in EFFECTS {
+    println!("  click                  first [ms]  last [ms]  then a drag [ms]  longest");
+    for effect in of_which(&tab, copies).await {
         is_quiet(&tab).await;
         let [first, last] = clicked(&tab, &format!("[data-effect={effect}] .switch")).await;
-        println!("  {effect:<22} {first:>10.0} {last:>10.0}");
         is_quiet(&tab).await;
+        let [drag, longest] = dragged(&tab).await;
+        println!("  {effect:<26} {first:>6.0} {last:>10.0} {drag:>17.0} {longest:>8.0}");
         clicked(&tab, "[data-undo]").await;
     }
-    let mut drags = Vec::new();
     is_quiet(&tab).await;
-    for _ in 0..DRAGS {
-        drags.push(tab.value(DRAGGED).await.as_f64().unwrap());
-    }
-    drags.sort_by(f64::total_cmp);
+    let [drag, longest] = dragged(&tab).await;
     println!(
-        "  a slider dragged       {:>10.0} (median of {DRAGS}, longest {:.0})",
-        drags[DRAGS / 2],
-        drags[DRAGS - 1]
+        "  {:<26} {:>6} {:>10} {drag:>17.0} {longest:>8.0}",
+        "no effect", "", ""
     );
     tab.was_well(server.port);
     browser.close().await;
     server.end();
+}
+
+/// Every effect of a campaign that is fitted at once, else some.
+async fn of_which(tab: &Tab, copies: usize) -> Vec<String> {
+    let all =
+        "[...document.querySelectorAll('[data-switches] > li')].map(one => one.dataset.effect)";
+    match copies {
+        1 => serde_json::from_value(tab.value(all).await).unwrap(),
+        _ => EFFECTS.map(str::to_owned).to_vec(),
+    }
+}
+
+/// Median and longest of some drags \[ms\].
+async fn dragged(tab: &Tab) -> [f64; 2] {
+    let mut drags = Vec::new();
+    for _ in 0..DRAGS {
+        drags.push(tab.value(DRAGGED).await.as_f64().unwrap_or(f64::NAN));
+    }
+    tab.value("document.querySelector('[data-as-fitted]').click()")
+        .await;
+    drags.sort_by(f64::total_cmp);
+    [drags[DRAGS / 2], drags[DRAGS - 1]]
 }
 
 /// Waits until all that follows from a fit is told but the tests of what was added, which go on behind the next click.

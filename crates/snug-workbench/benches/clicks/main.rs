@@ -6,6 +6,7 @@
     reason = "a benchmark prints its table, and shares what drives the browser with the stories"
 )]
 
+mod apart;
 #[path = "../../tests/in_browser/browser.rs"]
 mod browser;
 mod day;
@@ -18,11 +19,13 @@ use browser::installed;
 
 /// A workbench on 24 tightenings and on 240, clicked; with `--long` used for a day.
 fn main() {
+    if apart::is_asked_for() {
+        return apart::serve();
+    }
     let Some(program) = installed() else { return };
     let is_long = std::env::args().any(|argument| argument == "--long");
     let runtime = tokio::runtime::Runtime::new().unwrap();
     runtime.block_on(async {
-        // First: what is left of a larger campaign would count as memory of the day's.
         if is_long {
             day::of_use(&program).await;
         }
