@@ -117,11 +117,16 @@ impl Axis {
 
     /// Characters of the longest tick text.
     pub fn widest_tick(&self) -> usize {
-        self.ticks
-            .iter()
-            .map(|tick| tick.text.chars().count())
-            .max()
-            .unwrap_or(0)
+        let width = |tick: &Tick| {
+            let count = tick.text.chars().count();
+            // A heading is bold: an eighth wider.
+            if tick.heading {
+                count + count.div_ceil(8)
+            } else {
+                count
+            }
+        };
+        self.ticks.iter().map(width).max().unwrap_or(0)
     }
 }
 
