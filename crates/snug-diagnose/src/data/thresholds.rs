@@ -13,3 +13,6 @@ pub(crate) const SHORTEST_STRETCH: usize = 40;
 /// Tightenings that are simulated together, as many as the widest vector registers hold. One group comes after the other, and
 /// threads share out each, which bounds the memory: a thread that waits in one group would begin another.
 pub(crate) const SIMULATED_TOGETHER: usize = 8;
+/// Columns of a score up to which groups are worked on side by side: so few do not keep every processor at work, and take little memory
+/// in each group. Chosen: an effect has no more.
+pub(crate) const FEW_COLUMNS: usize = 4;

@@ -5,7 +5,7 @@
 
 use crate::data::clusters::Clusters;
 use crate::data::simulation::Asked;
-use crate::data::thresholds::SIMULATED_TOGETHER;
+use crate::data::thresholds::{FEW_COLUMNS, SIMULATED_TOGETHER};
 use crate::error::DiagnoseError;
 use crate::pooled::fitted::Fitted;
 use crate::pooled::model::{PooledModel, Room};
@@ -112,9 +112,14 @@ impl<'a, 'h> Scorer<'a, 'h> {
             others.push((effect, PooledModel::new(self.pooled.cases, &with)?));
         }
         let members: Vec<usize> = (0..self.pooled.cases.len()).collect();
-        let contributions: Vec<Contribution> = (members.chunks(SIMULATED_TOGETHER))
-            .flat_map(|some| self.contributions(some, &columns, &others))
-            .collect();
+        let group = |some: &[usize]| self.contributions(some, &columns, &others);
+        let groups = members.chunks(SIMULATED_TOGETHER);
+        let contributions: Vec<Contribution> = match columns.len() <= FEW_COLUMNS {
+            true => (groups.collect::<Vec<_>>().into_par_iter())
+                .flat_map_iter(group)
+                .collect(),
+            false => groups.flat_map(group).collect(),
+        };
         let mut grams = contributions.iter().filter_map(|one| one.gram.as_ref());
         let gram = grams.next().map(|first| {
             let mut sum = first.clone();
