@@ -40,7 +40,10 @@ pub use excerpt::excerpt;
 pub use factor::{Factor, Level};
 pub use finding::{Finding, Severity};
 pub use likely_name::did_you_mean;
-pub use location::{Aspect, Drift, ForceCurve, ForceMap, Location, ResidualCorrelation, Share};
+pub use location::{
+    Aspect, Drift, ForceCurve, ForceMap, FrequencyResponse, Location, ResidualCorrelation,
+    Response, Share,
+};
 pub use noise::{NoiseFloor, NoiseSource};
 pub use parameter::{Parameter, ParameterSource};
 pub use recording::{Motion, Recording, Segment};

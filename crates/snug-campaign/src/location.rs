@@ -1,7 +1,7 @@
 //! Where a model fails: the words for it.
 
-use crate::Interval;
 use crate::words::remark::Remark;
+use crate::{Interval, Quantity};
 use serde::{Deserialize, Serialize};
 
 /// Mean squared misfit in one part of the data (a stretch of time, a band of frequency, a condition).
@@ -75,6 +75,35 @@ pub struct ResidualCorrelation {
     pub half_width: f64,
 }
 
+/// How the motion answers the torque, frequency by frequency, as measured and as a model has it: both estimated in the same way from
+/// the same windows, so that what a window cannot resolve is the same in both. A value for each frequency.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct FrequencyResponse {
+    /// Which motion.
+    pub quantity: Quantity,
+    /// Frequencies \[Hz\], rising.
+    pub frequency_hz: Vec<f64>,
+    /// Of the motion as measured over the torque, in the motion's SI unit per Nm.
+    pub measured: Vec<Response>,
+    /// The same of the motion that the model makes under the measured torque.
+    pub simulated: Vec<Response>,
+    /// Lower and upper end of the measured gain's 95 % interval; `None` where one value alone was there.
+    pub gain_interval: Vec<Option<Interval>>,
+    /// γ², 0 to 1: 1 where the motion follows the torque in the same linear way in every tightening; `None` as above.
+    pub coherence: Vec<Option<f64>>,
+    /// Distance of two frequencies that the windows tell apart \[Hz\].
+    pub resolution_hz: f64,
+}
+
+/// Gain and phase at one frequency.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Response {
+    /// In the motion's SI unit per Nm.
+    pub gain: f64,
+    /// \[rad\], from −π to π; below 0 where the motion is late.
+    pub phase_rad: f64,
+}
+
 /// Where a model fails.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct Location {
@@ -86,6 +115,8 @@ pub struct Location {
     pub force_map: ForceMap,
     /// Whether what is left is white, and whether it follows from the torque; `None` where nothing is left to correlate.
     pub correlation: Option<ResidualCorrelation>,
+    /// How the motion answers the torque over frequency; `None` where no frequency is coherent.
+    pub response: Option<FrequencyResponse>,
     /// Share of the squared misfit that the other tightenings' mean residual predicts, 0 to 1.
     pub repeatable_share: Option<f64>,
     /// What stands out.

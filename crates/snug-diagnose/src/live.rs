@@ -7,6 +7,7 @@ pub(crate) mod focus;
 pub(crate) mod held_out;
 pub(crate) mod promise;
 pub(crate) mod signature;
+pub(crate) mod step;
 pub(crate) mod tightening;
 pub(crate) mod what_is_left;
 

@@ -20,6 +20,7 @@ mod phase;
 mod remark;
 mod repeatable;
 mod residual;
+mod response;
 mod time_since_onset;
 
 #[cfg(test)]
@@ -60,7 +61,8 @@ pub fn compare(seen: &[Seen<'_>]) -> Comparison {
 /// window's start where no tightening has an onset. The periodogram's window falls off over the first and last 5 % of the
 /// samples. Parts without a sample are left out, and aspects that no tightening can say anything about.
 ///
-/// `correlation` is that of the residual with itself later and with the torque (see the `correlation` module).
+/// `correlation` is that of the residual with itself later and with the torque (see the `correlation` module); `response` how motion
+/// and simulated motion answer the torque over frequency (see the `response` module).
 ///
 /// `repeatable_share` is the larger of two: what the other tightenings' mean residual predicts over the time since onset,
 /// and what a force over displacement and velocity with sizes from the other files predicts (see the `repeatable` and
@@ -102,6 +104,7 @@ pub fn locate(seen: &[Seen<'_>], seed: u64) -> Location {
         force_over_time,
         force_map,
         correlation: correlation::correlation(&residuals),
+        response: response::response(&residuals),
         repeatable_share,
         remarks,
     }
@@ -121,8 +124,8 @@ pub fn drifts(seen: &[Seen<'_>]) -> Vec<Drift> {
     drift::drifts(seen)
 }
 
-/// What is left alone: the missing force over time and over displacement and velocity, and whether the residual is white and follows
-/// from the torque; nothing where nothing can be compared.
+/// What is left alone: the missing force over time and over displacement and velocity, whether the residual is white and follows
+/// from the torque, and the response over frequency; nothing where nothing can be compared.
 pub(crate) fn what_is_left(seen: &[Seen<'_>], seed: u64) -> Location {
     let residuals = Residuals::of(seen);
     let draws = Draws::new(residuals.all.len(), seed);
@@ -131,6 +134,7 @@ pub(crate) fn what_is_left(seen: &[Seen<'_>], seed: u64) -> Location {
         force_over_time,
         force_map,
         correlation: correlation::correlation(&residuals),
+        response: response::response(&residuals),
         ..Location::default()
     }
 }

@@ -13,6 +13,9 @@ pub const DIGITS: i32 = 6;
 /// Points of a curve in a still picture.
 pub const STILL_POINTS: usize = 400;
 
+/// What time counts from, unless a panel says otherwise.
+const SINCE_START: &str = "time since the window's start";
+
 /// Unit of a time axis of that length and how many of it one second has: milliseconds up to two seconds.
 pub fn time_unit(length_s: f64) -> (&'static str, f64) {
     if length_s <= 2.0 {
@@ -45,6 +48,8 @@ pub struct Panel<S> {
     pub series: Vec<Series<S>>,
     /// Whether it shows a residual, with the band of the noise behind it.
     pub residual: bool,
+    /// What its time counts from, where that is not the window's start.
+    pub time: Option<&'static str>,
 }
 
 /// One curve of a panel.
@@ -84,7 +89,7 @@ impl<S> Panel<S> {
             .iter()
             .map(|series| json!({ "label": series.label, "class": series.class }))
             .collect();
-        json!({ "title": self.title, "axis": self.axis, "series": series, "residual": self.residual })
+        json!({ "title": self.title, "axis": self.axis, "series": series, "residual": self.residual, "time": self.time })
     }
 
     /// The panel without JavaScript.
@@ -116,7 +121,8 @@ impl<S> Panel<S> {
                 marks.push(Mark::Line(series.class, points.collect()));
             }
         }
-        let time = format!("time since the window's start [{}]", curves.time_unit);
+        let since = self.time.unwrap_or(SINCE_START);
+        let time = format!("{since} [{}]", curves.time_unit);
         let figure = Figure {
             description: curves.description,
             width: 520.0,

@@ -3,8 +3,8 @@
 use crate::curves;
 use crate::curves::decimation;
 use crate::curves::{DIGITS, Series, Values, embedded, steps, time_unit};
-use crate::section::location::{correlation, force};
-use crate::words::number::drawn;
+use crate::section::location::{correlation, force, response};
+use crate::words::number::{drawn, significant};
 use crate::words::signal_unit::motion_axis;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use serde_json::{Value, json};
@@ -38,24 +38,28 @@ pub struct Simulated<'a> {
     pub class: &'static str,
     /// What it makes.
     pub output: &'a [f64],
+    /// What it makes of a torque that steps at the first sample; `None` where that is not drawn.
+    pub step: Option<&'a [f64]>,
 }
 
 impl<'a> Simulated<'a> {
     /// The model with which all began.
-    pub fn first(output: &'a [f64]) -> Self {
+    pub fn first(output: &'a [f64], step: Option<&'a [f64]>) -> Self {
         Self {
             label: "model to begin with",
             class: "c-rejected",
             output,
+            step,
         }
     }
 
     /// The present model.
-    pub fn now(output: &'a [f64]) -> Self {
+    pub fn now(output: &'a [f64], step: Option<&'a [f64]>) -> Self {
         Self {
             label: "now",
             class: "c-simulated",
             output,
+            step,
         }
     }
 }
@@ -79,18 +83,33 @@ pub struct Compared<'a> {
     pub signature: Option<Simulated<'a>>,
     /// Standard deviation of the measurement's noise in the output's SI unit; `None` where it is not known.
     pub noise: Option<f64>,
+    /// The torque \[Nm\] to which step responses step; `None` where none are drawn.
+    pub step_nm: Option<f64>,
 }
 
 type Panel = curves::Panel<Vec<f64>>;
 
 impl Compared<'_> {
-    /// What the viewer draws: the output, and what is left over with the band of the noise.
+    /// What the viewers draw: the output, and what is left over with the band of the noise; under `step` the models' step responses, for
+    /// as long as they take to settle.
     pub fn json(&self) -> Value {
-        let panels = self.panels();
-        let (unit, per_second) = time_unit(self.measured.len() as f64 * self.interval_s);
+        let band = self.noise.filter(|noise| noise.is_finite());
+        let band = band.map(|noise| NORMAL_95 * noise * self.units.output_per_rad);
+        let mut told = self.drawn(&self.panels(), self.measured.len(), band);
+        told["step"] = self.step_nm.map_or(Value::Null, |step_nm| {
+            let steps: Vec<&[f64]> = self.models.iter().filter_map(|model| model.step).collect();
+            self.drawn(&[self.step_panel(step_nm)], settled(&steps), None)
+        });
+        told
+    }
+
+    /// Panels over the first `samples`.
+    fn drawn(&self, panels: &[Panel], samples: usize, band: Option<f64>) -> Value {
+        let (unit, per_second) = time_unit(samples as f64 * self.interval_s);
         let lines: Vec<&[f64]> = panels
             .iter()
-            .flat_map(|panel| panel.series.iter().map(|line| line.source.as_slice()))
+            .flat_map(|panel| panel.series.iter())
+            .map(|line| &line.source[..samples.min(line.source.len())])
             .collect();
         let leading = lines.last().copied().unwrap_or_default();
         let kept = decimation::indices(leading, &lines, POINTS);
@@ -101,7 +120,6 @@ impl Compared<'_> {
             };
             panel.series.iter().map(values).collect()
         };
-        let band = self.noise.filter(|noise| noise.is_finite());
         json!({
             "panels": panels.iter().map(Panel::json).collect::<Vec<_>>(),
             "example": {
@@ -109,16 +127,13 @@ impl Compared<'_> {
                 "unit": unit,
                 "steps": steps(&kept),
                 "signals": panels.iter().map(signals).collect::<Vec<_>>(),
-                "noise": band.map(|noise| NORMAL_95 * noise * self.units.output_per_rad),
+                "noise": band,
             },
         })
     }
 
     fn panels(&self) -> Vec<Panel> {
-        let shown = |values: &[f64]| -> Vec<f64> {
-            let per_rad = self.units.output_per_rad;
-            values.iter().map(|value| value * per_rad).collect()
-        };
+        let shown = |values: &[f64]| self.shown(values);
         let left = |model: &[f64]| -> Vec<f64> {
             let pairs = self.measured.iter().zip(model);
             shown(
@@ -152,15 +167,66 @@ impl Compared<'_> {
                 axis: (self.vocabulary).says(&motion_axis(self.units, self.quantity)),
                 series: motion,
                 residual: false,
+                time: None,
             },
             Panel {
                 title: "What is left over: measured − simulated".into(),
                 axis: format!("residual [{}]", self.units.motion(self.quantity)),
                 series: rest,
                 residual: self.noise.is_some(),
+                time: None,
             },
         ]
     }
+
+    fn shown(&self, values: &[f64]) -> Vec<f64> {
+        let per_rad = self.units.output_per_rad;
+        values.iter().map(|value| value * per_rad).collect()
+    }
+
+    fn step_panel(&self, step_nm: f64) -> Panel {
+        let height = significant(step_nm * self.units.input_per_nm, 3);
+        let input = match self.units.input.as_str() {
+            "Nm" => "torque",
+            "N" => "force",
+            _ => "input",
+        };
+        let step = |model: &Simulated<'_>| {
+            Some(Series {
+                label: model.label.to_owned().into(),
+                class: model.class,
+                source: self.shown(model.step?),
+            })
+        };
+        Panel {
+            title: format!(
+                "Step response: the models where the {input} steps to {height} {} and stays",
+                self.units.input
+            ),
+            axis: (self.vocabulary).says(&motion_axis(self.units, self.quantity)),
+            series: self.models.iter().filter_map(step).collect(),
+            residual: false,
+            time: Some("time since the step"),
+        }
+    }
+}
+
+/// Share of its way \[–\] within which a step response has settled. Customary.
+const SETTLED: f64 = 0.02;
+/// Samples of a step response that are drawn at least. Chosen.
+const FEWEST: usize = 100;
+
+/// Samples until all have settled, and half as many more.
+fn settled(steps: &[&[f64]]) -> usize {
+    let until = |step: &[f64]| -> usize {
+        let end = step.last().copied().unwrap_or(0.0);
+        let way = step.iter().map(|y| (y - end).abs()).fold(0.0, f64::max);
+        let moves = step.iter().rposition(|y| (y - end).abs() > SETTLED * way);
+        moves.map_or(0, |last| last + 1)
+    };
+    let longest = steps.iter().map(|step| step.len()).max().unwrap_or(0);
+    let until = steps.iter().map(|step| until(step)).max().unwrap_or(0);
+    (until + until / 2).max(FEWEST).min(longest)
 }
 
 /// A page of this title: the viewer's style and `style` in its head, `body` in its body.
@@ -183,34 +249,53 @@ pub fn document(title: &str, style: &str, body: &Markup) -> Markup {
 }
 
 /// The missing force over time, beside what another model lacked `before`, and over displacement and velocity, then how the residual goes
-/// with itself and with the torque: as the report draws them but for `data-cell`, of each cell of the map its edges, displacement \[m\] and
+/// with itself and with the torque, then the response over frequency in these units: as the report draws them but for `data-cell`, of each cell of the map its edges, displacement \[m\] and
 /// velocity \[m/s\] of the grip. Nothing where there is none.
-pub fn what_is_left(location: &Location, before: Option<&Location>) -> Markup {
+pub fn what_is_left(location: &Location, before: Option<&Location>, units: &SignalUnits) -> Markup {
+    let response_before = before.and_then(|before| before.response.as_ref());
     html! {
         div.figures {
             (force::live(location, before))
             @if let Some(correlation) = &location.correlation { (correlation::drawings(correlation)) }
+            @if let Some(response) = &location.response { (response::drawings(response, response_before, units)) }
+            @else { (response::none()) }
         }
     }
 }
 
-/// Where the viewer draws, `panels` one below the other; `data` is what it begins with.
-pub fn viewer(data: &Value, panels: &[&str]) -> Markup {
+/// Where a viewer of this name draws, `panels` one below the other; `data` is what it begins with.
+pub fn viewer(name: &str, data: &Value, panels: &[&str]) -> Markup {
     html! {
-        div.viewer data-viewer="viewer-data" {
+        div.viewer data-viewer=(name) {
             div.figures {
                 @for title in panels {
                     figure { figcaption { (title) } div data-panel="" {} }
                 }
             }
         }
-        script type="application/json" id="viewer-data" { (PreEscaped(embedded(data))) }
+        script type="application/json" id=(name) { (PreEscaped(embedded(data))) }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// e^(−t/τ) is within 2 % after 3.9 τ; what has hardly begun to move is drawn to its end.
+    #[test]
+    fn a_step_is_drawn_until_it_has_settled() {
+        let falling: Vec<f64> = (0..100_000)
+            .map(|t| (-f64::from(t) / 1000.0).exp())
+            .collect();
+        let until = settled(&[&falling, &[1.0; 100_000]]);
+        assert!(
+            (until as f64 / (1.5 * 3912.0) - 1.0).abs() < 1e-3,
+            "{until}"
+        );
+        let rising: Vec<f64> = (0..500).map(f64::from).collect();
+        assert_eq!(settled(&[&rising]), 500);
+        assert_eq!((settled(&[&[0.0; 7]]), settled(&[])), (7, 0));
+    }
 
     #[test]
     fn what_is_left_over_is_measured_minus_simulated_in_the_shown_unit() {
@@ -226,11 +311,12 @@ mod tests {
             interval_s: 1e-3,
             measured: &[2.0, 4.0, 6.0],
             models: vec![
-                Simulated::first(&[0.0, 4.0, 2.0]),
-                Simulated::now(&[2.0, 2.0, 6.0]),
+                Simulated::first(&[0.0, 4.0, 2.0], None),
+                Simulated::now(&[2.0, 2.0, 6.0], Some(&[0.0, 4.0, 8.0])),
             ],
             signature: None,
             noise: Some(0.1),
+            step_nm: Some(30.0),
         };
         let told = compared.json();
         let signals = &told["example"]["signals"];
@@ -243,13 +329,23 @@ mod tests {
         let band = told["example"]["noise"].as_f64().expect("it is known");
         assert!((band - 0.5 * 0.1 * NORMAL_95).abs() < 1e-12);
         assert_eq!(told["panels"][1]["residual"], true);
+        let step = &told["step"]["panels"][0];
+        assert_eq!(step["time"], "time since the step");
+        assert_eq!(
+            step["title"],
+            "Step response: the models where the torque steps to 30.0 Nm and stays"
+        );
+        let drawn = &told["step"]["example"]["signals"];
+        assert_eq!(drawn[0], json!([[0.0, 2.0, 4.0]]));
         let alone = Compared {
-            models: vec![Simulated::now(&[2.0, 2.0, 6.0])],
+            models: vec![Simulated::now(&[2.0, 2.0, 6.0], None)],
             signature: Some(Simulated {
                 label: "friction",
                 class: "c-signature",
                 output: &[0.0, 2.0, 0.0],
+                step: None,
             }),
+            step_nm: None,
             ..compared
         }
         .json();

@@ -1,4 +1,4 @@
-//! Signals: values between samples, spectra, periodograms, noise level; no domain.
+//! Signals: values between samples, spectra, periodograms, responses from one to another, noise level; no domain.
 #![doc = include_str!("../README.md")]
 
 mod finite;
@@ -6,6 +6,7 @@ mod interpolation;
 mod noise;
 mod periodogram;
 mod spectrum;
+mod transfer;
 
 pub use finite::first_not_finite;
 pub use interpolation::{between_samples, straight_pieces};
@@ -13,3 +14,4 @@ pub use noise::white_noise_level;
 pub use periodogram::Periodogram;
 pub use realfft::num_complex::Complex;
 pub use spectrum::spectrum;
+pub use transfer::{Taper, Transfer, TransferLine};

@@ -155,6 +155,7 @@ impl Campaign {
             noise: noise
                 .filter(|noise| noise.quantity == case.quantity())
                 .map(|noise| noise.standard_deviation),
+            step_nm: Some(self.prepared.live.step_nm(member)),
         }
     }
 }

@@ -106,6 +106,13 @@ impl Changes {
         }
     }
 
+    /// Goes back to number `rung` of those before the present one, from 0; where there is none such, nothing changes.
+    pub fn back_to(&mut self, rung: usize) {
+        for _ in rung..self.past.len() {
+            self.undo();
+        }
+    }
+
     /// Goes back; where there is nothing to go back to, nothing changes.
     pub fn undo(&mut self) {
         if let Some(before) = self.past.pop() {
@@ -162,6 +169,20 @@ mod tests {
         assert_eq!(changes.present(), &set(""));
         changes.choose(set("c"));
         assert!(!changes.can_redo() && changes.past() == [set("")]);
+    }
+
+    #[test]
+    fn one_goes_back_to_any_model_so_far_and_on_again() {
+        let mut changes = Changes::begin(set(""));
+        for names in ["a", "a,b", "b"] {
+            changes.choose(set(names));
+        }
+        changes.back_to(1);
+        assert_eq!(changes.present(), &set("a"));
+        changes.back_to(7);
+        assert_eq!(changes.present(), &set("a"));
+        changes.redo();
+        assert_eq!(changes.present(), &set("a,b"));
     }
 
     #[test]

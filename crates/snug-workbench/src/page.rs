@@ -2,7 +2,7 @@
 
 use crate::campaign::Campaign;
 use maud::{Markup, PreEscaped, html};
-use serde_json::json;
+use serde_json::{Value, json};
 use snug_campaign::words::effect_name::{effect_name, raised};
 use snug_model::Effect;
 use snug_report::viewer::{SCRIPT, document, viewer};
@@ -106,7 +106,7 @@ fn switch(campaign: &Campaign, effect: Effect) -> Markup {
                 p { (raised(description.summary)) }
                 p.found data-sizes="" {}
                 p.real data-real="" {}
-                button.quiet type="button" aria-pressed="false" data-signature="" { "show what it would leave" }
+                button.quiet type="button" aria-pressed="false" data-signature="" title="what it would leave, drawn beside the residual" { "show in residual" }
                 details {
                     summary { "check at the bench" }
                     p { (raised(description.check)) }
@@ -119,13 +119,18 @@ fn switch(campaign: &Campaign, effect: Effect) -> Markup {
 
 /// One tightening: measured, before and now, and what is left over.
 fn centre(campaign: &Campaign) -> Markup {
-    let nothing = json!({
-        "panels": [
-            { "title": "Model and measurement", "axis": "", "series": [], "residual": false },
-            { "title": "What is left over", "axis": "", "series": [], "residual": false },
-        ],
-        "examples": [{ "step": 1, "unit": "ms", "steps": [0, 1], "signals": [], "noise": null }],
-    });
+    let nothing = |panels: &[&str]| {
+        let panel = |title| json!({ "title": title, "axis": "", "series": [], "residual": false });
+        let example =
+            json!({ "step": 1, "unit": "ms", "steps": [0, 1], "signals": [], "noise": null });
+        let panels: Vec<Value> = panels.iter().map(panel).collect();
+        json!({ "panels": panels, "examples": [example] })
+    };
+    let of_it = [
+        "Model and measurement",
+        "What is left over: measured − simulated",
+    ];
+    let of_step = ["Step response"];
     let tasks = campaign.prepared.live.tasks();
     html! {
         section.centre aria-labelledby="centre-title" {
@@ -143,9 +148,10 @@ fn centre(campaign: &Campaign) -> Markup {
             }
             (closer(campaign))
             p.current data-heading="" aria-live="polite" { "…" }
-            (viewer(&nothing, &["Model and measurement", "What is left over: measured − simulated"]))
+            (viewer("viewer-data", &nothing(&of_it), &of_it))
+            (viewer("step-data", &nothing(&of_step), &of_step))
             section.force aria-labelledby="force-title" {
-                h3 id="force-title" { "The missing force, and whether the rest is noise" }
+                h3 id="force-title" { "The missing force, whether the rest is noise, and the response over frequency" }
                 p.note data-cells-say="" hidden { "Click a cell of the map, or go there with the arrows and press Enter, and candidates are ranked by what is left \
                     over there." }
                 div data-force="" aria-live="off" {}
@@ -202,7 +208,7 @@ fn changed() -> Markup {
                 tbody data-facts="" {}
             } }
             p.note { "With 95 % intervals." }
-            h3 { "By hand" }
+            h3 { "Your own values" }
             p.note { "Drag a number of the present model and see this tightening follow. The mark is the fitted value, the bar its 95 % interval." }
             div.sliders data-sliders="" {}
             p.by-hand data-by-hand="" aria-live="polite" {}

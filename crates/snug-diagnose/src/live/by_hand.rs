@@ -2,12 +2,13 @@
 
 use super::cases::LiveCases;
 use super::fit::LiveFit;
+use super::step::step_response;
 use crate::data::cases::{Cases, Tally};
 use crate::data::follower::{FitStep, Follower};
 use crate::data::simulation::Asked;
 use crate::error::DiagnoseError;
 use crate::pooled::fitted::Fitted;
-use crate::pooled::model::{PooledModel, Room};
+use crate::pooled::model::PooledModel;
 use snug_campaign::Interval;
 use snug_least_squares::PooledSettings;
 use snug_model::Effect;
@@ -36,6 +37,8 @@ pub struct HandNumber {
 pub struct ByHand {
     /// The compared output in its SI unit, a value for each sample of the window.
     pub output: Vec<f64>,
+    /// As [`LiveTightening::step`](super::tightening::LiveTightening).
+    pub step: Option<Vec<f64>>,
     /// Root mean square of the residual, in the unit of [`LiveFit::error`].
     pub error: f64,
 }
@@ -89,10 +92,12 @@ impl LiveCases {
             values,
         }];
         let output = pooled.outputs(&asked).swap_remove(0);
-        let mut room = Room::default();
-        let (residual, _) = pooled.weighted(0, values, &[], &mut room);
+        let pairs = one[0].measured().iter().zip(&output);
+        let left: Vec<f64> = pairs.map(|(measured, output)| measured - output).collect();
+        let residual = pooled.weigh_signal(0, &left);
         let squares: f64 = residual.iter().map(|r| r * r).sum();
         Ok(ByHand {
+            step: step_response(&self.cases[member], &pooled.models[0], values),
             output,
             error: (squares / residual.len().max(1) as f64).sqrt(),
         })

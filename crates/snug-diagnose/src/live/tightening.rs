@@ -3,6 +3,7 @@
 use super::by_hand::{HandNumber, range};
 use super::cases::LiveCases;
 use super::fit::LiveFit;
+use super::step::{height_nm, step_response};
 use crate::error::DiagnoseError;
 use crate::pooled::parameter_place::effect_of;
 use crate::pooled::sizes::held;
@@ -19,6 +20,9 @@ pub struct LiveTightening {
     pub base: Vec<ParameterEstimate>,
     /// The compared output as simulated, in its SI unit, a value for each sample of the window.
     pub output: Vec<f64>,
+    /// The same had the torque stepped from nothing to [its largest](LiveCases::step_nm) at the window's start; `None` where the model
+    /// runs away.
+    pub step: Option<Vec<f64>>,
     /// Every number of its model, in the model's order, as it may be set by hand.
     pub numbers: Vec<HandNumber>,
 }
@@ -74,6 +78,7 @@ impl LiveCases {
         estimate.parameters.truncate(BASE_PARAMETERS.len());
         Ok(LiveTightening {
             base: estimate.parameters,
+            step: step_response(case, &model, &values),
             output,
             numbers,
         })
@@ -81,6 +86,14 @@ impl LiveCases {
 }
 
 impl LiveCases {
+    /// The torque \[Nm\] to which the step responses of tightening number `member` step: its largest in size, with its sign.
+    ///
+    /// # Panics
+    /// Where there is no such tightening.
+    pub fn step_nm(&self, member: usize) -> f64 {
+        height_nm(&self.cases[member])
+    }
+
     /// The model of each tightening, the effects' sizes held as in [`LiveCases::tightening`], and what is identified with it.
     ///
     /// # Errors

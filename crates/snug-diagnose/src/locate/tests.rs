@@ -4,6 +4,7 @@
 
 mod correlation;
 mod drift;
+mod response;
 
 use super::missing_force::missing_force_n;
 use super::residual::Residuals;

@@ -25,6 +25,10 @@ pub(crate) const TIME_BINS: usize = 60;
 pub(crate) const CORRELATED_SHARE: f64 = 0.3;
 /// Steps from a lag of one sample to the longest, each longer than the one before by the same factor. Chosen.
 pub(crate) const CORRELATION_LAGS: usize = 60;
+/// Coherence \[–\] of the last frequency at which a response is told: half of the motion's power follows from the torque. Chosen.
+pub(crate) const COHERENT: f64 = 0.5;
+/// Overlapping stretches into which records without an onset are cut, all together at least: as is usual (Welch). Chosen.
+pub(crate) const STRETCHES: usize = 8;
 /// Bins of the missing force's map along x, and along v. Chosen.
 pub(crate) const MAP_BINS: usize = 16;
 /// A pulse lasts while the torque is above this share of its peak \[–\]. Chosen.

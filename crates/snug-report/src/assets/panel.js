@@ -114,7 +114,7 @@ class Panel {
     this.svg.innerHTML = `<clipPath id="${id}"><rect x="${left}" y="8" width="${right - left}" height="${bottom - 8}"/></clipPath><g clip-path="url(#${id})">${inside}</g>`
       + columns.map(([at, text]) => `<text x="${this.px(at)}" y="${bottom + 15}" text-anchor="middle">${text}</text>`).join('')
       + rows.map(([at, text]) => `<text x="${left - 6}" y="${this.py(at) + 4}" text-anchor="end">${text}</text>`).join('')
-      + `<text class="axis" x="${(left + right) / 2}" y="${height - 6}" text-anchor="middle">time since the window's start [${unit}]</text>`
+      + `<text class="axis" x="${(left + right) / 2}" y="${height - 6}" text-anchor="middle">${this.spec.time ?? "time since the window's start"} [${unit}]</text>`
       + `<text class="axis" x="12" y="${middle}" text-anchor="middle" transform="rotate(-90 12 ${middle})">${scaledLabel(this.spec.axis, power)}</text><g></g>`;
     this.overlay();
   }

@@ -36,6 +36,7 @@ fn panel(title: &str, axis: String, series: Vec<Series<Source>>) -> Panel {
         axis,
         series,
         residual: false,
+        time: None,
     }
 }
 
@@ -99,6 +100,7 @@ pub fn before_after_panels(units: &SignalUnits, quantity: Quantity, has_noise: b
             left(simulated, "after".into(), "c-simulated"),
         ],
         residual: has_noise,
+        time: None,
     };
     [motion, rest]
 }
@@ -138,6 +140,7 @@ fn residual_panel(quantity: Quantity, units: &SignalUnits) -> Panel {
         axis: format!("residual: {}", motion_axis(units, quantity)),
         series: vec![residual],
         residual: true,
+        time: None,
     }
 }
 

@@ -4,12 +4,13 @@ mod aspects;
 pub(crate) mod correlation;
 pub(crate) mod force;
 mod force_map;
+pub(crate) mod response;
 
 use super::{Render, Section};
 use crate::words::number::{measured, missing, p_value, percent};
 use crate::words::quantity;
 use maud::{Markup, html};
-use snug_campaign::{CampaignResult, Diagnosis, Drift, Location};
+use snug_campaign::{CampaignResult, Diagnosis, Drift, Location, SignalUnits};
 
 /// Where the model fails.
 pub const SECTION: Section = Section {
@@ -31,7 +32,7 @@ fn render(diagnosis: &Diagnosis, result: &CampaignResult) -> Option<Markup> {
     Some(html! {
         @if let Some(location) = own {
             @if last.is_some() { h3 { "The study's own model" } }
-            (looked_at(location))
+            (looked_at(location, &result.units))
         }
         @if !diagnosis.drift.is_empty() { (drift(&diagnosis.drift, result)) }
         @if let Some(location) = last {
@@ -39,7 +40,7 @@ fn render(diagnosis: &Diagnosis, result: &CampaignResult) -> Option<Markup> {
             (remarks(location))
             details {
                 summary { "Every view of the final model's misfit" }
-                (views(location))
+                (views(location, &result.units))
             }
         }
     })
@@ -53,8 +54,8 @@ fn holds(location: &Location) -> bool {
         || !location.force_map.force_n.is_empty()
 }
 
-fn looked_at(location: &Location) -> Markup {
-    html! { (remarks(location)) (views(location)) }
+fn looked_at(location: &Location, units: &SignalUnits) -> Markup {
+    html! { (remarks(location)) (views(location, units)) }
 }
 
 fn remarks(location: &Location) -> Markup {
@@ -68,11 +69,13 @@ fn remarks(location: &Location) -> Markup {
     }
 }
 
-fn views(location: &Location) -> Markup {
+fn views(location: &Location, units: &SignalUnits) -> Markup {
     html! {
         (aspects::figures(&location.aspects))
         (force::figures(location))
         @if let Some(correlation) = &location.correlation { (correlation::figures(correlation)) }
+        @if let Some(response) = &location.response { (response::figures(response, units)) }
+        @else if location.correlation.is_some() { (response::none()) }
     }
 }
 

@@ -2,8 +2,8 @@
 
 use snug_campaign::words::remark::{Remark, Times};
 use snug_campaign::{
-    Aspect, CampaignResult, Comparison, Drift, ForceCurve, ForceMap, Interval, Location, Misfit,
-    ResidualCorrelation, Share, TighteningMisfit,
+    Aspect, CampaignResult, Comparison, Drift, ForceCurve, ForceMap, FrequencyResponse, Interval,
+    Location, Misfit, Quantity, ResidualCorrelation, Response, Share, TighteningMisfit,
 };
 
 const ROWS: usize = 14;
@@ -44,6 +44,38 @@ fn times(error: f64) -> Times {
     }
 }
 
+/// A hand of 2.3 kg, and what the model makes of it with a stiffness that is off by `size` tenths.
+fn response(size: f64) -> FrequencyResponse {
+    let frequency_hz: Vec<f64> = (0..30).map(|step| 4.0 * 1.15_f64.powi(step)).collect();
+    let of = |stiffness: f64| -> Vec<Response> {
+        let at = |frequency_hz: &f64| {
+            let w = std::f64::consts::TAU * frequency_hz;
+            let (real, imaginary) = (stiffness - 0.52 * w * w, 10.0 * w);
+            Response {
+                gain: w * w / real.hypot(imaginary),
+                phase_rad: (-imaginary).atan2(-real) + std::f64::consts::PI,
+            }
+        };
+        frequency_hz.iter().map(at).collect()
+    };
+    let measured = of(250.0);
+    let interval = |one: &Response| Interval {
+        low: 0.9 * one.gain,
+        high: 1.1 * one.gain,
+    };
+    FrequencyResponse {
+        quantity: Quantity::Acceleration,
+        gain_interval: measured.iter().map(|one| Some(interval(one))).collect(),
+        coherence: (0..30)
+            .map(|step| Some(1.0 - 0.001 * f64::from(step * step) * 0.5))
+            .collect(),
+        simulated: of(250.0 * (1.0 + 0.1 * size)),
+        measured,
+        frequency_hz,
+        resolution_hz: 3.33,
+    }
+}
+
 fn location(size: f64, repeatable: f64, remarks: Vec<Remark>) -> Location {
     let aspect = |name: &str, parts: Vec<Share>| Aspect {
         aspect: name.into(),
@@ -75,6 +107,7 @@ fn location(size: f64, repeatable: f64, remarks: Vec<Remark>) -> Location {
         half_width: 0.01,
     };
     Location {
+        response: Some(response(size)),
         aspects: vec![
             aspect("time_since_onset_s", (0..15).map(time).collect()),
             aspect(

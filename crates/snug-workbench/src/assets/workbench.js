@@ -62,8 +62,12 @@ const ask = async (path, body) => {
 
 // Switches: what is in the model first, then by promise.
 const items = () => [...one('switches').children];
-const check = () => items().forEach(item =>
-  item.querySelector('.switch').setAttribute('aria-checked', String(state.effects.includes(item.dataset.effect))));
+const check = () => items().forEach(item => {
+  const has = state.effects.includes(item.dataset.effect);
+  item.querySelector('.switch').setAttribute('aria-checked', String(has));
+  // What is in the model would leave nothing.
+  item.querySelector('[data-signature]').hidden = has;
+});
 const sort = () => {
   const focused = document.activeElement, key = item => state.effects.includes(item.dataset.effect) ? 2 : state.shares.get(item.dataset.effect) ?? 0;
   const sorted = items().sort((a, b) => key(b) - key(a));
@@ -85,8 +89,13 @@ const ladder = rungs => {
     const row = document.createElement('li'), bar = element('span', '', 'track'), fill = element('span', '', 'fill');
     fill.style.width = 100 * (rung.error || 0) / largest + '%';
     bar.append(fill);
-    row.append(element('span', rung.name, 'name'), element('span', rung.shown, 'value'), bar);
-    if (i === rungs.length - 1) row.setAttribute('aria-current', 'step');
+    const isLast = i === rungs.length - 1, name = element(isLast ? 'span' : 'button', rung.name, 'name');
+    if (isLast) row.setAttribute('aria-current', 'step');
+    else {
+      Object.assign(name, { type: 'button', title: 'back to this model' });
+      name.addEventListener('click', () => ask('/api/change', { kind: 'back', rung: i }));
+    }
+    row.append(name, element('span', rung.shown, 'value'), bar);
     return row;
   }));
 };
@@ -104,10 +113,18 @@ const sizes = all => {
   }
 };
 
+// Numbers that were set by hand give way to the fitted ones.
+const letGo = () => {
+  state.values = null;
+  show('by-hand', '');
+};
+
 const hear = {
   fitting(event) {
     if (event.effects.join() !== state.told) state.was = new Map(state.texts);
     state.told = event.effects.join();
+    // The same model told anew, as after a closer look, leaves numbers that were set by hand.
+    if (event.effects.join() !== state.effects.join()) letGo();
     state.effects = event.effects;
     state.steps = [];
     check();
@@ -118,8 +135,6 @@ const hear = {
     show('evidence', '');
     delete one('tested').dataset.state;
     show('steps', '');
-    show('by-hand', '');
-    state.values = null;
     items().forEach(item => { item.querySelector('[data-real]').textContent = ''; });
     performance.mark('fitting');
   },
@@ -132,8 +147,6 @@ const hear = {
   fitted(event) {
     document.body.classList.remove('fitting');
     fault('');
-    // The same model told anew, as after a closer look, leaves numbers that were set by hand.
-    if (event.effects.join() !== state.effects.join()) state.values = null;
     state.effects = event.effects;
     state.before = event.before;
     check();
@@ -152,7 +165,11 @@ const hear = {
     force();
   },
   promises(event) { event.shares.forEach(promise); },
-  ranked() { sort(); },
+  // Nothing moves away from under a pointer: what it points at is sorted once it has gone.
+  ranked() {
+    if (one('switches').matches(':hover')) state.isUnsorted = true;
+    else sort();
+  },
   // Promises of another part are no promises of before.
   closer(event) { show('closer', event.sentence); state.was.clear(); },
   usable(event) { show('usable', event.sentence); },
@@ -325,21 +342,27 @@ const against = (rival, here) => {
   one('rival-sizes').replaceChildren(...rival.sizes.map(size => element('li', `B: ${size}`)));
 };
 
-const draw = ({ panels, example }) => {
-  const viewer = viewers[0], view = state.shown === state.tightening ? viewer.view : null;
+const take = (viewer, { panels, example }, view) => {
   viewer.data.examples[0] = example;
   viewer.panels.forEach((panel, i) => {
     if (JSON.stringify(panel.spec) !== JSON.stringify(panels[i])) viewer.panels[i] = new Panel(panel.host, panels[i], viewer);
     panel.host.previousElementSibling.textContent = panels[i].title;
   });
   viewer.take(0);
-  viewer.view = view ?? (state.stretch && state.shown === undefined ? state.stretch.map(at => at * state.perSecond) : null);
+  viewer.view = view;
   viewer.draw();
+};
+const draw = answer => {
+  const [curves, step] = viewers, isSame = state.shown === state.tightening;
+  const brushed = state.stretch && state.shown === undefined ? state.stretch.map(at => at * state.perSecond) : null;
+  take(curves, answer, isSame ? curves.view : brushed);
+  if (answer.step) take(step, answer.step, isSame ? step.view : null);
+  step.root.hidden = !answer.step;
   state.shown = state.tightening;
 };
 const turnTo = number => {
-  Object.assign(state, { tightening: number, values: null });
-  show('by-hand', '');
+  state.tightening = number;
+  letGo();
   remember();
   look();
 };
@@ -367,10 +390,14 @@ items().forEach(item => item.querySelector('.switch').addEventListener('click', 
   const name = item.dataset.effect, has = state.effects.includes(name);
   const effects = has ? state.effects.filter(other => other !== name) : [...state.effects, name];
   state.effects = effects;
-  state.values = null;
+  letGo();
   check();
   ask('/api/change', { kind: 'choose', effects: effects.join(',') });
 }));
+one('switches').addEventListener('pointerleave', () => {
+  if (state.isUnsorted) sort();
+  state.isUnsorted = false;
+});
 one('tightening').addEventListener('change', event => turnTo(event.target.value));
 document.querySelectorAll('[data-worse]').forEach(button => button.addEventListener('click', () => {
   const options = among(), count = options.length;
@@ -386,8 +413,12 @@ one('group').addEventListener('change', event => lookCloser({ group: event.targe
 one('brush').addEventListener('click', () => lookCloser({ stretch: viewers[0].view.map(at => at / state.perSecond), cell: '' }));
 one('everything').addEventListener('click', () => lookCloser({ group: '', stretch: null, cell: '' }));
 viewers[0].root.addEventListener('zoomed', zoomed);
-one('as-fitted').addEventListener('click', () => { state.values = null; show('by-hand', ''); look(); });
-one('from-here').addEventListener('click', () => ask('/api/change', { kind: 'fit_from', number: Number(state.tightening), values: state.values.join(',') }));
+one('as-fitted').addEventListener('click', () => { letGo(); look(); });
+one('from-here').addEventListener('click', () => {
+  const values = state.values.join(',');
+  letGo();
+  ask('/api/change', { kind: 'fit_from', number: Number(state.tightening), values });
+});
 one('pin').addEventListener('click', () => {
   state.rival = state.rival === null ? state.effects.join(',') : null;
   remember();

@@ -67,23 +67,29 @@ impl Bench {
         };
         let mut models = Vec::new();
         if now_set != base_set {
-            models.push(Simulated::first(&first.seen.output));
+            models.push(Simulated::first(
+                &first.seen.output,
+                first.seen.step.as_deref(),
+            ));
         }
         models.extend(rival.as_ref().map(|rival| Simulated {
             label: "rival",
             class: "c-rival",
             output: &rival.seen.output,
+            step: rival.seen.step.as_deref(),
         }));
-        models.push(Simulated::now(&now.seen.output));
+        models.push(Simulated::now(&now.seen.output, now.seen.step.as_deref()));
         models.extend(by_hand.as_ref().map(|by_hand| Simulated {
             label: "by hand",
             class: "c-hand",
             output: &by_hand.output,
+            step: by_hand.step.as_deref(),
         }));
         let signature_line = signature.as_ref().map(|output| Simulated {
             label: &called,
             class: "c-signature",
             output,
+            step: None,
         });
         let mut answer = campaign.compared(member, models, signature_line).json();
         answer["told"] = told::tightening(

@@ -8,7 +8,7 @@ use std::sync::Arc;
 #[derive(Default)]
 pub(crate) struct Looks(Vec<(EffectSet, usize, Arc<LiveTightening>)>);
 
-/// Looks that are kept; one takes 24 kB per 3000 samples. Chosen.
+/// Looks that are kept; one takes 48 kB per 3000 samples. Chosen.
 const MOST: usize = 60;
 
 impl Looks {

@@ -132,6 +132,10 @@ enum Wish {
     },
     Undo,
     Redo,
+    /// Back to one of the models so far, from 0.
+    Back {
+        rung: usize,
+    },
     /// A closer look, or one at everything again.
     Closer(Closer),
     /// A fit of the present model from numbers that were set by hand.
@@ -155,6 +159,7 @@ async fn change(
     let wish: Box<dyn FnOnce(&mut Session) + Send> = match wished.wish {
         Wish::Undo => Box::new(|known| known.changes.undo()),
         Wish::Redo => Box::new(|known| known.changes.redo()),
+        Wish::Back { rung } => Box::new(move |known| known.changes.back_to(rung)),
         Wish::Choose { effects } => {
             let effects = EffectSet::from_address(&effects);
             bench.campaign()?.prepared.named(effects.names())?;
@@ -232,7 +237,9 @@ async fn what_is_left(
         };
         let now = left(&between.effects)?;
         let before = between.before.as_deref().map(left).transpose()?;
-        let drawn = snug_report::viewer::what_is_left(&now, before.as_ref()).into_string();
+        let drawn =
+            snug_report::viewer::what_is_left(&now, before.as_ref(), &campaign.prepared.units)
+                .into_string();
         Ok(Html(snug_report::markup(
             &drawn,
             campaign.prepared.vocabulary,

@@ -71,7 +71,7 @@ fn sizes(campaign: &Campaign, fit: &LiveFit) -> Vec<String> {
 
 /// A number that can be set: what it is, its value and range as the model counts, and what to multiply with to show it.
 fn by_hand_number(campaign: &Campaign, number: &HandNumber) -> Value {
-    let (factor, unit) = campaign.prepared.vocabulary.about(&number.unit);
+    let (factor, unit) = unit_of(campaign, &number.name, &number.unit);
     let name = match number.effect {
         None => named(campaign, &number.name, &number.unit),
         Some(effect) => meaning(campaign, effect, &number.name),
@@ -118,9 +118,18 @@ fn named(campaign: &Campaign, name: &str, unit: &str) -> String {
     }
 }
 
+/// By what a number is multiplied to be shown, and in which unit: of m, c and k on a rig of volts that of its own signals.
+fn unit_of(campaign: &Campaign, name: &str, unit: &str) -> (f64, String) {
+    let of_signals = campaign.prepared.units.base_parameter(name);
+    of_signals.map_or_else(
+        || campaign.prepared.vocabulary.about(unit),
+        |unit| (1.0, unit),
+    )
+}
+
 /// Value with unit, and the interval.
 fn amount(campaign: &Campaign, parameter: &ParameterEstimate) -> Value {
-    let (factor, unit) = campaign.prepared.vocabulary.about(&parameter.unit);
+    let (factor, unit) = unit_of(campaign, &parameter.name, &parameter.unit);
     let interval = parameter.interval.map(|ends| Interval {
         low: factor * ends.low,
         high: factor * ends.high,

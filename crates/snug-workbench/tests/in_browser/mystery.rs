@@ -73,6 +73,7 @@ async fn the_mystery_is_solved_by_clicking() {
     assert_eq!(tab.text("tested").await, "Tested: stretch reflex is real.");
     assert_eq!(tab.text("usable").await, "usable tightenings: 7 → 24 of 24");
 
+    are_drawn(&tab).await;
     look_closer(&tab).await;
 
     // A number follows the keyboard, and the curve the number.
@@ -104,6 +105,14 @@ async fn the_mystery_is_solved_by_clicking() {
         ))
         .await;
     }
+    // A model so far is a way back to it, and what came after it a way on.
+    for (selector, error) in [("[data-ladder] button", "1.541"), ("[data-redo]", "1.007")] {
+        tab.click(selector).await;
+        tab.until(&format!(
+            "document.querySelector('[data-error]').textContent === '{error}'"
+        ))
+        .await;
+    }
     tab.click("[data-save]").await;
     tab.until("document.querySelector('[data-saved]').textContent.startsWith('Saved as ')")
         .await;
@@ -117,6 +126,23 @@ async fn the_mystery_is_solved_by_clicking() {
     tab.was_well(server.port);
     browser.close().await;
     server.end();
+}
+
+/// Step responses of the model before and the present one, and how measured and simulated motion answer the torque over frequency.
+async fn are_drawn(tab: &Tab) {
+    tab.until(
+        "document.querySelectorAll('[data-panel]')[2].querySelectorAll('path.line').length === 2",
+    )
+    .await;
+    let axis =
+        "document.querySelectorAll('[data-panel]')[2].querySelector('text.axis').textContent";
+    assert_eq!(tab.value(axis).await, "time since the step [ms]");
+    for (figure, lines) in [("Gain", 3), ("Phase", 3), ("Coherence", 1)] {
+        tab.until(&format!(
+            "document.querySelectorAll('[data-force] svg.broad[aria-label^={figure}] path.line').length === {lines}"
+        ))
+        .await;
+    }
 }
 
 /// A stretch of time is brushed, and a cell of the map of the missing force chosen by keyboard: each counts alone.
@@ -182,8 +208,7 @@ async fn a_server_that_goes_and_comes_back_loses_nothing() {
     let tab = browser.open(&address, 1400, "light").await;
     let other = browser.open(&address, 1400, "light").await;
     for (tab, effect) in [(&tab, "stretch_reflex"), (&other, "cubic_stiffness")] {
-        tab.until("document.querySelector('[data-error]')?.textContent === '1.541'")
-            .await;
+        tab.is_ready("1.541").await;
         tab.click(&format!("[data-effect={effect}] .switch")).await;
         tab.until("document.querySelector('[data-error]').textContent < '1.541'")
             .await;

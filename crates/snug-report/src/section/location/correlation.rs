@@ -18,14 +18,14 @@ pub fn figures(correlation: &ResidualCorrelation) -> Markup {
 pub fn drawings(correlation: &ResidualCorrelation) -> Markup {
     html! {
         (figure(
-            "With itself later",
+            "Residual with itself later",
             "Correlation of the residual with itself later, with the band of white noise",
             "later by [ms]",
             (&correlation.lag_s, &correlation.own),
             correlation.half_width,
         ))
         (figure(
-            "With the torque",
+            "Residual with the torque",
             "Correlation of the residual with the torque, later and earlier, with the band of white noise",
             "residual later than the torque by [ms]",
             (&correlation.torque_lag_s, &correlation.with_torque),

@@ -75,7 +75,7 @@ fn over_time_figure(curve: &ForceCurve, before: Option<&ForceCurve>) -> Markup {
     let mut entries = vec![(class, "mean over tightenings"), ("c-band", "95 % band")];
     entries.extend(before.map(|_| ("c-rejected", "before the last click")));
     captioned(
-        "Over time",
+        "Missing force over time",
         html! { (figure.svg()) (legend(&entries)) },
         Some("Where the band holds zero, nothing is proven to be missing."),
     )

@@ -95,7 +95,7 @@ pub fn figure(map: &ForceMap, can_be_chosen: bool) -> Markup {
             .collect(),
     };
     captioned(
-        "Over displacement and velocity",
+        "Missing force over displacement and velocity",
         html! { (drawing.svg()) (key(step, &used)) },
         Some(
             "Grey: the 95 % band is wider than the force, so nothing is proven there. Empty: no sample.",
