@@ -2,8 +2,8 @@
 //!
 //! Both go through the same estimate ([`Transfer`]): where they differ the model is wrong, not the estimate. Pulses begin at rest and
 //! are weighed from their beginning on, so that what is still moving at the window's end leaks nothing; records without an onset are
-//! cut into overlapping stretches as Welch does. Frequencies are told as far as most of them are coherent. A model that is not linear has the response that fits best under this torque
-//! (Pintelon and Schoukens, System Identification, 2nd edition, chapter 3).
+//! cut into overlapping stretches as Welch does. Frequencies are told as far as most of them are coherent. A model that is not linear
+//! has the response that fits best under this torque (Pintelon and Schoukens, System Identification, 2nd edition, chapter 3).
 
 use super::residual::Residuals;
 use crate::locate::thresholds::{COHERENT, STRETCHES};
