@@ -89,7 +89,7 @@ pub struct FrequencyResponse {
     pub simulated: Vec<Response>,
     /// Lower and upper end of the measured gain's 95 % interval; `None` where one value alone was there.
     pub gain_interval: Vec<Option<Interval>>,
-    /// γ², 0 to 1: 1 where the motion follows the torque in the same linear way in every tightening; `None` as above.
+    /// γ², 0 to 1, no unit: 1 where the motion follows the torque in the same linear way in every tightening; `None` as above.
     pub coherence: Vec<Option<f64>>,
     /// Distance of two frequencies that the windows tell apart \[Hz\].
     pub resolution_hz: f64,

@@ -37,7 +37,7 @@ pub struct HandNumber {
 pub struct ByHand {
     /// The compared output in its SI unit, a value for each sample of the window.
     pub output: Vec<f64>,
-    /// As [`LiveTightening::step`](super::tightening::LiveTightening).
+    /// As [`LiveTightening::step`](super::tightening::LiveTightening), in its SI unit.
     pub step: Option<Vec<f64>>,
     /// Root mean square of the residual, in the unit of [`LiveFit::error`].
     pub error: f64,

@@ -20,8 +20,8 @@ pub struct LiveTightening {
     pub base: Vec<ParameterEstimate>,
     /// The compared output as simulated, in its SI unit, a value for each sample of the window.
     pub output: Vec<f64>,
-    /// The same had the torque stepped from nothing to [its largest](LiveCases::step_nm) at the window's start; `None` where the model
-    /// runs away.
+    /// The same, in its SI unit, had the torque stepped from nothing to [its largest](LiveCases::step_nm) at the window's start; `None`
+    /// where the model runs away.
     pub step: Option<Vec<f64>>,
     /// Every number of its model, in the model's order, as it may be set by hand.
     pub numbers: Vec<HandNumber>,
