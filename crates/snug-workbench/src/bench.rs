@@ -14,6 +14,7 @@ pub(crate) use crate::kept::locked;
 use crate::kept::looks::Looks;
 use crate::kept::results::Results;
 use crate::kept::turns::Turns;
+use crate::kept::workers::Workers;
 use crate::session::{Session, Ticket};
 use crate::told;
 use after::Tests;
@@ -53,6 +54,7 @@ pub struct Bench {
     /// Of which models results are being made.
     pub(crate) making: Turns<EffectSet>,
     sessions: Mutex<BTreeMap<String, Session>>,
+    workers: Workers,
     /// What was saved, and where.
     pub(crate) saved: Mutex<Option<(PathBuf, String)>>,
 }
@@ -89,6 +91,7 @@ impl Bench {
             results: Mutex::default(),
             making: Turns::default(),
             sessions: Mutex::default(),
+            workers: Workers::default(),
             saved: Mutex::default(),
         })
     }
@@ -252,7 +255,7 @@ impl Bench {
             effects,
         };
         // Wherever it is asked for: a fit takes a processor for itself.
-        std::thread::spawn(move || {
+        self.workers.run(move || {
             let begun = Instant::now();
             let was_known = work.bench.fitted(&work.effects);
             let fit = fit(&work);

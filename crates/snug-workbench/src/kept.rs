@@ -4,6 +4,7 @@ pub(crate) mod fits;
 pub(crate) mod looks;
 pub(crate) mod results;
 pub(crate) mod turns;
+pub(crate) mod workers;
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 

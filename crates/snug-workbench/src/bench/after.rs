@@ -103,8 +103,9 @@ impl Bench {
         if added.is_empty() {
             return Ok(());
         }
-        let alone = rayon::ThreadPoolBuilder::new().num_threads(1).build();
-        let Ok(alone) = alone else { return Ok(()) };
+        let Some(alone) = self.workers.alone() else {
+            return Ok(());
+        };
         for (place, name) in added.iter().rev().enumerate() {
             let without = effects.without(name);
             let known = locked(&self.tests).get(&without, name);
