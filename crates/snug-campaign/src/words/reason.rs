@@ -338,7 +338,7 @@ fn held(f: &mut Formatter<'_>, spared: &[String], is_half_an_interval: bool) -> 
         (true, _) => f.write_str(
             "the delay that is found without it is about half a sampling interval, which is what a held input looks like.",
         ),
-        (false, true) => f.write_str("the same effects then leave less."),
+        (false, true) => f.write_str("what is found then leaves less."),
         (false, false) => write!(
             f,
             "a model of fewer effects then leaves as little, without {}.",
