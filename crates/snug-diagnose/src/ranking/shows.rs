@@ -18,6 +18,21 @@ pub(super) struct Shows {
     pub members: Vec<usize>,
 }
 
+impl Shows {
+    /// `None` where those are too few to look for an effect in, or all there are.
+    fn of(groups: Groups, in_group: Vec<bool>) -> Option<Self> {
+        let members: Vec<usize> = (0..groups.of.len())
+            .filter(|&member| in_group[groups.of[member]])
+            .collect();
+        let parts = members.len() >= FEWEST_WHERE_IT_SHOWS && members.len() < groups.of.len();
+        parts.then_some(Self {
+            groups,
+            in_group,
+            members,
+        })
+    }
+}
+
 /// The groups of the condition that best parts what `current` fits badly from what it fits to the noise, those in the fewest
 /// tightenings; then the parts of time that do.
 pub(super) fn where_it_shows(
@@ -66,19 +81,9 @@ fn parts_in_time(current: &Fitted, groups: Groups) -> Option<(usize, Shows)> {
     let wrong = quiet.iter().filter(|one| **one > beyond).count()
         + loud.iter().filter(|one| **one <= beyond).count();
     let is_plain = mean(loud) > level + BEYOND_THE_QUIET * spread / (loud.len() as f64).sqrt();
-    let in_group = vec![!shows_after, shows_after];
-    let members: Vec<usize> = (0..groups.of.len())
-        .filter(|&member| in_group[groups.of[member]])
-        .collect();
-    let parts = level < AT_FLOOR * AT_FLOOR && is_plain && members.len() >= FEWEST_WHERE_IT_SHOWS;
-    parts.then_some((
-        wrong,
-        Shows {
-            groups,
-            in_group,
-            members,
-        },
-    ))
+    let parts = level < AT_FLOOR * AT_FLOOR && is_plain;
+    let shows = parts.then(|| Shows::of(groups, vec![!shows_after, shows_after]));
+    Some((wrong, shows.flatten()?))
 }
 
 /// Mean squared residual of one tightening.
@@ -111,16 +116,9 @@ fn parts(current: &Fitted, groups: &Groups) -> Option<Shows> {
         (squares + scale * count, all + count)
     });
     let is_rest_quiet = squares < AT_FLOOR * AT_FLOOR * count;
-    let members: Vec<usize> = (0..groups.of.len())
-        .filter(|&member| in_group[groups.of[member]])
-        .collect();
-    let parts =
-        members.len() >= FEWEST_WHERE_IT_SHOWS && members.len() < groups.of.len() && is_rest_quiet;
-    parts.then(|| Shows {
-        groups: groups.clone(),
-        in_group,
-        members,
-    })
+    is_rest_quiet
+        .then(|| Shows::of(groups.clone(), in_group))
+        .flatten()
 }
 
 /// Standard deviation of the tightenings' mean squares within a group, the median over groups: of the noise each knows a little more

@@ -54,20 +54,25 @@ pub(crate) fn settle(study: &Study, cases: &[FitTask<'_>]) -> Option<Settled> {
         };
     }
     let runs_freely = !matches!(study.identify.simulation, Simulation::Restarted { .. });
-    let mut begins =
-        runs_freely && initial_state::settle(&mut settled.study, cases, start.as_ref());
-    let cases = &with_settled(&settled.study, cases.iter().map(FitTask::lent).collect()).ok()?;
+    let moving = runs_freely
+        .then(|| initial_state::moving(&settled.study, cases, start.as_ref()))
+        .flatten();
+    let (mut moving, cases) = match moving {
+        Some((moving, cases)) => (Some(moving), cases),
+        None => {
+            let lent = cases.iter().map(FitTask::lent).collect();
+            (None, with_settled(&settled.study, lent).ok()?)
+        }
+    };
     if study.identify.simulation == Simulation::Automatic {
-        let missed = missed(cases);
+        let missed = missed(&cases);
         let every_s = every_s_of(sizes.period_s(), &cases[0].tightening);
         settled.study.identify.simulation = match (missed, every_s) {
             (Some(missed), Some(every_s))
-                if missed.share() > POOR && !missed.would_be_less_with_an_effect(cases) =>
+                if missed.share() > POOR && !missed.would_be_less_with_an_effect(&cases) =>
             {
-                if begins {
-                    initial_state::take_back(&mut settled.study, study);
-                    begins = false;
-                }
+                // A simulation that takes up the measured motion begins with it.
+                moving = None;
                 settled.reasons.push(Reason::Restarted {
                     missed: missed.share(),
                     every_s,
@@ -84,7 +89,8 @@ pub(crate) fn settle(study: &Study, cases: &[FitTask<'_>]) -> Option<Settled> {
             _ => Simulation::FreeRun,
         };
     }
-    if begins {
+    if let Some(moving) = moving {
+        settled.study.model = moving.model;
         settled.reasons.push(Reason::BeginsMoving);
     }
     Some(settled)
