@@ -2,57 +2,44 @@
 #![doc = include_str!("../README.md")]
 
 mod campaign;
-mod comparison;
-mod conditions;
 mod diagnosis;
-mod diagnosis_summary;
-mod estimate;
-mod excerpt;
-mod factor;
-mod finding;
-mod likely_name;
-mod location;
-mod noise;
-mod parameter;
-mod recording;
-mod rig;
-mod rung;
+mod identification;
+mod measurement;
 mod tightening;
-mod time_base;
-mod units;
-mod validation;
 pub mod words;
 
-pub use campaign::{
+pub use campaign::result::{
     AssumptionCheck, CampaignResult, ConditionSummary, EffectSize, Moments, ParameterMeaning,
     PresetSummary, QuantitySummary, RejectionCount, TestRow,
 };
-pub use comparison::{Comparison, Misfit, TighteningMisfit};
-pub use conditions::Conditions;
-pub use diagnosis::{
+pub use diagnosis::comparison::{Comparison, Misfit, TighteningMisfit};
+pub use diagnosis::location::{
+    Aspect, Drift, ForceCurve, ForceMap, FrequencyResponse, Location, ResidualCorrelation,
+    Response, Share,
+};
+pub use diagnosis::result::{
     AddedEffect, ChangePoint, CorrectedEffect, Detectability, Diagnosis, Doubt, EffectParameter,
     Experiment, GroupSize, GroupSizes, InSomeGroups, NegativeControl, NoiseStatement, RankedEffect,
     Removal, SizeComparison, UnlistedTerm, Verdict, WorkDone, sharing,
 };
-pub use diagnosis_summary::DiagnosisSummary;
-pub use estimate::{Estimate, FitStatus, Identifiability, Interval, NORMAL_95, ParameterEstimate};
-pub use excerpt::excerpt;
-pub use factor::{Factor, Level};
-pub use finding::{Finding, Severity};
-pub use likely_name::did_you_mean;
-pub use location::{
-    Aspect, Drift, ForceCurve, ForceMap, FrequencyResponse, Location, ResidualCorrelation,
-    Response, Share,
+pub use diagnosis::rung::{Became, Rung};
+pub use diagnosis::summary::DiagnosisSummary;
+pub use identification::estimate::{
+    Estimate, FitStatus, Identifiability, Interval, NORMAL_95, ParameterEstimate,
 };
-pub use noise::{NoiseFloor, NoiseSource};
-pub use parameter::{Parameter, ParameterSource};
-pub use recording::{Motion, Recording, Segment};
-pub use rig::{Intersample, Quantity, Rig};
-pub use rung::{Became, Rung};
-pub use tightening::{
+pub use identification::parameter::{Parameter, ParameterSource};
+pub use measurement::conditions::Conditions;
+pub use measurement::finding::{Finding, Severity};
+pub use measurement::noise::{NoiseFloor, NoiseSource};
+pub use measurement::recording::{Motion, Recording, Segment};
+pub use measurement::rig::{Intersample, Quantity, Rig};
+pub use measurement::signal_units::SignalUnits;
+pub use measurement::time_base::TimeBase;
+pub use tightening::factor::{Factor, Level};
+pub use tightening::result::{
     Correction, FitMeasures, Rejection, Selection, Tightening, TighteningId, TighteningResult,
     Traces,
 };
-pub use time_base::TimeBase;
-pub use units::SignalUnits;
-pub use validation::{Prediction, RestartedPrediction, Validation};
+pub use tightening::validation::{Prediction, RestartedPrediction, Validation};
+pub use words::excerpt::excerpt;
+pub use words::likely_name::did_you_mean;

@@ -1,23 +1,20 @@
 //! How results are said: numbers, sizes, chances, verdicts and their reasons, for someone who knows nutrunners, not
 //! statistics. Terminal, report, recording and verdict.json take their words from here.
 
+pub(crate) mod excerpt;
+pub(crate) mod likely_name;
 mod over_time;
-mod said;
+pub(crate) mod sentence;
 
 pub mod chance;
 pub mod effect_name;
-pub mod explained;
 pub mod groups;
-pub mod headline;
 pub mod number;
 pub mod program;
-pub mod reason;
-pub mod remark;
 pub mod size;
-pub mod statement;
-pub mod stopped;
-pub mod suspicion;
 pub mod vocabulary;
+
+pub use sentence::{explained, headline, reason, remark, statement, stopped, suspicion};
 
 /// `a`, `a and b`, `a, b and c`.
 pub fn joined(names: &[String]) -> String {

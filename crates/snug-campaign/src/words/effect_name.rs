@@ -1,6 +1,6 @@
 //! Names of effects and their units as people write them.
 
-use crate::Diagnosis;
+use crate::diagnosis::result::Diagnosis;
 
 /// Effects that a sentence names, of those that data cannot tell from one another; the ranking names all. Chosen.
 const MOST_NAMED: usize = 3;

@@ -2,9 +2,10 @@
 //!
 //! Sentences are written for a hand on a tool; this is the one place that knows what they are on a machine.
 
-use super::statement;
-use crate::words::reason::Reason;
-use crate::{Diagnosis, EffectParameter, GroupSize, GroupSizes, SignalUnits};
+use super::sentence::statement;
+use crate::diagnosis::result::{Diagnosis, EffectParameter, GroupSize, GroupSizes};
+use crate::measurement::signal_units::SignalUnits;
+use crate::words::sentence::reason::Reason;
 use serde::Serialize;
 
 /// In whose words results are told.
@@ -297,7 +298,7 @@ fn ends_a_word(after: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Factor;
+    use crate::tightening::factor::Factor;
 
     const CARRIAGE: Vocabulary = Vocabulary::Machine(Some(Axis::Slides(0.5)));
     const MOTOR: Vocabulary = Vocabulary::Machine(Some(Axis::Turns(0.5)));

@@ -1,14 +1,14 @@
 //! Why a verdict is what it is: each reason as data, and the sentence it is said with.
 
-use super::chance::by_chance;
-use super::effect_name::{Named, effect_name};
 use super::headline::Left;
-use super::number::whole_percent;
 use super::said::written_as_said;
-use super::size::{amount, sizes};
 use super::suspicion::Suspicion;
-use super::{capitalised, joined};
-use crate::{CorrectedEffect, EffectParameter};
+use crate::diagnosis::result::{CorrectedEffect, EffectParameter};
+use crate::words::chance::by_chance;
+use crate::words::effect_name::{Named, effect_name};
+use crate::words::number::whole_percent;
+use crate::words::size::{amount, sizes};
+use crate::words::{capitalised, joined};
 use std::fmt::{self, Display, Formatter};
 
 /// What counts as one independent piece of evidence.

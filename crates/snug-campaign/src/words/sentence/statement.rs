@@ -1,10 +1,10 @@
 //! What a table of a diagnosis says of one of its rows, in a sentence.
 
-use super::effect_name::effect_name;
-use super::number::{percent, significant, whole_percent};
 use super::reason::Cluster;
-use super::size::{amount, sizes};
-use crate::{EffectParameter, InSomeGroups};
+use crate::diagnosis::result::{EffectParameter, InSomeGroups};
+use crate::words::effect_name::effect_name;
+use crate::words::number::{percent, significant, whole_percent};
+use crate::words::size::{amount, sizes};
 
 /// What the sentences of every explanation of a catalogue effect are.
 pub fn described(summary: &str, shows_as: &str, check: &str) -> Vec<String> {

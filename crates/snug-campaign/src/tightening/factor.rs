@@ -1,6 +1,6 @@
 //! The factors by which tightenings form groups.
 
-use crate::{Tightening, TighteningId};
+use crate::tightening::result::{Tightening, TighteningId};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
@@ -154,7 +154,7 @@ impl fmt::Display for Factor {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Rig;
+    use crate::measurement::rig::Rig;
 
     fn tightening(file: &str, number: u32) -> Tightening {
         let rig = Rig {

@@ -1,12 +1,13 @@
 //! The part of a diagnosis that verdict.json and the recording share, so that both say the same of it.
 
-use crate::words::headline::Headline;
-use crate::words::reason::Reason;
-use crate::words::stopped::Stopped;
-use crate::{
-    AddedEffect, CorrectedEffect, Detectability, Diagnosis, Drift, Experiment, NegativeControl,
+use crate::diagnosis::location::Drift;
+use crate::diagnosis::result::{
+    AddedEffect, CorrectedEffect, Detectability, Diagnosis, Experiment, NegativeControl,
     NoiseStatement, Removal, UnlistedTerm, WorkDone,
 };
+use crate::words::sentence::headline::Headline;
+use crate::words::sentence::reason::Reason;
+use crate::words::sentence::stopped::Stopped;
 use serde::Serialize;
 
 /// What every file says of a diagnosis: all of it but the ladder, the ranking, the comparison, the places of failure and

@@ -1,6 +1,6 @@
 //! The error ladder: its rungs, and what became of a rung's candidates once the next effect was in the model.
 
-use crate::{Diagnosis, RankedEffect};
+use crate::diagnosis::result::{Diagnosis, RankedEffect};
 use serde::{Deserialize, Serialize};
 
 /// Least misfit, as a share of the squared error, by which shares of the misfit are compared \[–\]: an error at the noise leaves
@@ -88,8 +88,10 @@ impl Diagnosis {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::words::headline::{Headline, Left};
-    use crate::{Comparison, Location, NoiseStatement, Verdict, WorkDone};
+    use crate::diagnosis::comparison::Comparison;
+    use crate::diagnosis::location::Location;
+    use crate::diagnosis::result::{NoiseStatement, Verdict, WorkDone};
+    use crate::words::sentence::headline::{Headline, Left};
 
     fn rung(effects: &[&str], error: Option<f64>, ranking: &[(&str, f64, bool)]) -> Rung {
         Rung {

@@ -1,6 +1,6 @@
 //! How much of a measured output a model explains, where its noise is not known.
 
-use super::number::{fixed, whole_percent};
+use crate::words::number::{fixed, whole_percent};
 use std::fmt::{self, Display, Formatter};
 
 /// Correlation of neighbouring samples from which what is left is a motion \[–\]: then more of it can be told from the sample before

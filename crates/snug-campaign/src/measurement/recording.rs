@@ -1,6 +1,8 @@
 //! A measurement file in SI units, nothing repaired: what ingest hands to preprocessing.
 
-use crate::{Conditions, Quantity, TimeBase};
+use crate::measurement::conditions::Conditions;
+use crate::measurement::rig::Quantity;
+use crate::measurement::time_base::TimeBase;
 use serde::{Deserialize, Serialize};
 
 /// The measured motion: whichever of angle, angular velocity and angular acceleration the rig records.

@@ -1,10 +1,10 @@
 //! Why nothing more was added.
 
-use super::chance::by_chance;
-use super::counted;
-use super::effect_name::Named;
-use super::number::{fixed, short, significant};
 use super::said::written_as_said;
+use crate::words::chance::by_chance;
+use crate::words::counted;
+use crate::words::effect_name::Named;
+use crate::words::number::{fixed, short, significant};
 use std::fmt::{self, Display, Formatter};
 
 /// Why the search for effects stopped.

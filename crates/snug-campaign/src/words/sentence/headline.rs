@@ -1,12 +1,12 @@
 //! The verdict in one sentence.
 
-use super::effect_name::Named;
 use super::explained::{Explained, at_most_all};
-use super::number::significant;
 use super::said::written_as_said;
 use super::suspicion::OtherUnits;
-use super::{counted, joined};
-use crate::{Diagnosis, Verdict};
+use crate::diagnosis::result::{Diagnosis, Verdict};
+use crate::words::effect_name::Named;
+use crate::words::number::significant;
+use crate::words::{counted, joined};
 use std::fmt::{self, Display, Formatter};
 
 /// What a fitted model leaves.

@@ -1,7 +1,8 @@
 //! Where a model fails: the words for it.
 
-use crate::words::remark::Remark;
-use crate::{Interval, Quantity};
+use crate::identification::estimate::Interval;
+use crate::measurement::rig::Quantity;
+use crate::words::sentence::remark::Remark;
 use serde::{Deserialize, Serialize};
 
 /// Mean squared misfit in one part of the data (a stretch of time, a band of frequency, a condition).

@@ -1,6 +1,6 @@
 //! Model against measurement: the words for it.
 
-use crate::TighteningId;
+use crate::tightening::result::TighteningId;
 use serde::{Deserialize, Serialize};
 
 /// The misfit of one quantity.

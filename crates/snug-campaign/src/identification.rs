@@ -1,0 +1,4 @@
+//! What is identified: a model's parameters, their estimates, and how sure these are.
+
+pub(crate) mod estimate;
+pub(crate) mod parameter;
