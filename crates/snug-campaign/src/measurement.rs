@@ -2,7 +2,9 @@
 
 pub(crate) mod conditions;
 pub(crate) mod finding;
+pub(crate) mod motion;
 pub(crate) mod noise;
+pub(crate) mod quantity;
 pub(crate) mod recording;
 pub(crate) mod rig;
 pub(crate) mod signal_units;

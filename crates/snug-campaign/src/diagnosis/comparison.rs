@@ -1,6 +1,6 @@
 //! Model against measurement: the words for it.
 
-use crate::tightening::result::TighteningId;
+use crate::tightening::id::TighteningId;
 use serde::{Deserialize, Serialize};
 
 /// The misfit of one quantity.

@@ -1,7 +1,7 @@
-//! Where a model fails: the words for it.
+//! Where a model fails.
 
-use crate::identification::estimate::Interval;
-use crate::measurement::rig::Quantity;
+use crate::identification::interval::Interval;
+use crate::measurement::quantity::Quantity;
 use crate::words::sentence::remark::Remark;
 use serde::{Deserialize, Serialize};
 
@@ -122,21 +122,4 @@ pub struct Location {
     pub repeatable_share: Option<f64>,
     /// What stands out.
     pub remarks: Vec<Remark>,
-}
-
-/// Dependence of one fitted parameter on something it should not depend on.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Drift {
-    /// `mass_kg`, `damping_kg_per_s` or `stiffness_n_per_m`.
-    pub parameter: String,
-    /// `peak_angle_rad`, `target_torque_nm`, `pulse_length_s`, `trial_number`, `peak_velocity_rad_per_s`.
-    pub against: String,
-    /// Relative change of the parameter over the range seen \[%\], within participants.
-    pub change_percent: f64,
-    /// 95 % interval of that change \[%\].
-    pub interval_percent: Option<Interval>,
-    /// p of the slope, within participants.
-    pub p: Option<f64>,
-    /// p adjusted over all drifts (Benjamini and Hochberg).
-    pub p_adjusted: Option<f64>,
 }

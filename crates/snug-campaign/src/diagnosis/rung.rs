@@ -1,6 +1,7 @@
 //! The error ladder: its rungs, and what became of a rung's candidates once the next effect was in the model.
 
-use crate::diagnosis::result::{Diagnosis, RankedEffect};
+use crate::diagnosis::result::Diagnosis;
+use crate::effect::ranked::RankedEffect;
 use serde::{Deserialize, Serialize};
 
 /// Least misfit, as a share of the squared error, by which shares of the misfit are compared \[–\]: an error at the noise leaves
@@ -90,7 +91,9 @@ mod tests {
     use super::*;
     use crate::diagnosis::comparison::Comparison;
     use crate::diagnosis::location::Location;
-    use crate::diagnosis::result::{NoiseStatement, Verdict, WorkDone};
+    use crate::diagnosis::noise::NoiseStatement;
+    use crate::diagnosis::verdict::Verdict;
+    use crate::diagnosis::work::WorkDone;
     use crate::words::sentence::headline::{Headline, Left};
 
     fn rung(effects: &[&str], error: Option<f64>, ranking: &[(&str, f64, bool)]) -> Rung {

@@ -1,10 +1,16 @@
 //! The part of a diagnosis that verdict.json and the recording share, so that both say the same of it.
 
-use crate::diagnosis::location::Drift;
-use crate::diagnosis::result::{
-    AddedEffect, CorrectedEffect, Detectability, Diagnosis, Experiment, NegativeControl,
-    NoiseStatement, Removal, UnlistedTerm, WorkDone,
-};
+use crate::diagnosis::drift::Drift;
+use crate::diagnosis::experiment::Experiment;
+use crate::diagnosis::negative_control::NegativeControl;
+use crate::diagnosis::noise::NoiseStatement;
+use crate::diagnosis::removal::Removal;
+use crate::diagnosis::result::Diagnosis;
+use crate::diagnosis::work::WorkDone;
+use crate::effect::added::AddedEffect;
+use crate::effect::corrected::CorrectedEffect;
+use crate::effect::detectability::Detectability;
+use crate::effect::unlisted::UnlistedTerm;
 use crate::words::sentence::headline::Headline;
 use crate::words::sentence::reason::Reason;
 use crate::words::sentence::stopped::Stopped;

@@ -1,6 +1,6 @@
 //! Measurement noise: where it was measured, and its spectrum as an autoregressive process that whitens residuals.
 
-use crate::measurement::rig::Quantity;
+use crate::measurement::quantity::Quantity;
 use serde::{Deserialize, Serialize};
 
 /// Where a noise floor comes from.

@@ -1,31 +1,6 @@
-//! A rig's known constants, which derivative of its motion is meant, and what its input does between samples.
+//! A rig's known constants, and what its input does between samples.
 
 use serde::{Deserialize, Serialize};
-
-/// Which derivative of the motion is meant.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
-pub enum Quantity {
-    /// Angle θ \[rad\].
-    Displacement,
-    /// Angular velocity ω \[rad/s\].
-    Velocity,
-    /// Angular acceleration α \[rad/s²\].
-    Acceleration,
-}
-
-impl Quantity {
-    /// All of them, each the derivative of the one before.
-    pub const ALL: [Self; 3] = [Self::Displacement, Self::Velocity, Self::Acceleration];
-
-    /// What it is called in texts and files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Displacement => "displacement",
-            Self::Velocity => "velocity",
-            Self::Acceleration => "acceleration",
-        }
-    }
-}
 
 /// What the input (torque) does between two samples.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]

@@ -1,6 +1,6 @@
 //! Units for display, for rigs whose input is a voltage or whose output is a length of the grip.
 
-use crate::measurement::rig::Quantity;
+use crate::measurement::quantity::Quantity;
 use serde::{Deserialize, Serialize};
 
 /// In which units a rig's input and output are shown; results themselves stay in SI units about the joint.

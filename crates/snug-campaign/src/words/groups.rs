@@ -3,8 +3,8 @@
 use super::effect_name::unit_text;
 use super::number::{rounded, significant};
 use super::{joined, over_time};
-use crate::diagnosis::result::{GroupSize, GroupSizes};
-use crate::identification::estimate::Interval;
+use crate::effect::size::{GroupSize, GroupSizes};
+use crate::identification::interval::Interval;
 use crate::tightening::factor::Factor;
 
 /// Groups that are told one by one; of more the first and how many there are. Chosen.

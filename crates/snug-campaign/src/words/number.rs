@@ -1,6 +1,6 @@
 //! Numbers as people read them: as many digits as the interval supports, a true minus sign, a dash for what is missing.
 
-use crate::identification::estimate::Interval;
+use crate::identification::interval::Interval;
 
 /// What stands in place of a number that is not there.
 pub const DASH: &str = "–";

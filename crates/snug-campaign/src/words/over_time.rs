@@ -1,7 +1,7 @@
 //! From when on an effect is there, until when it was, or how it grows.
 
 use super::number::significant;
-use crate::diagnosis::result::{ChangePoint, GroupSize, GroupSizes};
+use crate::effect::size::{ChangePoint, GroupSize, GroupSizes};
 use crate::tightening::factor::Factor;
 
 /// What is said of sizes that differ by time: `from number 13 on (it may be 12 to 15) 4.1 N, none before (below 0.3 N)`; `None` of

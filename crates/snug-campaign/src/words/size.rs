@@ -2,8 +2,8 @@
 
 use super::effect_name::unit_text;
 use super::number::{rounded, short, significant};
-use crate::diagnosis::result::{EffectParameter, GroupSizes};
-use crate::identification::estimate::Interval;
+use crate::effect::size::{EffectParameter, GroupSizes};
+use crate::identification::interval::Interval;
 use std::fmt::{self, Display, Formatter};
 
 /// A parameter's size in pieces, so that a page can set each in its own type.

@@ -3,7 +3,8 @@
 //! Sentences are written for a hand on a tool; this is the one place that knows what they are on a machine.
 
 use super::sentence::statement;
-use crate::diagnosis::result::{Diagnosis, EffectParameter, GroupSize, GroupSizes};
+use crate::diagnosis::result::Diagnosis;
+use crate::effect::size::{EffectParameter, GroupSize, GroupSizes};
 use crate::measurement::signal_units::SignalUnits;
 use crate::words::sentence::reason::Reason;
 use serde::Serialize;

@@ -1,11 +1,13 @@
 //! The verdict in one sentence.
 
-use super::explained::{Explained, at_most_all};
+use super::explained::at_most_all;
 use super::said::written_as_said;
-use super::suspicion::OtherUnits;
-use crate::diagnosis::result::{Diagnosis, Verdict};
+use crate::diagnosis::result::Diagnosis;
+use crate::diagnosis::verdict::Verdict;
 use crate::words::effect_name::Named;
 use crate::words::number::significant;
+use crate::words::sentence::explained::Explained;
+use crate::words::sentence::suspicion::OtherUnits;
 use crate::words::{counted, joined};
 use std::fmt::{self, Display, Formatter};
 

@@ -1,12 +1,14 @@
 //! Why a verdict is what it is: each reason as data, and the sentence it is said with.
 
-use super::headline::Left;
 use super::said::written_as_said;
-use super::suspicion::Suspicion;
-use crate::diagnosis::result::{CorrectedEffect, EffectParameter};
+use crate::effect::corrected::CorrectedEffect;
+use crate::effect::size::EffectParameter;
 use crate::words::chance::by_chance;
-use crate::words::effect_name::{Named, effect_name};
+use crate::words::effect_name::Named;
+use crate::words::effect_name::effect_name;
 use crate::words::number::whole_percent;
+use crate::words::sentence::headline::Left;
+use crate::words::sentence::suspicion::Suspicion;
 use crate::words::size::{amount, sizes};
 use crate::words::{capitalised, joined};
 use std::fmt::{self, Display, Formatter};

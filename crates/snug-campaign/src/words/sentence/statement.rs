@@ -1,9 +1,10 @@
 //! What a table of a diagnosis says of one of its rows, in a sentence.
 
-use super::reason::Cluster;
-use crate::diagnosis::result::{EffectParameter, InSomeGroups};
+use crate::effect::detectability::InSomeGroups;
+use crate::effect::size::EffectParameter;
 use crate::words::effect_name::effect_name;
 use crate::words::number::{percent, significant, whole_percent};
+use crate::words::sentence::reason::Cluster;
 use crate::words::size::{amount, sizes};
 
 /// What the sentences of every explanation of a catalogue effect are.

@@ -1,0 +1,96 @@
+//! How large an effect is: its parameters, and their sizes where groups of tightenings differ.
+
+use crate::tightening::factor::Factor;
+use serde::{Deserialize, Serialize};
+
+/// A parameter of an effect, estimated from all tightenings together.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct EffectParameter {
+    /// Name with unit suffix.
+    pub name: String,
+    /// What it is, in a few words, as its effect says it; empty where nothing says it.
+    #[serde(default)]
+    pub meaning: String,
+    /// Unit as people write it.
+    pub unit: String,
+    /// Estimate; of a parameter that every tightening has of its own, the mean.
+    pub value: f64,
+    /// Lower end of its 95 % interval.
+    pub low: Option<f64>,
+    /// Upper end of its 95 % interval.
+    pub high: Option<f64>,
+    /// Standard error; `None` where the estimate lies on a bound.
+    pub standard_error: Option<f64>,
+    /// True when every tightening has its own.
+    pub per_tightening: bool,
+    /// Standard deviation between tightenings, of a parameter that every tightening has of its own.
+    pub spread: Option<f64>,
+    /// Smallest plausible value.
+    pub minimum: f64,
+    /// Largest plausible value.
+    pub maximum: f64,
+    /// The size of each group, of a parameter that differs from group to group; `value` is their mean then, `spread` the standard
+    /// deviation between them beyond their own errors.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub by_group: Option<GroupSizes>,
+}
+
+impl EffectParameter {
+    /// Whether its value lies where one expects it.
+    pub fn is_plausible(&self) -> bool {
+        (self.minimum..=self.maximum).contains(&self.value)
+    }
+}
+
+/// The sizes of a parameter that differs between groups of tightenings.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct GroupSizes {
+    /// What groups them.
+    pub factor: Factor,
+    /// In the order of the groups.
+    pub groups: Vec<GroupSize>,
+    /// Where it changes at a number or place: between which the later size begins, at 95 %.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub change: Option<ChangePoint>,
+}
+
+/// Where a size changes: the 95 % interval of the first tightening that has the later one.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ChangePoint {
+    /// It may be this one: a number within the file, or file and number.
+    pub first: String,
+    /// Or one of those up to this one.
+    pub last: String,
+}
+
+/// The size of one group; numbers in the parameter's unit.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct GroupSize {
+    /// Which group, for example `TP3`.
+    pub group: String,
+    /// Its tightenings.
+    pub tightenings: usize,
+    /// Its own estimate.
+    pub value: f64,
+    /// Its standard error.
+    pub standard_error: Option<f64>,
+    /// The same, shrunk towards the mean of all groups as far as its error asks.
+    pub shrunk: f64,
+    /// Lower end of its own 95 % interval.
+    pub low: Option<f64>,
+    /// Upper end of its own 95 % interval.
+    pub high: Option<f64>,
+    /// Whether the effect is there: told from nothing, with one false discovery in twenty over the groups.
+    pub present: bool,
+}
+
+/// How tightenings share the sizes of an effect: `shared`, `per tightening`, `per participant` and so on, or `before and from
+/// number 13 on`.
+pub fn sharing(parameters: &[EffectParameter]) -> String {
+    let factor = parameters.iter().find_map(|one| one.by_group.as_ref());
+    match factor {
+        Some(sizes) => sizes.factor.sharing(),
+        None if parameters.iter().any(|one| one.per_tightening) => "per tightening".to_owned(),
+        None => "shared".to_owned(),
+    }
+}
