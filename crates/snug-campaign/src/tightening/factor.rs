@@ -58,6 +58,19 @@ impl Factor {
         )
     }
 
+    /// Several of its groups, as people call them.
+    pub fn plural(&self) -> &'static str {
+        match self {
+            Self::Participant => "participants",
+            Self::Strategy => "strategies",
+            Self::Joint => "joints",
+            Self::Pace => "paces",
+            Self::TargetTorque => "target torques",
+            Self::File => "files",
+            Self::FromNumber(_) | Self::Since(_) | Self::Course { .. } => "tightenings",
+        }
+    }
+
     /// How tightenings share a size by it: `per participant`, `before and from number 13 on`.
     pub fn sharing(&self) -> String {
         match self {

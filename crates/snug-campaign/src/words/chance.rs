@@ -1,6 +1,6 @@
 //! Evidence as cases out of a hundred, and shares with what is uncertain of them.
 
-use super::number::fixed;
+use crate::words::number::fixed;
 
 /// How often chance alone would do as well: `chance alone does as well in 1 of 50 cases`.
 pub fn by_chance(p: f64) -> String {

@@ -1,29 +1,13 @@
 //! Whose effect it is, and how large for whom.
 
-use super::effect_name::unit_text;
-use super::number::{rounded, significant};
-use super::{joined, over_time};
 use crate::effect::size::{GroupSize, GroupSizes};
-use crate::identification::interval::Interval;
-use crate::tightening::factor::Factor;
+use crate::words::effect_name::unit_text;
+use crate::words::grammar::joined;
+use crate::words::number::significant;
+use crate::words::over_time;
 
 /// Groups that are told one by one; of more the first and how many there are. Chosen.
 const TOLD: usize = 8;
-
-impl Factor {
-    /// Several of its groups, as people call them.
-    pub fn plural(&self) -> &'static str {
-        match self {
-            Self::Participant => "participants",
-            Self::Strategy => "strategies",
-            Self::Joint => "joints",
-            Self::Pace => "paces",
-            Self::TargetTorque => "target torques",
-            Self::File => "files",
-            Self::FromNumber(_) | Self::Since(_) | Self::Course { .. } => "tightenings",
-        }
-    }
-}
 
 impl GroupSizes {
     /// Whose it is: `3 of 6 participants: TP1 4.04 N, TP3 3.99 N, TP4 3.96 N; none in TP2, TP5, TP6 (below 0.073 N)`. Of groups
@@ -60,18 +44,6 @@ impl GroupSize {
     fn said(&self, unit: &str) -> String {
         format!("{} {}", self.group, self.amount(unit))
     }
-
-    /// Its value with as many digits as its interval supports.
-    pub(super) fn amount(&self, unit: &str) -> String {
-        let interval = (self.low.zip(self.high)).map(|(low, high)| Interval { low, high });
-        let value = rounded(self.value, interval).value;
-        format!("{value}\u{a0}{unit}").trim_end().to_owned()
-    }
-
-    /// What its size is below, if it is there at all.
-    pub(super) fn at_most(&self) -> Option<f64> {
-        Some(self.low?.abs().max(self.high?.abs()))
-    }
 }
 
 /// Who is without it, and below which size.
@@ -91,6 +63,7 @@ fn nothing(without: &[&GroupSize], unit: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::tightening::factor::Factor;
 
     fn group(name: &str, (low, value, high): (f64, f64, f64), present: bool) -> GroupSize {
         GroupSize {

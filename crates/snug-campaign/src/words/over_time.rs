@@ -1,8 +1,8 @@
 //! From when on an effect is there, until when it was, or how it grows.
 
-use super::number::significant;
 use crate::effect::size::{ChangePoint, GroupSize, GroupSizes};
 use crate::tightening::factor::Factor;
+use crate::words::number::significant;
 
 /// What is said of sizes that differ by time: `from number 13 on (it may be 12 to 15) 4.1 N, none before (below 0.3 N)`; `None` of
 /// other groups.

@@ -1,9 +1,9 @@
 //! The size of an effect: value, interval, unit, and what is remarkable about it.
 
-use super::effect_name::unit_text;
-use super::number::{rounded, short, significant};
 use crate::effect::size::{EffectParameter, GroupSizes};
 use crate::identification::interval::Interval;
+use crate::words::effect_name::unit_text;
+use crate::words::number::{rounded, short, significant};
 use std::fmt::{self, Display, Formatter};
 
 /// A parameter's size in pieces, so that a page can set each in its own type.

@@ -2,11 +2,9 @@
 //!
 //! Sentences are written for a hand on a tool; this is the one place that knows what they are on a machine.
 
-use super::sentence::statement;
-use crate::diagnosis::result::Diagnosis;
 use crate::effect::size::{EffectParameter, GroupSize, GroupSizes};
 use crate::measurement::signal_units::SignalUnits;
-use crate::words::sentence::reason::Reason;
+use crate::words::grammar::capitalised;
 use serde::Serialize;
 
 /// In whose words results are told.
@@ -121,7 +119,7 @@ impl Vocabulary {
             let length = match phrase {
                 Some((from, to)) => {
                     match letter.is_uppercase() {
-                        true => told += &super::capitalised(to),
+                        true => told += &capitalised(to),
                         false => told += to,
                     }
                     from.len()
@@ -151,54 +149,6 @@ impl Vocabulary {
             Self::Machine(Some(axis)) => axis.about(unit),
             _ => (1.0, unit.to_owned()),
         }
-    }
-
-    /// A diagnosis with its sizes about the rig's own axis.
-    pub fn told(self, diagnosis: &Diagnosis) -> Diagnosis {
-        let mut told = diagnosis.clone();
-        let Self::Machine(Some(axis)) = self else {
-            return told;
-        };
-        let all = |sizes: &mut Vec<EffectParameter>| {
-            for size in sizes {
-                *size = axis.size(size);
-            }
-        };
-        let earlier = told.ladder.iter_mut().flat_map(|rung| &mut rung.ranking);
-        for one in earlier.chain(&mut told.ranking) {
-            all(&mut one.parameters);
-        }
-        for one in &mut told.added {
-            all(&mut one.parameters);
-        }
-        for reason in &mut told.reasons {
-            match reason {
-                Reason::Size(parameters) | Reason::Drifts { parameters, .. } => all(parameters),
-                Reason::Whose { parameter, .. } => **parameter = axis.size(parameter),
-                Reason::TakenOut { corrected, .. } => {
-                    let (factor, unit) = axis.about(&corrected.unit);
-                    corrected.size *= factor;
-                    corrected.unit = unit;
-                }
-                _ => {}
-            }
-        }
-        for one in &mut told.detectability {
-            let (factor, unit) = axis.about(&one.unit);
-            one.smallest_detectable = one.smallest_detectable.map(|size| size * factor);
-            one.largest_plausible *= factor;
-            if let Some(some) = &mut one.in_some_groups {
-                some.in_one = some.in_one.map(|size| size * factor);
-            }
-            one.statement = statement::detectability(
-                &one.effect,
-                one.smallest_detectable,
-                &unit,
-                one.in_some_groups.as_ref(),
-            );
-            one.unit = unit;
-        }
-        told
     }
 }
 
@@ -230,7 +180,7 @@ impl Axis {
         (factor, unit.to_owned())
     }
 
-    fn size(self, size: &EffectParameter) -> EffectParameter {
+    pub(crate) fn size(self, size: &EffectParameter) -> EffectParameter {
         let (factor, unit) = self.about(&size.unit);
         let scaled = |value: Option<f64>| value.map(|value| value * factor);
         EffectParameter {

@@ -1,14 +1,12 @@
 //! The verdict in one sentence.
 
-use super::explained::at_most_all;
-use super::said::written_as_said;
-use crate::diagnosis::result::Diagnosis;
-use crate::diagnosis::verdict::Verdict;
 use crate::words::effect_name::Named;
+use crate::words::grammar::{counted, joined};
 use crate::words::number::significant;
 use crate::words::sentence::explained::Explained;
+use crate::words::sentence::explained::at_most_all;
+use crate::words::sentence::said::written_as_said;
 use crate::words::sentence::suspicion::OtherUnits;
-use crate::words::{counted, joined};
 use std::fmt::{self, Display, Formatter};
 
 /// What a fitted model leaves.
@@ -353,31 +351,4 @@ fn adequate(
     }?;
     write!(f, ", and nothing more is justified.")?;
     explained.map_or(Ok(()), |all| write!(f, " {}", all.left()))
-}
-
-impl Diagnosis {
-    /// The verdict in a few words.
-    pub fn word(&self) -> &'static str {
-        let mut rungs = self.ladder.iter();
-        let is_noise_known = rungs.any(|rung| rung.error_over_noise.is_some());
-        // A comparison asks how much is missing, not what.
-        let is_comparison = self.verb == "compare";
-        match self.verdict {
-            _ if self.interrupted => "stopped before there was a verdict",
-            Verdict::Adequate => "the model is adequate",
-            Verdict::MissingEffect => "an effect is missing",
-            Verdict::UnlistedEffect => "something is missing that is in no catalogue",
-            Verdict::Undecided if is_comparison && is_noise_known => {
-                "the model leaves more than the noise"
-            }
-            Verdict::Undecided if is_comparison => {
-                "the model leaves an error, and the noise is not known"
-            }
-            Verdict::Undecided if matches!(self.headline, Headline::MoreThanNoise { .. }) => {
-                "more than noise is left, and nothing tried explains it"
-            }
-            Verdict::Undecided => "too little data to say",
-            Verdict::NotFitted => "no model was found that fits",
-        }
-    }
 }

@@ -1,16 +1,16 @@
 //! Why a verdict is what it is: each reason as data, and the sentence it is said with.
 
-use super::said::written_as_said;
 use crate::effect::corrected::CorrectedEffect;
 use crate::effect::size::EffectParameter;
 use crate::words::chance::by_chance;
 use crate::words::effect_name::Named;
 use crate::words::effect_name::effect_name;
+use crate::words::grammar::{capitalised, joined};
 use crate::words::number::whole_percent;
 use crate::words::sentence::headline::Left;
+use crate::words::sentence::said::written_as_said;
 use crate::words::sentence::suspicion::Suspicion;
 use crate::words::size::{amount, sizes};
-use crate::words::{capitalised, joined};
 use std::fmt::{self, Display, Formatter};
 
 /// What counts as one independent piece of evidence.

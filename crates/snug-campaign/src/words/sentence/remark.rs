@@ -1,7 +1,7 @@
 //! What stands out of where a model fails: each remark as data, and the sentence it is said with.
 
-use super::said::written_as_said;
 use crate::words::number::whole_percent;
+use crate::words::sentence::said::written_as_said;
 use std::fmt::{self, Display, Formatter};
 
 /// An error over the noise, or over the campaign's average error where the noise is not known.

@@ -1,10 +1,10 @@
 //! Why nothing more was added.
 
-use super::said::written_as_said;
 use crate::words::chance::by_chance;
-use crate::words::counted;
 use crate::words::effect_name::Named;
+use crate::words::grammar::counted;
 use crate::words::number::{fixed, short, significant};
+use crate::words::sentence::said::written_as_said;
 use std::fmt::{self, Display, Formatter};
 
 /// Why the search for effects stopped.

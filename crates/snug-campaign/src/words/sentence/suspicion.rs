@@ -1,9 +1,9 @@
 //! What to check where no model fits, each as data, and the sentence it is said with.
 
-use super::explained::at_most_all;
 use crate::words::effect_name::effect_name;
-use crate::words::joined;
+use crate::words::grammar::joined;
 use crate::words::number::significant;
+use crate::words::sentence::explained::at_most_all;
 use std::fmt::{self, Display, Formatter};
 
 /// Something that may be why no model fits; shares are those of the output's power that mass, damping and stiffness alone would
