@@ -9,7 +9,7 @@ use crate::terminal;
 use ladder::ladder;
 use ranking::ranking;
 use snug_campaign::words::chance::by_chance;
-use snug_campaign::words::effect_name::{called, names_in};
+use snug_campaign::words::effect_name::called;
 use snug_campaign::words::program::program;
 use snug_campaign::words::size::sizes;
 use snug_campaign::words::vocabulary::Vocabulary;
@@ -166,7 +166,7 @@ fn added(page: &mut Page, diagnosis: &Diagnosis) {
         if !effect.twins.is_empty() {
             evidence.push(format!(
                 "these data cannot tell it from {}",
-                names_in(diagnosis, &effect.twins)
+                diagnosis.names(&effect.twins)
             ));
         }
         if !evidence.is_empty() {

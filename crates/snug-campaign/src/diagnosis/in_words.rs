@@ -1,7 +1,8 @@
-//! A diagnosis in a few words: its verdict.
+//! A diagnosis in a few words: its verdict, and its effects and rungs by name.
 
 use crate::diagnosis::result::Diagnosis;
 use crate::diagnosis::verdict::Verdict;
+use crate::words::effect_name::{effect_name, label};
 use crate::words::sentence::headline::Headline;
 
 impl Diagnosis {
@@ -28,5 +29,43 @@ impl Diagnosis {
             Verdict::Undecided => "too little data to say",
             Verdict::NotFitted => "no model was found that fits",
         }
+    }
+
+    /// An effect as commands and files name it; a term that is in no catalogue by what it is.
+    pub fn label(&self, effect: &str) -> String {
+        label(effect, self.expression(effect))
+    }
+
+    /// An effect as people say it; a term that is in no catalogue by what it is.
+    pub fn called(&self, effect: &str) -> String {
+        effect_name(&self.label(effect))
+    }
+
+    /// Effects as a sentence lists them.
+    pub fn names(&self, effects: &[String]) -> String {
+        let names = effects.iter().map(|effect| self.called(effect));
+        names.collect::<Vec<_>>().join(", ")
+    }
+
+    /// What each rung changes against the one before.
+    pub fn rung_names(&self) -> Vec<String> {
+        let called = |effect: &String| self.called(effect);
+        let mut before: &[String] = &[];
+        let mut names = Vec::new();
+        for (place, rung) in self.ladder.iter().enumerate() {
+            let gained = rung.effects.iter().filter(|e| !before.contains(e));
+            let lost = before.iter().filter(|e| !rung.effects.contains(e));
+            let steps: Vec<String> = gained
+                .map(|effect| format!("+ {}", called(effect)))
+                .chain(lost.map(|effect| format!("− {}", called(effect))))
+                .collect();
+            names.push(match (steps.is_empty(), place) {
+                (true, 0) => "mass, damper, spring".into(),
+                (true, _) => "the same model".into(),
+                (false, _) => steps.join(" "),
+            });
+            before = &rung.effects;
+        }
+        names
     }
 }

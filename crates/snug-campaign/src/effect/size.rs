@@ -40,6 +40,22 @@ impl EffectParameter {
     pub fn is_plausible(&self) -> bool {
         (self.minimum..=self.maximum).contains(&self.value)
     }
+
+    /// The same with every number multiplied by `factor`, as in another unit.
+    pub(crate) fn times(&self, factor: f64) -> Self {
+        let scaled = |value: Option<f64>| value.map(|value| value * factor);
+        Self {
+            value: self.value * factor,
+            low: scaled(self.low),
+            high: scaled(self.high),
+            standard_error: scaled(self.standard_error),
+            spread: scaled(self.spread),
+            minimum: self.minimum * factor,
+            maximum: self.maximum * factor,
+            by_group: self.by_group.as_ref().map(|sizes| sizes.times(factor)),
+            ..self.clone()
+        }
+    }
 }
 
 /// The sizes of a parameter that differs between groups of tightenings.
@@ -52,6 +68,25 @@ pub struct GroupSizes {
     /// Where it changes at a number or place: between which the later size begins, at 95 %.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub change: Option<ChangePoint>,
+}
+
+impl GroupSizes {
+    /// Every group's size multiplied by `factor`.
+    fn times(&self, factor: f64) -> Self {
+        let scaled = |value: Option<f64>| value.map(|value| value * factor);
+        let group = |one: &GroupSize| GroupSize {
+            value: one.value * factor,
+            shrunk: one.shrunk * factor,
+            standard_error: scaled(one.standard_error),
+            low: scaled(one.low),
+            high: scaled(one.high),
+            ..one.clone()
+        };
+        Self {
+            groups: self.groups.iter().map(group).collect(),
+            ..self.clone()
+        }
+    }
 }
 
 /// Where a size changes: the 95 % interval of the first tightening that has the later one.
@@ -92,5 +127,33 @@ pub fn sharing(parameters: &[EffectParameter]) -> String {
         Some(sizes) => sizes.factor.sharing(),
         None if parameters.iter().any(|one| one.per_tightening) => "per tightening".to_owned(),
         None => "shared".to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes_of_single_tools_are_told_in_another_unit_too() {
+        let tool = GroupSize {
+            group: "tool 2".into(),
+            tightenings: 4,
+            value: 2.0,
+            standard_error: Some(0.1),
+            shrunk: 1.9,
+            low: Some(1.8),
+            high: Some(2.2),
+            present: true,
+        };
+        let sizes = GroupSizes {
+            factor: Factor::File,
+            groups: vec![tool],
+            change: None,
+        };
+        let told = &sizes.times(0.5).groups[0];
+        assert_eq!((told.value, told.shrunk), (1.0, 0.95));
+        assert_eq!((told.low, told.high), (Some(0.9), Some(1.1)));
+        assert_eq!((told.standard_error, told.tightenings), (Some(0.05), 4));
     }
 }

@@ -1,7 +1,5 @@
 //! Names of effects and their units as people write them.
 
-use crate::diagnosis::result::Diagnosis;
-
 /// Effects that a sentence names, of those that data cannot tell from one another; the ranking names all. Chosen.
 const MOST_NAMED: usize = 3;
 
@@ -22,47 +20,9 @@ pub fn label(effect: &str, expression: Option<&String>) -> String {
     )
 }
 
-/// The same of one that the diagnosis knows.
-pub fn label_in(diagnosis: &Diagnosis, effect: &str) -> String {
-    label(effect, diagnosis.expression(effect))
-}
-
 /// An effect as people say it; a term that is in no catalogue by what it is.
 pub fn called(effect: &str, expression: Option<&String>) -> String {
     effect_name(&label(effect, expression))
-}
-
-/// The same of one that the diagnosis knows.
-pub fn called_in(diagnosis: &Diagnosis, effect: &str) -> String {
-    effect_name(&label_in(diagnosis, effect))
-}
-
-/// Effects that the diagnosis knows as a sentence lists them.
-pub fn names_in(diagnosis: &Diagnosis, effects: &[String]) -> String {
-    let names = effects.iter().map(|effect| called_in(diagnosis, effect));
-    names.collect::<Vec<_>>().join(", ")
-}
-
-/// What each rung changes against the one before.
-pub fn rung_names(diagnosis: &Diagnosis) -> Vec<String> {
-    let known = |effect: &String| called_in(diagnosis, effect);
-    let mut before: &[String] = &[];
-    let mut names = Vec::new();
-    for (place, rung) in diagnosis.ladder.iter().enumerate() {
-        let gained = rung.effects.iter().filter(|e| !before.contains(e));
-        let lost = before.iter().filter(|e| !rung.effects.contains(e));
-        let steps: Vec<String> = gained
-            .map(|effect| format!("+ {}", known(effect)))
-            .chain(lost.map(|effect| format!("− {}", known(effect))))
-            .collect();
-        names.push(match (steps.is_empty(), place) {
-            (true, 0) => "mass, damper, spring".into(),
-            (true, _) => "the same model".into(),
-            (false, _) => steps.join(" "),
-        });
-        before = &rung.effects;
-    }
-    names
 }
 
 /// An effect as a sentence names it.

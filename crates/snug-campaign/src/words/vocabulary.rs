@@ -2,7 +2,7 @@
 //!
 //! Sentences are written for a hand on a tool; this is the one place that knows what they are on a machine.
 
-use crate::effect::size::{EffectParameter, GroupSize, GroupSizes};
+use crate::effect::size::EffectParameter;
 use crate::measurement::signal_units::SignalUnits;
 use crate::words::grammar::capitalised;
 use serde::Serialize;
@@ -180,39 +180,12 @@ impl Axis {
         (factor, unit.to_owned())
     }
 
+    /// A size about this axis.
     pub(crate) fn size(self, size: &EffectParameter) -> EffectParameter {
         let (factor, unit) = self.about(&size.unit);
-        let scaled = |value: Option<f64>| value.map(|value| value * factor);
         EffectParameter {
             unit,
-            value: size.value * factor,
-            low: scaled(size.low),
-            high: scaled(size.high),
-            standard_error: scaled(size.standard_error),
-            spread: scaled(size.spread),
-            minimum: size.minimum * factor,
-            maximum: size.maximum * factor,
-            by_group: size.by_group.as_ref().map(|sizes| sizes.times(factor)),
-            ..size.clone()
-        }
-    }
-}
-
-impl GroupSizes {
-    /// Every group's size multiplied by `factor`.
-    fn times(&self, factor: f64) -> Self {
-        let scaled = |value: Option<f64>| value.map(|value| value * factor);
-        let group = |one: &GroupSize| GroupSize {
-            value: one.value * factor,
-            shrunk: one.shrunk * factor,
-            standard_error: scaled(one.standard_error),
-            low: scaled(one.low),
-            high: scaled(one.high),
-            ..one.clone()
-        };
-        Self {
-            groups: self.groups.iter().map(group).collect(),
-            ..self.clone()
+            ..size.times(factor)
         }
     }
 }
@@ -249,7 +222,6 @@ fn ends_a_word(after: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tightening::factor::Factor;
 
     const CARRIAGE: Vocabulary = Vocabulary::Machine(Some(Axis::Slides(0.5)));
     const MOTOR: Vocabulary = Vocabulary::Machine(Some(Axis::Turns(0.5)));
@@ -278,28 +250,5 @@ mod tests {
         assert_eq!(turns.about("s"), (1.0, "s".into()));
         assert_eq!(Axis::Slides(0.5).about("Nm"), (2.0, "N".into()));
         assert_eq!(Axis::Slides(0.5).about("N"), (1.0, "N".into()));
-    }
-
-    #[test]
-    fn so_are_those_of_single_tools() {
-        let tool = GroupSize {
-            group: "tool 2".into(),
-            tightenings: 4,
-            value: 2.0,
-            standard_error: Some(0.1),
-            shrunk: 1.9,
-            low: Some(1.8),
-            high: Some(2.2),
-            present: true,
-        };
-        let sizes = GroupSizes {
-            factor: Factor::File,
-            groups: vec![tool],
-            change: None,
-        };
-        let told = &sizes.times(0.5).groups[0];
-        assert_eq!((told.value, told.shrunk), (1.0, 0.95));
-        assert_eq!((told.low, told.high), (Some(0.9), Some(1.1)));
-        assert_eq!((told.standard_error, told.tightenings), (Some(0.05), 4));
     }
 }

@@ -1,7 +1,6 @@
 //! The ladder for a terminal: a line per model with its error and a bar.
 
 use super::{Page, shortened};
-use snug_campaign::words::effect_name::label_in;
 use snug_campaign::words::number::significant;
 use snug_campaign::{Diagnosis, Rung};
 
@@ -79,7 +78,7 @@ fn table(page: &mut Page, diagnosis: &Diagnosis, known: bool) {
 
 /// What a rung changes against the one before it.
 fn step(before: &Rung, rung: &Rung, diagnosis: &Diagnosis) -> String {
-    let called = |effect: &String| label_in(diagnosis, effect);
+    let called = |effect: &String| diagnosis.label(effect);
     let gained = rung.effects.iter().filter(|e| !before.effects.contains(e));
     let lost = before.effects.iter().filter(|e| !rung.effects.contains(e));
     let steps: Vec<String> = gained

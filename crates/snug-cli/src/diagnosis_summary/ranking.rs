@@ -2,7 +2,7 @@
 
 use super::{Page, not_yet_added, shortened};
 use snug_campaign::words::chance::share_with_error;
-use snug_campaign::words::effect_name::{label, names_in};
+use snug_campaign::words::effect_name::label;
 use snug_campaign::words::number::p_value;
 use snug_campaign::{Diagnosis, Doubt, RankedEffect, Verdict};
 
@@ -64,7 +64,7 @@ pub fn ranking(page: &mut Page, diagnosis: &Diagnosis) {
     for (place, candidate) in candidates {
         row(page, candidate);
         if place == 0 && !candidate.twins.is_empty() {
-            let twins = names_in(diagnosis, &candidate.twins);
+            let twins = diagnosis.names(&candidate.twins);
             page.paragraph("      cannot be told from ", &twins);
         }
     }

@@ -4,7 +4,6 @@ use crate::encoding::schema::{
     Field, Message, count, flag, group, list, number, pure_number, text,
 };
 use serde::Serialize;
-use snug_campaign::words::effect_name::rung_names;
 use snug_campaign::words::remark::Remark;
 use snug_campaign::{Became, Diagnosis, DiagnosisSummary, Misfit, RankedEffect};
 
@@ -49,7 +48,7 @@ pub(crate) struct PlacedRung<'a> {
 
 /// Every rung of the ladder.
 pub(crate) fn rungs(diagnosis: &Diagnosis) -> impl Iterator<Item = PlacedRung<'_>> {
-    let rungs = diagnosis.ladder.iter().zip(rung_names(diagnosis));
+    let rungs = diagnosis.ladder.iter().zip(diagnosis.rung_names());
     rungs.zip(1..).map(|((rung, step), place)| PlacedRung {
         place,
         step,

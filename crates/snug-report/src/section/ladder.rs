@@ -4,7 +4,7 @@ use super::{Render, Section};
 use crate::figure::{Axis, Bar, Dot, Figure, Mark, captioned, legend};
 use crate::words::number::{percent, plain, significant};
 use maud::{Markup, html};
-use snug_campaign::words::effect_name::{called_in, rung_names, unit_text};
+use snug_campaign::words::effect_name::unit_text;
 use snug_campaign::{CampaignResult, Diagnosis, Rung, Verdict};
 
 /// How the error falls, effect by effect.
@@ -51,7 +51,7 @@ fn render(diagnosis: &Diagnosis, _: &CampaignResult) -> Option<Markup> {
     if rungs.is_empty() {
         return None;
     }
-    let names = rung_names(diagnosis);
+    let names = diagnosis.rung_names();
     let known = rungs.iter().any(|rung| rung.error_over_noise.is_some());
     let unit = output_unit(diagnosis);
     let error = if known {
@@ -85,7 +85,7 @@ fn promised(diagnosis: &Diagnosis) -> Markup {
         .and_then(|first| Some((first, first.error_over_noise?)));
     html! {
         @if let Some((first, error)) = first {
-            p { "With " strong { (called_in(diagnosis, &first.effect)) } " in the model, the error would be " strong { (significant(error, 4)) }
+            p { "With " strong { (diagnosis.called(&first.effect)) } " in the model, the error would be " strong { (significant(error, 4)) }
                 " times the noise." }
         }
     }

@@ -8,7 +8,7 @@ use crate::words::effect_words::{parameter_name, sentence, sizes};
 use crate::words::number::{p_value, plain, short, significant};
 use maud::{Markup, html};
 use snug_campaign::words::chance::{by_chance, share_with_error};
-use snug_campaign::words::effect_name::{called, names_in};
+use snug_campaign::words::effect_name::called;
 use snug_campaign::{CampaignResult, Diagnosis, Doubt, RankedEffect, Verdict};
 
 /// What could be missing, best first.
@@ -70,7 +70,7 @@ fn entries(
     let unlisted = rest.iter().filter(|candidate| candidate.unlisted).count();
     // Twins are a question of the first only.
     let twins = |place| match place {
-        0 => names_in(diagnosis, &shown[0].twins),
+        0 => diagnosis.names(&shown[0].twins),
         _ => String::new(),
     };
     html! {

@@ -6,7 +6,7 @@ use crate::words::effect_words::{sentence, sizes};
 use crate::words::number::{fixed, percent, significant};
 use maud::{Markup, html};
 use snug_campaign::words::chance::{by_chance, share_with_error};
-use snug_campaign::words::effect_name::{called, effect_name, names_in, unit_text};
+use snug_campaign::words::effect_name::{called, effect_name, unit_text};
 use snug_campaign::words::program::program;
 use snug_campaign::words::statement::grow;
 use snug_campaign::words::{counted, joined};
@@ -61,7 +61,7 @@ fn added(effect: &AddedEffect, diagnosis: &Diagnosis, result: &CampaignResult) -
                 p { "Without it, the squared error would " (grow(needed)) "." }
             }
             @if !effect.twins.is_empty() {
-                p.attention { "These data cannot tell it from " strong { (names_in(diagnosis, &effect.twins)) } "." }
+                p.attention { "These data cannot tell it from " strong { (diagnosis.names(&effect.twins)) } "." }
             }
             (implausible(&effect.parameters))
             @if !effect.explanation.is_empty() {

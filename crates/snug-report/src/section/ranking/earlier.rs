@@ -6,7 +6,6 @@ use crate::figure::{Axis, Bar, Figure, Mark, captioned, legend};
 use crate::words::number::percent;
 use maud::{Markup, html};
 use snug_campaign::words::chance::share_with_error;
-use snug_campaign::words::effect_name::rung_names;
 use snug_campaign::{Became, CampaignResult, Diagnosis, RankedEffect};
 
 /// Height of the row of a candidate, which has two bars \[px\].
@@ -44,7 +43,7 @@ pub fn render(diagnosis: &Diagnosis, result: &CampaignResult) -> Option<Markup> 
 
 impl Earlier<'_> {
     fn markup(&self, result: &CampaignResult) -> Markup {
-        let names = rung_names(self.diagnosis);
+        let names = self.diagnosis.rung_names();
         let ranking = &self.diagnosis.ladder[self.rung].ranking;
         let (shown, rest) = parted(ranking, |candidate| is_chosen(self.diagnosis, candidate));
         let taken = names
