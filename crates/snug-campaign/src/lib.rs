@@ -56,6 +56,7 @@ pub use tightening::measures::FitMeasures;
 pub use tightening::prepared::Tightening;
 pub use tightening::result::TighteningResult;
 pub use tightening::selection::{Rejection, Selection};
+pub use tightening::target_torque::target_torque_nm;
 pub use tightening::traces::Traces;
 pub use tightening::validation::{Prediction, RestartedPrediction, Validation};
 pub use words::excerpt::excerpt;

@@ -8,5 +8,6 @@ pub(crate) mod measures;
 pub(crate) mod prepared;
 pub(crate) mod result;
 pub(crate) mod selection;
+pub(crate) mod target_torque;
 pub(crate) mod traces;
 pub(crate) mod validation;

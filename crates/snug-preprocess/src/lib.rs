@@ -21,7 +21,6 @@ pub use noise::autoregression::Autoregression;
 pub use prepared::{Prepared, Preprocessed};
 pub use preprocess::preprocess;
 pub use segment::integration::cumulative_trapezoid;
-pub use segment::torque_target::target_torque_nm;
 pub use settings::onset::OnsetSettings;
 pub use settings::quality::QualitySettings;
 pub use settings::quiet::QuietSettings;

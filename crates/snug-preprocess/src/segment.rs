@@ -3,7 +3,7 @@
 pub(crate) mod channel;
 pub(crate) mod context;
 pub(crate) mod integration;
+pub(crate) mod peak_torque;
 pub(crate) mod remarks;
 pub(crate) mod signals;
-pub(crate) mod torque_target;
 pub(crate) mod window;

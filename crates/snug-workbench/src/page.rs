@@ -3,6 +3,7 @@
 use crate::campaign::Campaign;
 use maud::{Markup, PreEscaped, html};
 use serde_json::{Value, json};
+use snug_campaign::words::counted;
 use snug_campaign::words::effect_name::{effect_name, raised};
 use snug_model::Effect;
 use snug_report::viewer::{SCRIPT, document, viewer};
@@ -51,14 +52,6 @@ pub(crate) fn working(campaign: &Campaign) -> Markup {
         (bar())
     };
     around(&campaign.title, &content, &[SCRIPT, OWN_SCRIPT])
-}
-
-/// `1 file`, `6 files`.
-fn counted(count: usize, what: &str) -> String {
-    match count {
-        1 => format!("1 {what}"),
-        some => format!("{some} {what}s"),
-    }
 }
 
 /// The error in large type, and the ladder of models.

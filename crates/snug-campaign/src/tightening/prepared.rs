@@ -8,6 +8,7 @@ use crate::measurement::rig::Rig;
 use crate::measurement::time_base::TimeBase;
 use crate::tightening::correction::Correction;
 use crate::tightening::id::TighteningId;
+use crate::tightening::target_torque::target_torque_nm;
 use serde::{Deserialize, Serialize};
 
 /// One tightening, cut out, zeroed and ready for identification. All signals have the same length.
@@ -64,7 +65,7 @@ impl Tightening {
             motion: Motion::default(),
             grip_force_n: None,
             peak_torque_nm,
-            target_torque_nm: 5.0 * (peak_torque_nm / 5.0).round(),
+            target_torque_nm: target_torque_nm(peak_torque_nm),
             onset: None,
             noise: None,
             corrections: Vec::new(),

@@ -8,6 +8,7 @@ use super::quantities::{Quantities, Quantity};
 use super::summary::{Found, Judged, JudgedSeries, QuantityFound, Watched};
 use figures::{curves_figure, strip};
 use maud::{Markup, PreEscaped, html};
+use snug_campaign::words::capitalised;
 use snug_campaign::words::effect_name::effect_name;
 use snug_campaign::words::number::significant;
 use snug_report::viewer::document;
@@ -139,22 +140,15 @@ fn sentence(found: &Found) -> String {
         (Some(effect), Some(since), _) => {
             format!(
                 "{} has changed since {since}.",
-                capital(&effect_name(effect))
+                capitalised(&effect_name(effect))
             )
         }
         (None, Some(since), Some(first)) => format!(
             "{} has changed since {since}. No effect of the model did: fit with effects, or improve on this tool's days, to name it.",
-            capital(&first.name)
+            capitalised(&first.name)
         ),
         _ => "Differs from its sisters; when it began is not among these days.".to_owned(),
     }
-}
-
-fn capital(text: &str) -> String {
-    let mut letters = text.chars();
-    letters.next().map_or_else(String::new, |first| {
-        first.to_uppercase().chain(letters).collect()
-    })
 }
 
 fn with_unit(name: &str, unit: &str) -> String {

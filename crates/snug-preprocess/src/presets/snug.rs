@@ -20,9 +20,9 @@ use crate::quiet::measurement::{QuietMeasurement, measure};
 use crate::segment::channel::Channel;
 use crate::segment::context::Context;
 use crate::segment::integration::complete;
+use crate::segment::peak_torque::peak_torque_nm;
 use crate::segment::remarks::Remarks;
 use crate::segment::signals::Signals;
-use crate::segment::torque_target::peak_torque_nm;
 use snug_campaign::{Finding, Quantity, Segment};
 use std::ops::Range;
 

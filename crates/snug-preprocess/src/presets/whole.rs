@@ -4,9 +4,9 @@ use crate::prepared::Prepared;
 use crate::segment::channel::Channel;
 use crate::segment::context::Context;
 use crate::segment::integration::complete;
+use crate::segment::peak_torque::peak_torque_nm;
 use crate::segment::remarks::Remarks;
 use crate::segment::signals::Signals;
-use crate::segment::torque_target::peak_torque_nm;
 use snug_campaign::{Finding, Segment};
 
 /// Takes every sample; nothing is zeroed, and the noise floor is left to the fit's residual.

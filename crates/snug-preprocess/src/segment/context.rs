@@ -4,10 +4,9 @@ use crate::quality::non_finite::{Missing, bridge};
 use crate::segment::channel::Channel;
 use crate::segment::remarks::Remarks;
 use crate::segment::signals::Signals;
-use crate::segment::torque_target::target_torque_nm;
 use crate::segment::window::samples;
 use crate::settings::PreprocessSettings;
-use snug_campaign::{Finding, Quantity, Recording, Rig, Tightening, TimeBase};
+use snug_campaign::{Finding, Quantity, Recording, Rig, Tightening, TimeBase, target_torque_nm};
 use std::ops::Range;
 
 /// What all segments of a recording share.

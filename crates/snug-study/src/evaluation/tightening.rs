@@ -5,14 +5,14 @@ use crate::evaluation::validation::predicted;
 use crate::study::Study;
 use snug_campaign::{
     Estimate, FitMeasures, FitStatus, Motion, Quantity, Recording, Rejection, Segment, Selection,
-    Tightening, TighteningId, TighteningResult, Traces,
+    Tightening, TighteningId, TighteningResult, Traces, target_torque_nm,
 };
 use snug_identify::{FitTask, IdentifyError, agreement, derived, identify_all};
 use snug_model::{
     BASE_PARAMETERS, Effect, Input, Model, ModelError, Scale, euler_displacement,
     inverse_dynamics_force, spring_damper_force, thesis_damping_ratio,
 };
-use snug_preprocess::{Prepared, Preset, ThesisChecks, target_torque_nm};
+use snug_preprocess::{Prepared, Preset, ThesisChecks};
 use std::borrow::Cow;
 
 /// A tightening's result with its signals.
