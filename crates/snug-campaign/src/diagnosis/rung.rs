@@ -4,7 +4,7 @@ use crate::effect::ranked::RankedEffect;
 use serde::{Deserialize, Serialize};
 
 /// Least misfit, as a share of the squared error, by which shares of the misfit are compared \[–\]: an error at the noise leaves
-/// none to share out.
+/// none to share out. Chosen.
 const LEAST_MISFIT: f64 = 1e-3;
 
 /// One rung of the error ladder: a model and what it leaves.

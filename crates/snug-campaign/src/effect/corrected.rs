@@ -7,9 +7,9 @@ use serde::{Deserialize, Serialize};
 pub struct CorrectedEffect {
     /// Name in the catalogue.
     pub effect: String,
-    /// Share of tightenings in which it is significant.
+    /// Share of tightenings in which it is significant, 0 to 1.
     pub share: f64,
-    /// Its typical (root-mean-square) size.
+    /// Its typical (root-mean-square) size, in its unit.
     pub size: f64,
     /// Unit of the size.
     pub unit: String,

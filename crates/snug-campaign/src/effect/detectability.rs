@@ -3,7 +3,7 @@
 use crate::tightening::factor::Factor;
 use serde::{Deserialize, Serialize};
 
-/// How large an effect would have to be to be seen in these data.
+/// How large an effect would have to be to be seen in these data; sizes in its parameter's unit.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Detectability {
     /// The effect.

@@ -3,7 +3,7 @@
 use crate::tightening::factor::Factor;
 use serde::{Deserialize, Serialize};
 
-/// A parameter of an effect, estimated from all tightenings together.
+/// A parameter of an effect, estimated from all tightenings together; numbers in its unit.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct EffectParameter {
     /// Name with unit suffix.

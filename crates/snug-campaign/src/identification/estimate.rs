@@ -21,7 +21,7 @@ pub enum FitStatus {
     Failed,
 }
 
-/// One identified (or fixed) parameter.
+/// One identified (or fixed) parameter; numbers in its unit.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ParameterEstimate {
     /// Name with unit suffix.
@@ -74,7 +74,7 @@ pub struct Estimate {
 }
 
 impl Estimate {
-    /// The value of the parameter called `name`.
+    /// The value of the parameter called `name`, in its unit.
     pub fn value(&self, name: &str) -> Option<f64> {
         self.parameter(name).map(|parameter| parameter.value)
     }

@@ -11,7 +11,7 @@ pub struct Interval {
     pub high: f64,
 }
 
-/// Standard errors to either side of an estimate that hold 95 % of a normal distribution.
+/// Standard errors to either side of an estimate that hold 95 % of a normal distribution \[–\]: Φ⁻¹(0.975).
 pub const NORMAL_95: f64 = 1.959_963_984_540_054;
 
 impl Interval {

@@ -14,7 +14,7 @@ pub enum ParameterSource {
     Identified,
 }
 
-/// One parameter of a model.
+/// One parameter of a model; numbers in its unit.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Parameter {
     /// Name with unit suffix, for example `stiffness_n_per_m`.

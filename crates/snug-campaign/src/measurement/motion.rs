@@ -3,7 +3,7 @@
 use crate::measurement::quantity::Quantity;
 use serde::{Deserialize, Serialize};
 
-/// The measured motion: whichever of angle, angular velocity and angular acceleration the rig records.
+/// The measured motion, a value a sample: whichever of angle, angular velocity and angular acceleration the rig records.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Motion {
     /// θ \[rad\].

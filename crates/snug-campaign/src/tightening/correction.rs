@@ -11,9 +11,9 @@ pub struct Correction {
     /// The measured quantity whose constant error it is; `None` where it is that of another signal, as the torque.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub constant_of: Option<Quantity>,
-    /// Size that was subtracted.
+    /// Size that was subtracted, in its unit.
     pub value: f64,
-    /// Its standard error under the measured (coloured) noise.
+    /// Its standard error under the measured (coloured) noise, in its unit.
     pub standard_error: f64,
     /// Unit of the size.
     pub unit: String,

@@ -4,7 +4,7 @@ use crate::measurement::motion::Motion;
 use crate::measurement::time_base::TimeBase;
 use serde::{Deserialize, Serialize};
 
-/// Measured and simulated signals of one tightening, all on `time_base`.
+/// Measured and simulated signals of one tightening, a value for each sample of `time_base`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Traces {
     /// Sampling grid in the segment's time.

@@ -1,6 +1,6 @@
 //! What an error shows of a text that somebody else wrote.
 
-/// Characters of a stranger's text that a message shows: an expression or a name as people write them, on one line.
+/// Characters of a stranger's text that a message shows: an expression or a name as people write them, on one line. Chosen.
 const SHOWN: usize = 120;
 
 /// The text, or its beginning and how long it is where it is longer than anyone wants to read in a message.

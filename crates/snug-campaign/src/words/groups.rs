@@ -6,7 +6,7 @@ use crate::words::grammar::joined;
 use crate::words::number::significant;
 use crate::words::over_time;
 
-/// Groups that are told one by one; of more the first and how many there are. Chosen.
+/// Groups that are told one by one; of more the largest so many, and how many there are. Chosen.
 const TOLD: usize = 8;
 
 impl GroupSizes {

@@ -2,11 +2,11 @@
 
 use strsim::normalized_damerau_levenshtein;
 
-/// Share of the letters that must be right for a name to count as meant.
+/// Share of the letters that must be right for a name to count as meant \[–\]. Chosen: one slip in three letters.
 const LIKE: f64 = 2.0 / 3.0;
-/// Bytes beyond which nothing was meant: no name is as long, and likeness takes time and memory by the square.
+/// Bytes beyond which nothing was meant: no name is as long, and likeness takes time and memory by the square. Chosen.
 const LONGEST: usize = 200;
-/// Letters that must be typed before a part of a name counts as meant.
+/// Letters that must be typed before a part of a name counts as meant. Chosen.
 const PART: usize = 4;
 
 /// What an error says behind a name that nothing has: ` (did you mean `cubic_stiffness`?)`, or nothing.

@@ -5,9 +5,12 @@ use crate::identification::interval::Interval;
 /// What stands in place of a number that is not there.
 pub const DASH: &str = "–";
 
-/// Below and above these, a power of ten is written out.
+/// Size below which a power of ten is written out, in the number's unit. Chosen.
 const PLAIN_FROM: f64 = 1e-3;
+/// Size from which a power of ten is written out, in the number's unit. Chosen likewise.
 const PLAIN_TO: f64 = 1e5;
+/// Decimals beyond which more help nobody, however narrow the interval. Chosen.
+const MOST_DECIMALS: i32 = 8;
 
 /// `value` with `digits` significant digits; a dash when not finite.
 pub fn significant(value: f64, digits: i32) -> String {
@@ -58,11 +61,11 @@ pub fn percent(share: f64) -> String {
 }
 
 /// A share 0..1 in whole percent, kept on one line.
-pub fn whole_percent(share: f64) -> String {
+pub(crate) fn whole_percent(share: f64) -> String {
     format!("{}\u{a0}%", fixed(100.0 * share, 0))
 }
 
-/// `selected of all` as a share 0..1; `None` when there is nothing to share.
+/// `part` of `whole` as a share 0..1; `None` when there is nothing to share.
 pub fn share(part: usize, whole: usize) -> Option<f64> {
     (whole > 0).then(|| part as f64 / whole as f64)
 }
@@ -106,8 +109,7 @@ pub fn rounded(value: f64, interval: Option<Interval>) -> Rounded {
         leading.log10().floor() as i32
     };
     let unit = 10f64.powi(exponent);
-    // More than eight decimals help nobody, however narrow the interval.
-    let decimals = (1 - exponent_after_rounding(half_width / unit, 2)).clamp(0, 8);
+    let decimals = (1 - exponent_after_rounding(half_width / unit, 2)).clamp(0, MOST_DECIMALS);
     let power = if exponent == 0 {
         String::new()
     } else {

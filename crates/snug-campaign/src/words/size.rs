@@ -22,7 +22,8 @@ pub struct Size {
     pub beyond: Option<String>,
 }
 
-/// Interval width over value up to which an interval says nothing: the estimate lies at the end of what a fit may reach.
+/// Interval width over value \[–\] up to which an interval says nothing: the estimate lies at the end of what a fit may reach.
+/// Chosen.
 const NO_WIDTH: f64 = 1e-6;
 
 impl EffectParameter {

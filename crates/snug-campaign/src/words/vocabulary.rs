@@ -153,7 +153,7 @@ impl Vocabulary {
 }
 
 impl Axis {
-    /// By what a number in `unit` is multiplied, and the unit that it then has.
+    /// By what a number in `unit` is multiplied, and the unit that it then has: τ = l F, θ = x / l.
     pub fn about(self, unit: &str) -> (f64, String) {
         let (factor, unit) = match self {
             Self::Turns(l) => match unit {

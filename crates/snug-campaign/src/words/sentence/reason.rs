@@ -41,9 +41,9 @@ pub enum MoreData {
     Longer(f64),
 }
 
-/// Tightenings beyond which nobody would make so many more to decide a verdict.
+/// Tightenings beyond which nobody would make so many more to decide a verdict. Chosen.
 const MOST_TIGHTENINGS: f64 = 500.0;
-/// Times as long as a record is beyond which nobody would take a longer one.
+/// Times as long as a record is \[–\] beyond which nobody would take a longer one. Chosen.
 const MOST_TIMES: f64 = 50.0;
 
 /// One reason for a verdict.
