@@ -161,6 +161,7 @@ impl Axis {
                 "m" => (1.0 / l, "rad"),
                 "m/s" => (1.0 / l, "rad/s"),
                 "kg" => (l * l, "kg m^2"),
+                "1/kg" => (1.0 / (l * l), "1/(kg m^2)"),
                 "kg/s" => (l * l, "Nm s/rad"),
                 "N/m" => (l * l, "Nm/rad"),
                 "N/m^2" => (l.powi(3), "Nm/rad^2"),
@@ -247,6 +248,7 @@ mod tests {
         let turns = Axis::Turns(0.5);
         assert_eq!(turns.about("N"), (0.5, "Nm".into()));
         assert_eq!(turns.about("N/m"), (0.25, "Nm/rad".into()));
+        assert_eq!(turns.about("1/kg"), (4.0, "1/(kg m^2)".into()));
         assert_eq!(turns.about("s"), (1.0, "s".into()));
         assert_eq!(Axis::Slides(0.5).about("Nm"), (2.0, "N".into()));
         assert_eq!(Axis::Slides(0.5).about("N"), (1.0, "N".into()));
