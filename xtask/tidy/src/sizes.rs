@@ -24,7 +24,7 @@ const TEST_LINES: usize = 110;
 /// Most Rust files side by side in one folder of sources.
 ///
 /// Sixteen are about as many names as one takes in at a glance, and three crates had once come to forty; this is where the
-/// fullest folders (snug-campaign, and pooled fits in snug-diagnose) stand, to be lowered as folders get rooms.
+/// fullest folder (pooled fits in snug-diagnose) stands, to be lowered as folders get rooms.
 const FOLDER_FILES: usize = 22;
 
 /// Folders that may hold any number of files, each with the reason: one file is one entry of a list, and none needs
