@@ -11,6 +11,8 @@ const PLAIN_FROM: f64 = 1e-3;
 const PLAIN_TO: f64 = 1e5;
 /// Decimals beyond which more help nobody, however narrow the interval. Chosen.
 const MOST_DECIMALS: i32 = 8;
+/// Steps in one unit of a number whose last digits are left off. Chosen.
+const PER_UNIT: f64 = 1e7;
 
 /// `value` with `digits` significant digits; a dash when not finite.
 pub fn significant(value: f64, digits: i32) -> String {
@@ -134,6 +136,11 @@ pub fn percent_interval(interval: Interval) -> String {
         fixed(100.0 * interval.low, 1),
         fixed(100.0 * interval.high, 1)
     )
+}
+
+/// Without the last digits that arithmetic leaves: rounded to 1e-7 of the number's unit, and never −0.
+pub fn without_last_digits(value: f64) -> f64 {
+    (value * PER_UNIT).round() / PER_UNIT + 0.0
 }
 
 /// The power of ten of the leading digit once `value` is rounded to `digits` digits (9.99 to two digits is 10).

@@ -4,10 +4,11 @@
 //! over bands.
 
 use super::aspect::{Part, Sum, View};
-use super::grid::{round_up, tidy};
+use super::grid::round_up;
 use super::residual::Residuals;
 use crate::locate::thresholds::NARROWEST;
 use rayon::prelude::*;
+use snug_campaign::words::number::without_last_digits;
 use snug_signal::Periodogram;
 use std::collections::BTreeMap;
 
@@ -57,10 +58,10 @@ fn edges_hz(narrowest_hz: f64, highest_hz: f64) -> Vec<f64> {
     let mut edges = vec![0.0];
     let mut next = round_up(narrowest_hz);
     while next < highest_hz * (1.0 - 1e-9) {
-        edges.push(tidy(next));
+        edges.push(without_last_digits(next));
         next = round_up(next * 1.01);
     }
-    edges.push(tidy(highest_hz));
+    edges.push(without_last_digits(highest_hz));
     edges
 }
 

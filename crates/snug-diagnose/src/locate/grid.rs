@@ -2,6 +2,7 @@
 
 use super::aspect::Part;
 use crate::locate::thresholds::EDGE;
+use snug_campaign::words::number::without_last_digits;
 
 /// `bins` bins of `width` from `origin` on.
 #[derive(Debug, Clone, Copy)]
@@ -45,7 +46,10 @@ impl Grid {
     /// Lower and upper edge of a bin.
     pub fn edges(&self, bin: usize) -> (f64, f64) {
         let from = self.origin + bin as f64 * self.width;
-        (tidy(from), tidy(from + self.width))
+        (
+            without_last_digits(from),
+            without_last_digits(from + self.width),
+        )
     }
 
     /// Every bin as a part of the campaign, named by its edges.
@@ -77,14 +81,6 @@ pub fn round_up(least: f64) -> f64 {
         .map(|step| step * power)
         .find(|step| *step >= least * (1.0 - EDGE))
         .unwrap_or(10.0 * power)
-}
-
-/// Without the last digits that arithmetic leaves.
-pub fn tidy(value: f64) -> f64 {
-    const DECIMALS: f64 = 1e7;
-    let rounded = (value * DECIMALS).round() / DECIMALS;
-    // Not −0.
-    rounded + 0.0
 }
 
 #[cfg(test)]

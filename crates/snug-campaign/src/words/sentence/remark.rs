@@ -1,6 +1,6 @@
 //! What stands out of where a model fails: each remark as data, and the sentence it is said with.
 
-use crate::words::number::whole_percent;
+use crate::words::number::{whole_percent, without_last_digits};
 use crate::words::sentence::said::written_as_said;
 use std::fmt::{self, Display, Formatter};
 
@@ -269,11 +269,4 @@ fn follows(f: &mut Formatter<'_>, shape: &str, share: f64, others: &[(&str, f64)
         true => write!(f, "."),
         false => write!(f, "; nearly as well: {}.", others.join("; ")),
     }
-}
-
-/// Without the last digits that arithmetic leaves.
-fn without_last_digits(value: f64) -> f64 {
-    const DECIMALS: f64 = 1e7;
-    // Not −0.
-    (value * DECIMALS).round() / DECIMALS + 0.0
 }
