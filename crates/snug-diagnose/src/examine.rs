@@ -69,7 +69,7 @@ pub fn examine(
         question,
         cases: counted,
         settings,
-        path,
+        path: path.without_torque_noise(counted)?,
         units,
         // What was found is told, however it ended.
         watch: watch.to_the_end(),

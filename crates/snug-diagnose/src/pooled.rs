@@ -22,3 +22,4 @@ pub(crate) mod sizes;
 pub(crate) mod thresholds;
 pub(crate) mod together;
 pub(crate) mod torque_noise;
+mod torque_pull;

@@ -112,7 +112,7 @@ impl LiveCases {
         };
         // Where a fit was ended, what was tried in its place says so too.
         follower.go_on()?;
-        let fitted = fitted?;
+        let fitted = fitted?.without_torque_noise(self.counted(&tally))?;
         self.ended(fitted)
     }
 

@@ -458,7 +458,7 @@ pub(super) fn add_in(sum: &mut SymmetricMatrix, part: &SymmetricMatrix, places: 
     }
 }
 
-mod evidence;
+pub(super) mod evidence;
 #[cfg(test)]
 mod made_up;
 #[cfg(test)]

@@ -56,7 +56,7 @@ pub(crate) fn passed_on(
 }
 
 /// A member's torque with as much noise again as it has.
-fn noisy(pooled: &PooledModel<'_>, member: usize) -> Input {
+pub(super) fn noisy(pooled: &PooledModel<'_>, member: usize) -> Input {
     let case = &pooled.cases[member];
     let level = white_noise_level(&case.tightening.torque_nm);
     let mut random = ChaCha8Rng::seed_from_u64(0);

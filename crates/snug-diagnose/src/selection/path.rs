@@ -1,5 +1,6 @@
 //! What a selection leaves: its rungs, what was added and why, what is still missing and why it stopped.
 
+use crate::data::cases::Cases;
 use crate::data::clusters::Clusters;
 use crate::error::DiagnoseError;
 use crate::library::is_unlisted;
@@ -159,6 +160,17 @@ impl SelectionPath {
     /// Whether whoever watches ended it on the way.
     pub fn is_interrupted(&self) -> bool {
         self.stopped == Some(Stop::Interrupted)
+    }
+
+    /// The same, sizes of its models and of what it chose as they are without what the noise of the logged torque pulls at them.
+    pub fn without_torque_noise(mut self, cases: Cases<'_>) -> Result<Self, DiagnoseError> {
+        let chosen = self
+            .chosen
+            .map(|index| &mut self.ranking.candidates[index].fitted);
+        for fitted in self.rungs.iter_mut().chain(chosen) {
+            *fitted = fitted.without_torque_noise(cases)?;
+        }
+        Ok(self)
     }
 
     /// The last model.

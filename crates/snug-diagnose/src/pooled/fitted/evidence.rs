@@ -51,7 +51,10 @@ impl Fitted {
 }
 
 /// S_αα⁻¹ S_αβ of the first `own` parameters α, one row for each β.
-fn slopes_of_own(whole: &SymmetricMatrix, own: usize) -> Option<Vec<Vec<f64>>> {
+pub(in crate::pooled) fn slopes_of_own(
+    whole: &SymmetricMatrix,
+    own: usize,
+) -> Option<Vec<Vec<f64>>> {
     let mut of_own = SymmetricMatrix::zero(own);
     for i in 0..own {
         for j in 0..own {
@@ -66,7 +69,10 @@ fn slopes_of_own(whole: &SymmetricMatrix, own: usize) -> Option<Vec<Vec<f64>>> {
 }
 
 /// S_ββ − S_βα S_αα⁻¹ S_αβ.
-fn projected(whole: &SymmetricMatrix, slopes: &[Vec<f64>]) -> SymmetricMatrix {
+pub(in crate::pooled) fn projected(
+    whole: &SymmetricMatrix,
+    slopes: &[Vec<f64>],
+) -> SymmetricMatrix {
     let (count, own) = (slopes.len(), whole.size() - slopes.len());
     let mut left = SymmetricMatrix::zero(count);
     for (i, slope) in slopes.iter().enumerate() {
