@@ -3,13 +3,15 @@
 //! the right effects, the right groups, the floor, the intervals, false alarms and time.
 //!
 //! Only where `SNUG_PEOPLE` is set (`cargo xtask test --people`); a word in it picks those campaigns whose label has it, and
-//! `drawn:N` asks 24 campaigns that nobody chose: effect, form, people and strength are drawn from the number N.
+//! `drawn:N` asks 24 campaigns that nobody chose: effect, form, people and strength are drawn from the number N; `drawn:N:WORD` those of
+//! them whose label has the word.
 
 use crate::blind::{self, Campaign};
 use crate::people::plan;
 use snug_campaign::{Diagnosis, EffectParameter, Factor, Tightening, Verdict};
 use snug_diagnose::Goal;
 use snug_identify::FitTask;
+use snug_model::{Effect, Law};
 use snug_synthetic::{
     CampaignPlan, ChannelNames, FilePlan, HiddenEffect as Hidden, Joint, NoiseKind, Strategy,
     Truth, Whose,
@@ -84,6 +86,8 @@ fn others() -> Vec<Case> {
         of(Hidden::CoContraction, 1.0, some(&[3]), 26),
         of(Hidden::TorqueLag, 0.2, some(&[1, 2]), 27),
         of(Hidden::Backlash, 0.6, some(&[4]), 28),
+        of(Hidden::SecondMass, 1.1, some(&[2, 5]), 29),
+        of(Hidden::GripSlip, 0.9, some(&[3, 4]), 30),
         of(Hidden::CoulombFriction, 0.5, Whose::Joint(Joint::Hard), 31),
         of(Hidden::StretchReflex, 0.8, Whose::Joint(Joint::Soft), 32),
         of(Hidden::Backlash, 0.3, Whose::Joint(Joint::Hard), 33),
@@ -279,16 +283,18 @@ fn wrong_groups(
             continue;
         };
         let real = real(&campaign.truth, case.hidden, &member.tightening);
-        let real = real.map_or(0.0, |numbers| numbers[offset]);
+        let effect = Effect::named(case.hidden.name()).expect("the catalogue has it");
+        let vanishes_at = effect.description().parameters[offset].vanishes_at;
         let error = group.standard_error.unwrap_or(f64::INFINITY);
-        if group.present && real == 0.0 {
+        if group.present && real.is_none() {
             wrong.push(format!("{}: added", group.group));
         }
-        if !group.present && real.abs() > PLAIN * error {
+        if !group.present && real.is_some_and(|numbers| numbers[offset].abs() > PLAIN * error) {
             wrong.push(format!("{}: missed", group.group));
         }
+        let real = real.map_or(vanishes_at.unwrap_or(0.0), |numbers| numbers[offset]);
         let holds =
-            group.low.is_some_and(|low| low <= real) && group.high.is_some_and(|high| high >= real);
+            group.low.is_some_and(|low| low <= real) && group.high.is_none_or(|high| high >= real);
         if !holds {
             println!(
                 "    {} of {}: {real} not in {:?} {:?}",
@@ -380,8 +386,14 @@ fn whose_effect_it_is_is_found_in_nearly_all_campaigns() {
     let mut all = known();
     all.extend(others());
     all.extend(over_time());
-    match asked.strip_prefix("drawn:").and_then(|n| n.parse().ok()) {
-        Some(number) => all = drawn(number),
+    let drawn_from = |of: &str| -> Option<Vec<Case>> {
+        let (number, label) = of.split_once(':').unwrap_or((of, ""));
+        let mut all = drawn(number.parse().ok()?);
+        all.retain(|case| case.label().contains(label));
+        Some(all)
+    };
+    match asked.strip_prefix("drawn:").and_then(drawn_from) {
+        Some(drawn) => all = drawn,
         None => all.retain(|case| picked(&case.label())),
     }
     let mut counts = Counts::default();
@@ -406,8 +418,16 @@ fn whose_effect_it_is_is_found_in_nearly_all_campaigns() {
     let most = counts.campaigns.div_ceil(10);
     assert!(counts.right_groups + most >= counts.campaigns);
     assert!(counts.at_floor + most >= counts.campaigns);
+    // Between 90 and 98 of 100 should hold, within two standard errors of so few.
+    let held = |share: f64, side: f64| {
+        let error = (share * (1.0 - share) / intervals.max(1) as f64).sqrt();
+        share + side * 2.0 * error
+    };
     let share = inside as f64 / intervals.max(1) as f64;
-    assert!(intervals < 100 || (0.90..=0.98).contains(&share), "{share}");
+    assert!(
+        intervals < 50 || (held(0.90, -1.0)..=held(0.98, 1.0)).contains(&share),
+        "{share}"
+    );
 }
 
 /// Campaigns that hide nothing, of ordinary people and of very different ones.

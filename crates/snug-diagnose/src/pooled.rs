@@ -12,6 +12,7 @@ pub(crate) mod group_sizes;
 pub(crate) mod hold_out;
 pub(crate) mod long_record;
 pub(crate) mod model;
+mod nothing;
 pub(crate) mod one_machine;
 pub(crate) mod parameter_place;
 mod part;

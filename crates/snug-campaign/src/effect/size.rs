@@ -113,10 +113,18 @@ pub struct GroupSize {
     pub shrunk: f64,
     /// Lower end of its own 95 % interval.
     pub low: Option<f64>,
-    /// Upper end of its own 95 % interval.
+    /// Upper end of its own 95 % interval; `None` beside a lower one where it has none.
     pub high: Option<f64>,
-    /// Whether the effect is there: told from nothing, with one false discovery in twenty over the groups.
+    /// Whether the effect is there: told from nothing, with one false discovery in two hundred over the groups.
     pub present: bool,
+}
+
+impl GroupSize {
+    /// Whether its interval has no upper end: the larger such a size, as of a mass that hardly moves, the less there is of the effect, and
+    /// this may be nothing.
+    pub fn is_without_end(&self) -> bool {
+        self.low.is_some() && self.high.is_none()
+    }
 }
 
 /// How tightenings share the sizes of an effect: `shared`, `per tightening`, `per participant` and so on, or `before and from

@@ -3,7 +3,7 @@
 use crate::effect::size::{GroupSize, GroupSizes};
 use crate::words::effect_name::unit_text;
 use crate::words::grammar::joined;
-use crate::words::number::significant;
+use crate::words::group_size::Unless;
 use crate::words::over_time;
 
 /// Groups that are told one by one; of more the largest so many, and how many there are. Chosen.
@@ -53,9 +53,9 @@ fn nothing(without: &[&GroupSize], unit: &str) -> String {
         true => format!("none in the other {}", names.len()),
         false => format!("none in {}", joined(&names)),
     };
-    let most: Option<Vec<f64>> = without.iter().map(|one| one.at_most()).collect();
-    match most.and_then(|all| all.into_iter().reduce(f64::max)) {
-        Some(most) => format!("{who} (below {}\u{a0}{unit})", significant(most, 2)),
+    let all: Option<Vec<Unless>> = without.iter().map(|one| one.unless()).collect();
+    match all.and_then(|all| all.into_iter().reduce(Unless::or)) {
+        Some(unless) => format!("{who} ({})", unless.said(unit)),
         None => who,
     }
 }
@@ -133,6 +133,23 @@ mod tests {
         assert!(
             told.ends_with("and 12 more, less each; none in the other 180 (below 0.50\u{a0}N)"),
             "{told}"
+        );
+    }
+
+    #[test]
+    fn of_a_mass_that_hardly_moves_it_is_said_above_which_it_would_be() {
+        let without_end = |name: &str, low: f64| GroupSize {
+            high: None,
+            ..group(name, (low, 1e6, 1e6), false)
+        };
+        let all = vec![
+            group("TP1", (1.41, 1.463, 1.52), true),
+            without_end("TP2", 12.4),
+            without_end("TP3", 33.0),
+        ];
+        assert_eq!(
+            sizes(all).sentence("kg"),
+            "1 of 3 participants: TP1 1.463\u{a0}kg; none in TP2 and TP3 (above 12\u{a0}kg)"
         );
     }
 }

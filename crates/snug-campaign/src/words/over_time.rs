@@ -2,7 +2,6 @@
 
 use crate::effect::size::{ChangePoint, GroupSize, GroupSizes};
 use crate::tightening::factor::Factor;
-use crate::words::number::significant;
 
 /// What is said of sizes that differ by time: `from number 13 on (it may be 12 to 15) 4.1 N, none before (below 0.3 N)`; `None` of
 /// other groups.
@@ -50,8 +49,8 @@ fn between(change: Option<&ChangePoint>) -> String {
 }
 
 fn none(of: &GroupSize, unit: &str) -> String {
-    match of.at_most() {
-        Some(most) => format!("none (below {}\u{a0}{unit})", significant(most, 2)),
+    match of.unless() {
+        Some(unless) => format!("none ({})", unless.said(unit)),
         None => "none".to_owned(),
     }
 }

@@ -1,6 +1,6 @@
 //! The size of an effect: value, interval, unit, and what is remarkable about it.
 
-use crate::effect::size::{EffectParameter, GroupSizes};
+use crate::effect::size::{EffectParameter, GroupSize, GroupSizes};
 use crate::identification::interval::Interval;
 use crate::words::effect_name::unit_text;
 use crate::words::number::{rounded, short, significant};
@@ -50,11 +50,15 @@ impl EffectParameter {
             value: shown.value,
             interval: shown.interval,
             own: match &self.by_group {
-                Some(sizes) => Some(format!(
-                    "on average{}; {}",
-                    self.spread_over(sizes),
-                    sizes.sentence(&self.unit)
-                )),
+                Some(sizes) => {
+                    let of_some = sizes.groups.iter().any(GroupSize::is_without_end);
+                    Some(format!(
+                        "on average{}{}; {}",
+                        if of_some { " where it is there" } else { "" },
+                        self.spread_over(sizes),
+                        sizes.sentence(&self.unit)
+                    ))
+                }
                 None => self.per_tightening.then(|| {
                     "on average".to_owned() + &self.spread.map_or_else(String::new, spread)
                 }),

@@ -6,6 +6,7 @@
 //! clusters), and t = size/√V is Student's with n − p degrees of freedom where there is nothing of it, whatever the noise.
 
 use crate::pooled::fitted::Fitted;
+use crate::pooled::nothing::Nothing;
 use crate::pooled::parameter_place::effect_of;
 use crate::pooled::thresholds::FEWEST_OF_GROUP;
 use snug_least_squares::matrix::{SymmetricMatrix, inner_product as dot};
@@ -22,8 +23,9 @@ impl Fitted {
             .filter(|(_, size)| size.level.is_some())
             .filter_map(|(place, size)| {
                 let (of, offset) = effect_of(&self.effects, size.index)?;
-                let nothing = (of == effect).then(|| specs[offset].vanishes_at)??;
-                self.chance_of_group(place, effect, self.shared[place] - nothing)
+                let spec = (of == effect).then(|| &specs[offset])?;
+                let nothing = Nothing::of(Some(spec.vanishes_at?), spec.limits);
+                self.chance_of_group(place, effect, nothing.distance(self.shared[place]))
             })
             .collect();
         let smallest = chances.iter().copied().reduce(f64::min)?;

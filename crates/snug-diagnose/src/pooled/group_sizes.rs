@@ -4,6 +4,7 @@
 use crate::data::clusters::student;
 use crate::pooled::change_point::change_point;
 use crate::pooled::fitted::Fitted;
+use crate::pooled::nothing::Nothing;
 use crate::pooled::sharing::Groups;
 use crate::pooled::thresholds::FALSE_DISCOVERIES;
 use snug_campaign::{ChangePoint, EffectParameter, GroupSize, GroupSizes};
@@ -18,8 +19,7 @@ pub(crate) struct OfGroups {
     groups: Groups,
     values: Vec<f64>,
     errors: Option<Vec<f64>>,
-    /// Where there is nothing of it, as far as that is known.
-    nothing: Option<f64>,
+    nothing: Nothing,
     limits: (f64, f64),
     quantile: f64,
     change: Option<ChangePoint>,
@@ -50,7 +50,10 @@ pub(crate) fn of(
         groups,
         values: places.iter().map(|&place| fitted.shared[place]).collect(),
         errors: fitted.group_errors(&places),
-        nothing: effect.description().parameters[offset].vanishes_at,
+        nothing: Nothing::of(
+            effect.description().parameters[offset].vanishes_at,
+            (parameter.minimum, parameter.maximum),
+        ),
         limits: (parameter.minimum, parameter.maximum),
         quantile: student(fitted.blocks.len()),
         change,
@@ -60,10 +63,15 @@ pub(crate) fn of(
 impl OfGroups {
     /// Says it of the parameter: mean and its interval, spread, and every group.
     pub fn tell(&self, size: &mut EffectParameter) {
-        let count = self.values.len() as f64;
-        size.value = self.values.iter().sum::<f64>() / count;
-        let variances: Option<Vec<f64>> =
-            (self.errors.as_ref()).map(|errors| errors.iter().map(|error| error * error).collect());
+        let present = self.present();
+        let among = self.among(&present);
+        let of_those =
+            |all: &[f64]| -> Vec<f64> { among.iter().map(|&group| all[group]).collect() };
+        let values = of_those(&self.values);
+        let count = values.len() as f64;
+        size.value = values.iter().sum::<f64>() / count;
+        let variances: Option<Vec<f64>> = (self.errors.as_ref())
+            .map(|errors| of_those(errors).iter().map(|error| error * error).collect());
         let mut shrunk = self.values.clone();
         if !self.groups.factor.is_sample() {
             // Conditions are all there are: their mean is as well known as they are.
@@ -72,32 +80,27 @@ impl OfGroups {
             size.standard_error = error;
             size.low = reach.map(|reach| (size.value - reach).max(self.limits.0));
             size.high = reach.map(|reach| (size.value + reach).min(self.limits.1));
-        } else if let Some(all) =
-            variances.and_then(|known| random_effects(&self.values, &known).ok())
-        {
+        } else if let Some(all) = variances.and_then(|known| random_effects(&values, &known).ok()) {
             size.value = all.mean;
             size.standard_error = Some(all.standard_error);
             size.low = Some(all.interval.low.max(self.limits.0));
             size.high = Some(all.interval.high.min(self.limits.1));
             size.spread = Some(all.spread);
-            shrunk = all.shrunk;
+            for (&group, one) in among.iter().zip(all.shrunk) {
+                shrunk[group] = one;
+            }
         }
-        let present = self.present();
         let members = self.groups.members();
         let group = |group: usize| {
-            let error = self
-                .errors
-                .as_ref()
-                .map(|errors| self.quantile * errors[group]);
-            let value = self.values[group];
+            let (low, high) = self.interval(group);
             GroupSize {
                 group: self.groups.levels[group].name.clone(),
                 tightenings: members[group].len(),
-                value,
+                value: self.values[group],
                 standard_error: self.errors.as_ref().map(|errors| errors[group]),
                 shrunk: shrunk[group],
-                low: error.map(|error| (value - error).max(self.limits.0)),
-                high: error.map(|error| (value + error).min(self.limits.1)),
+                low,
+                high,
                 present: present[group],
             }
         };
@@ -108,7 +111,33 @@ impl OfGroups {
         });
     }
 
-    /// Which groups have it: further from nothing than chance, by the false-discovery rate over groups.
+    /// The groups whose mean is told: all, but of a size without end where there is nothing of it those that have it, if any has.
+    fn among(&self, present: &[bool]) -> Vec<usize> {
+        let all = 0..self.values.len();
+        match self.nothing {
+            Nothing::Beyond if present.contains(&true) => all.filter(|&one| present[one]).collect(),
+            _ => all.collect(),
+        }
+    }
+
+    /// The ends of a group's interval, as far as it has any.
+    fn interval(&self, group: usize) -> (Option<f64>, Option<f64>) {
+        let Some(errors) = &self.errors else {
+            return (None, None);
+        };
+        let (least, most) = self.limits;
+        let reach = self.quantile * errors[group];
+        let (low, high) = self.nothing.interval(self.values[group], reach);
+        let high = match self.nothing {
+            // What may reach as far as it may go may be nothing.
+            Nothing::Beyond => high.filter(|high| *high < most),
+            Nothing::At(_) => high.map(|high| high.min(most)),
+        };
+        (Some(low.max(least)), high)
+    }
+
+    /// Which groups have it: further from nothing than chance, by the false-discovery rate over groups, and where it is the less the larger,
+    /// with an upper end.
     fn present(&self) -> Vec<bool> {
         let normal = Normal::standard();
         let p = |(group, &value): (usize, &f64)| {
@@ -116,13 +145,9 @@ impl OfGroups {
                 .errors
                 .as_ref()
                 .map_or(f64::INFINITY, |errors| errors[group]);
-            let nothing = self
-                .nothing
-                .unwrap_or(0.0)
-                .clamp(self.limits.0, self.limits.1);
-            let away = (value - nothing).abs();
+            let away = self.nothing.distance(value).abs();
             // A size that may lie on one side of nothing only is tested on that side.
-            let sides = match nothing <= self.limits.0 || nothing >= self.limits.1 {
+            let sides = match self.nothing.is_an_end_of(self.limits) {
                 true => 1.0,
                 false => 2.0,
             };
@@ -133,9 +158,10 @@ impl OfGroups {
         };
         let all: Vec<f64> = self.values.iter().enumerate().map(p).collect();
         let adjusted = benjamini_hochberg(&all).unwrap_or(all);
-        adjusted
-            .into_iter()
-            .map(|p| p <= FALSE_DISCOVERIES)
+        let may_be_without_end =
+            |group: usize| self.nothing == Nothing::Beyond && self.interval(group).1.is_none();
+        (adjusted.into_iter().enumerate())
+            .map(|(group, p)| p <= FALSE_DISCOVERIES && !may_be_without_end(group))
             .collect()
     }
 }

@@ -5,6 +5,7 @@ use crate::pooled::sharing::Groups;
 use crate::pooled::thresholds::AT_FLOOR;
 use crate::ranking::by_time::changes;
 use crate::ranking::thresholds::{BEYOND_QUIET_ONES, BEYOND_THE_QUIET, FEWEST_WHERE_IT_SHOWS};
+use snug_campaign::Factor;
 use snug_identify::FitTask;
 use snug_statistics::descriptive::{median, standard_deviation};
 
@@ -34,7 +35,8 @@ impl Shows {
 }
 
 /// The groups of the condition that best parts what `current` fits badly from what it fits to the noise, those in the fewest
-/// tightenings; then the parts of time that do.
+/// tightenings; then the files and the parts of time that do. Of a condition's files some may show it hardly, so that those that
+/// do are fewer and yet not all.
 pub(super) fn where_it_shows(
     cases: &[FitTask<'_>],
     current: &Fitted,
@@ -47,13 +49,19 @@ pub(super) fn where_it_shows(
         all.into_iter()
             .min_by_key(|shows| (shows.members.len(), shows.groups.levels.len()))
     };
-    let conditions = groupings.iter().filter_map(|one| parts(current, one));
-    let of_condition = fewest(conditions.collect());
+    let (files, conditions): (Vec<&Groups>, Vec<&Groups>) =
+        (groupings.iter()).partition(|groups| groups.factor == Factor::File);
+    let parting = |all: Vec<&Groups>| {
+        let parting = all.into_iter().filter_map(|one| parts(current, one));
+        fewest(parting.collect())
+    };
+    let (of_condition, of_files) = (parting(conditions), parting(files));
     let times = changes(cases).into_iter().flatten();
     let times = times.filter_map(|groups| parts_in_time(current, groups));
     let of_time = times.min_by_key(|(wrong, shows)| (*wrong, shows.members.len()));
     let of_time = of_time.map(|(_, shows)| shows);
-    of_condition.into_iter().chain(of_time).collect()
+    let found = of_condition.into_iter().chain(of_files).chain(of_time);
+    found.collect()
 }
 
 /// The side of a change on which `current` leaves more than chance does where the other is left at the noise, and how many
@@ -139,7 +147,6 @@ fn usual_spread(current: &Fitted, groups: &[Vec<usize>]) -> Option<f64> {
 mod tests {
     use super::*;
     use crate::tests::made_up::exact;
-    use snug_campaign::Factor;
 
     /// Twelve tightenings of three people under two joints that leave these mean squares.
     fn of(left: impl Fn(usize, usize) -> f64) -> Option<Shows> {

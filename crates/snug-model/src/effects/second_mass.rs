@@ -40,7 +40,7 @@ impl Law for SecondMass {
                     starts: &[2.0, 0.7, 6.0],
                     minimum: 0.2,
                     maximum: 20.0,
-                    limits: (0.05, 100.0),
+                    limits: (0.05, 1e6),
                     vanishes_at: Some(1e12),
                     scope: Scope::Shared,
                 },

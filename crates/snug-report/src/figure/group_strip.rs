@@ -30,17 +30,17 @@ fn strip(parameter: &EffectParameter, sizes: &GroupSizes) -> Markup {
     }
     let unit = unit_text(&parameter.unit);
     let ends = drawn.iter().flat_map(|one| {
-        [
-            one.low.unwrap_or(one.value),
-            one.high.unwrap_or(one.value),
-            0.0,
-        ]
+        let low = one.low.unwrap_or(one.value);
+        match one.is_without_end() {
+            true => [low, low, 0.0],
+            false => [low, one.high.unwrap_or(one.value), 0.0],
+        }
     });
     let (low, high) = linear_range(ends, 0.05);
     let bottom = 0.5 - drawn.len() as f64;
     let mut marks = vec![Mark::rule("c-zero", (0.0, 0.0), (0.5, bottom))];
-    marks.extend(rows_of("c-quiet", &drawn, false, &unit));
-    marks.extend(rows_of("c-selected", &drawn, true, &unit));
+    marks.extend(rows_of("c-quiet", &drawn, false, &unit, high));
+    marks.extend(rows_of("c-selected", &drawn, true, &unit, high));
     let name = parameter.size().name;
     let rows: Vec<(String, bool)> = drawn.iter().map(|one| (one.group.clone(), false)).collect();
     let label = match unit.as_str() {
@@ -86,20 +86,28 @@ fn who(sizes: &GroupSizes) -> String {
     }
 }
 
-/// Whiskers and dots of the groups that have it, or of those that have not.
-fn rows_of(class: &'static str, drawn: &[&GroupSize], present: bool, unit: &str) -> [Mark; 2] {
+/// Whiskers and dots of the groups that have it, or of those that have not; of what may be without end a whisker to the axis' end.
+fn rows_of(
+    class: &'static str,
+    drawn: &[&GroupSize],
+    present: bool,
+    unit: &str,
+    end: f64,
+) -> [Mark; 2] {
     let chosen = || {
         let rows = drawn.iter().enumerate();
         rows.filter(move |(_, one)| one.present == present)
             .map(|(row, one)| (-(row as f64), one))
     };
     let segments = chosen().filter_map(|(y, one)| {
+        let high = if one.is_without_end() { end } else { one.high? };
         Some(Segment {
-            x: (one.low?, one.high?),
+            x: (one.low?, high),
             y: (y, y),
         })
     });
-    let dots = chosen().map(|(y, one)| Dot {
+    let ended = chosen().filter(|(_, one)| !one.is_without_end());
+    let dots = ended.map(|(y, one)| Dot {
         x: one.value,
         y,
         title: format!(
