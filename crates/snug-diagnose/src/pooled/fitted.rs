@@ -239,9 +239,11 @@ impl Fitted {
         self.is_weighted && self.error() < AT_FLOOR
     }
 
-    /// Whether it leaves no more than the noise and a little.
+    /// Whether it leaves no more than the noise, the torque's as well, and a little.
     pub fn is_noise(&self) -> bool {
-        self.is_weighted && self.scale() < NOISE_AND_A_LITTLE
+        let of_torque: f64 = self.torque_noise.iter().sum();
+        let beyond = (self.squares() - of_torque) / self.count().max(1) as f64;
+        self.is_weighted && beyond < NOISE_AND_A_LITTLE
     }
 
     /// Smallest share of the squared residual that an effect must remove to matter beside this model.

@@ -17,8 +17,8 @@ pub(crate) const AT_FLOOR: f64 = 1.02;
 /// which they are not of one machine in one state \[–\]. Chosen: four tests of a motor that lacks friction leave 0.86, torque steps of
 /// a rig that turns harder one way than the other 0.36.
 pub(crate) const ONE_MACHINE: f64 = 0.6;
-/// Mean squared residual, in units of the noise's variance, that is the noise and a little: half as much beyond the noise as
-/// `AT_FLOOR`, which is of the root mean square. Chosen.
+/// Mean squared residual, without what the torque's noise makes of it and in units of the noise's variance, that is the noise and a
+/// little: half as much beyond the noise as `AT_FLOOR`, which is of the root mean square. Chosen.
 pub(crate) const NOISE_AND_A_LITTLE: f64 = 1.02;
 /// Samples of all records together up to which they are soon simulated. Chosen.
 pub(crate) const SOON: usize = 30_000;
