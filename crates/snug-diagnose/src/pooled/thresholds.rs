@@ -67,3 +67,6 @@ pub(crate) const FALLS_SHORT: f64 = 4.0;
 pub(crate) const ONE_WITH_FRICTION: f64 = ONE_MACHINE;
 /// Tightenings of a group from which they are asked whether they agree on a size. Chosen: of three an accident may be alike.
 pub(crate) const FEWEST_OF_GROUP: usize = 4;
+/// Share of what is known of a size (1/variance) that is left without the noise of the torque, from which it is told without it \[–\].
+/// Chosen: half is left of a lag of the accelerometer, nothing of a gap.
+pub(crate) const STILL_KNOWN: f64 = 0.2;

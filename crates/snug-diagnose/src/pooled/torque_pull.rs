@@ -15,6 +15,7 @@ use crate::pooled::between::once;
 use crate::pooled::fitted::evidence::{projected, slopes_of_own};
 use crate::pooled::fitted::{Fitted, add_in};
 use crate::pooled::model::{PooledModel, Room};
+use crate::pooled::thresholds::STILL_KNOWN;
 use crate::pooled::torque_noise::{noisy, passed_on};
 use snug_least_squares::matrix::{SymmetricMatrix, inner_product as dot};
 use snug_model::Input;
@@ -31,7 +32,7 @@ struct Quiet {
 
 impl Fitted {
     /// The fit with its sizes where they are least without the torque's noise, and with intervals as wide as what is then known of them; as it
-    /// is where the noise of the residual or the torque is not known, of long records, and where nothing is shared.
+    /// is where hardly anything is, where the noise of the residual or the torque is not known, of long records, and where nothing is shared.
     ///
     /// # Errors
     /// What the model refuses.
@@ -52,6 +53,9 @@ impl Fitted {
                 pull[place] += value;
             }
             add_in(&mut curvature, &one.curvature, places);
+        }
+        if !is_still_known(&self.shared_curvature(), &curvature) {
+            return Ok(without);
         }
         let Some(step) = curvature.solve_scaled(&pull) else {
             return Ok(without);
@@ -101,6 +105,18 @@ impl Fitted {
             .collect();
         self.torque_noise = passed_on(pooled, &values, &self.clusters);
     }
+}
+
+/// Whether every size that the tightenings know with the noise is known well enough without it. Where an instant of contact moves with
+/// the noise, its derivative is no small change.
+fn is_still_known(with: &SymmetricMatrix, without: &SymmetricMatrix) -> bool {
+    let (Some(known), Some(left)) = (with.inverse(), without.inverse()) else {
+        return false;
+    };
+    (0..with.size()).all(|place| {
+        let (before, after) = (known.at(place, place), left.at(place, place));
+        before <= 0.0 || (after > 0.0 && before > STILL_KNOWN * after)
+    })
 }
 
 /// Of every tightening; `None` where one knows nothing of a parameter of its own.

@@ -9,7 +9,7 @@ use crate::pooled::sharing::Groups;
 use crate::ranking::by_time;
 use crate::ranking::paired_gain::{clearness, gains};
 use crate::ranking::score_of_groups::{Promise, promise};
-use crate::ranking::thresholds::{CANDIDATE, CLEARLY, GROUPINGS_TRIED};
+use crate::ranking::thresholds::{CANDIDATE, CLEARLY, GROUPINGS_TRIED, LIKELIER};
 use crate::settings::DiagnoseSettings;
 use snug_campaign::Factor;
 use snug_model::Effect;
@@ -17,8 +17,8 @@ use snug_model::Effect;
 /// The fit with the sizes of `effect` by group, by the factor that explains most, where that plainly explains more in
 /// tightenings that took no part than one size for all; `family` is how many effects are asked.
 ///
-/// Of conditions that explain as much the one with fewest groups is taken; a part of the campaign's time only where it plainly explains
-/// more than any condition, and single files only where they plainly explain more than that.
+/// Of conditions that explain as much the one with fewest groups is taken; a part of the campaign's time only where it is far likelier
+/// than any condition, and single files only where they plainly explain more than that.
 pub(crate) fn by_group(
     cases: Cases<'_>,
     fitted: &Fitted,
@@ -46,7 +46,13 @@ pub(crate) fn by_group(
             continue;
         };
         let several = Fitted::new(&pooled, end, &clusters);
-        if explains_more(best.as_ref().unwrap_or(fitted), &several, least) {
+        let is_better = match &best {
+            Some(by_condition) if promise.groups.factor.is_of_time() && several.is_weighted => {
+                is_likelier(by_condition, &several, cases.len())
+            }
+            best => explains_more(best.as_ref().unwrap_or(fitted), &several, least),
+        };
+        if is_better {
             best = Some(several);
         }
     }
@@ -102,6 +108,15 @@ fn promises(
     by_condition
         .chain(by_time::promises(&cases, fitted, &places))
         .collect()
+}
+
+/// Whether a change at one of so many places is likelier than groups of a condition: by squared residuals over the noise, two for each
+/// size more and twice the logarithm of the places (Akaike). A condition that is off by a few tightenings is wrong in these alone, which
+/// a mean over all of them does not show.
+fn is_likelier(by_condition: &Fitted, of_time: &Fitted, places: usize) -> bool {
+    let noise = of_time.scale().max(1.0);
+    let cost = |fitted: &Fitted| fitted.squares() / noise + 2.0 * fitted.shared.len() as f64;
+    cost(by_condition) - cost(of_time) - 2.0 * (places as f64).ln() > LIKELIER
 }
 
 /// Whether `several` explains plainly more than `one` in tightenings that took no part.

@@ -42,6 +42,9 @@ pub(crate) const FEWEST_WHERE_IT_SHOWS: usize = 4;
 pub(crate) const BEST_BY_GROUP: usize = 6;
 /// Standard deviations of the held-out gain from which sizes are said to differ: about 95 %.
 pub(crate) const CLEARLY: f64 = 2.0;
+/// Squared residual over the noise by which a change in time must beat groups of a condition: χ² of one degree of freedom, chance one
+/// in a thousand.
+pub(crate) const LIKELIER: f64 = 10.83;
 /// Sign flips behind a p in the negative control: a p of 0.05 is then the tenth of 200. Chosen.
 pub(crate) const CONTROL_FLIPS: usize = 199;
 /// Samples on either side over which the torque is averaged for the signatures. Chosen.
