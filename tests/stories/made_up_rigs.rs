@@ -436,3 +436,32 @@ fn a_fan_that_runs_already_lacks_what_air_and_bearing_do() {
     let left = diagnosis.ladder.last().unwrap().rms_fitted_output;
     assert!(left < 1.1 * NOISE, "{left}: {}", diagnosis.headline);
 }
+
+/// A drive that rests at first, and a tachometer that reads 2 rad/s too much: nothing begins in motion.
+#[test]
+fn a_tachometer_that_reads_too_much_at_rest_is_no_motion() {
+    let mut noise = Noise(17);
+    let mut recording = || {
+        let mut inputs = noise.levels([0.1, 1.0], 250, 2500);
+        inputs[..300].fill(0.0);
+        let rate = |[w]: [f64; 1], u: f64| [(u - 0.02 * w) / 0.01];
+        let speeds: Vec<f64> = moved(&inputs, 4, rate).map(|[w]| w + 2.0).collect();
+        noise.with(&inputs, speeds.into_iter(), 0.01)
+    };
+    let rig = Rig {
+        recordings: (0..3).map(|_| recording()).collect(),
+        declared: [TORQUE, "Velocity", "RadianPerSecond"],
+        fitted: "Velocity",
+    };
+    let diagnosis = rig.told(&Verb::Diagnose);
+    let said: Vec<String> = diagnosis.reasons.iter().map(ToString::to_string).collect();
+    assert!(
+        !said.iter().any(|one| one.contains("begin in motion")),
+        "{said:?}"
+    );
+    let best = &diagnosis.ranking[0];
+    assert_eq!(best.effect, "output_offset", "{}", diagnosis.headline);
+    let offset = &best.parameters[0];
+    assert!((offset.value - 2.0).abs() < 0.02, "{offset:?}");
+    assert_eq!(offset.unit, "rad/s");
+}

@@ -2,6 +2,7 @@
 
 mod contradiction;
 pub(crate) mod decimated;
+mod in_motion;
 
 use crate::error::IdentifyError;
 use crate::residual::restarts::motions_at;

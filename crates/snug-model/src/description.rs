@@ -67,6 +67,9 @@ pub enum Scope {
     PerTightening,
 }
 
+/// Unit of a parameter that is added to the fitted output, whichever that is: rad, rad/s or rad/s².
+pub const OUTPUT_UNIT: &str = "output unit";
+
 /// One parameter of an effect; its numbers are in its unit.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct ParameterSpec {

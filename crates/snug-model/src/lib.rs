@@ -27,7 +27,7 @@ pub use base_model::oscillation::{
 pub use base_model::sweep::{ScoredRecord, Sweep};
 pub use custom::law::CustomEffect;
 pub use custom::settings::{CustomEffectSettings, CustomParameterSettings, Place};
-pub use description::{ActsOn, Description, Kind, OnMachine, ParameterSpec, Scope};
+pub use description::{ActsOn, Description, Kind, OUTPUT_UNIT, OnMachine, ParameterSpec, Scope};
 #[doc(inline)]
 pub use effects::{Effect, TRENDS};
 pub use error::ModelError;

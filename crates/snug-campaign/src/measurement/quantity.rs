@@ -25,4 +25,13 @@ impl Quantity {
             Self::Acceleration => "acceleration",
         }
     }
+
+    /// Its unit as people write it.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::Displacement => "rad",
+            Self::Velocity => "rad/s",
+            Self::Acceleration => "rad/s^2",
+        }
+    }
 }

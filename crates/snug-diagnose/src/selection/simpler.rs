@@ -13,7 +13,7 @@ use crate::ranking::kin::{are_kin, is_simpler};
 use crate::ranking::rank::{Candidate, rank};
 use crate::selection::model_selection::ModelSelection;
 use crate::selection::path::{Addition, SelectionPath};
-use crate::selection::thresholds::{MOST_OF_RICHER, NEARLY_AS_MUCH};
+use crate::selection::thresholds::{MANY_TIMES, MOST_OF_RICHER, NEARLY_AS_MUCH};
 use snug_model::{Effect, Law};
 
 /// Whether the model `simple` does for `rich` where the noise is not known: what it leaves more is a small share of what `before` left,
@@ -26,13 +26,15 @@ fn does_for(simple: &Fitted, rich: &Fitted, before: &Fitted) -> bool {
 
 impl Candidate {
     /// Whether it does for `rich` beside the model `before`. What is known does for a law that nobody knows, and what all recordings
-    /// share for what each has of its own, where it explains most of what that does: the other may come in beside it.
+    /// share for what each has of its own, where it explains most of what that does: the other may come in beside it. Not where that
+    /// leaves next to nothing beside what this does.
     pub fn does_for(&self, rich: &Self, before: &Fitted) -> bool {
         let fall = |one: &Self| before.squares() - one.fitted.squares();
         let is_open = before.are_stretches() && !before.is_weighted;
         let may_wait = is_open && (rich.is_less_known_than(self) || rich.has_more_own_than(self));
-        let explains_most = may_wait && fall(self) >= MOST_OF_RICHER * fall(rich);
-        explains_most || does_for(&self.fitted, &rich.fitted, before)
+        let explains_most = fall(self) >= MOST_OF_RICHER * fall(rich)
+            && self.fitted.squares() <= MANY_TIMES * rich.fitted.squares();
+        (may_wait && explains_most) || does_for(&self.fitted, &rich.fitted, before)
     }
 
     /// Whether it needs more to say than `other`: more numbers for what is easily taken for it, numbers of its own for each recording,
@@ -188,6 +190,9 @@ mod tests {
         assert!(zeros.is_richer_than(&offset(20.0)) && !offset(20.0).is_richer_than(&zeros));
         assert!(offset(20.0).does_for(&zeros, &before));
         assert!(!offset(40.0).does_for(&zeros, &before));
+        zeros.fitted = leaves(0.05).with_own(&["y0"], vec![vec![1.0]; 8], 1);
+        assert!(!offset(11.0).does_for(&zeros, &before), "220 times as much");
+        assert!(offset(4.0).does_for(&zeros, &before), "80 times");
         assert_eq!((zeros.number_count(), offset(20.0).number_count()), (8, 1));
     }
 }

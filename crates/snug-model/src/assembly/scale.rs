@@ -161,6 +161,7 @@ impl Scale {
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
+    use crate::description::OUTPUT_UNIT;
     use crate::effects::Effect;
     use crate::law::Law;
 
@@ -218,7 +219,7 @@ mod tests {
     fn every_unit_of_the_catalogue_can_be_read() {
         for effect in Effect::ALL {
             for spec in effect.description().parameters {
-                let known = SCALE.factor(spec.unit, 1.0).is_some() || spec.unit == "output unit";
+                let known = SCALE.factor(spec.unit, 1.0).is_some() || spec.unit == OUTPUT_UNIT;
                 assert!(
                     known,
                     "{}: nobody knows the unit `{}`; write it in N, Nm, m, rad, s, Hz, kg and 1, or add its symbol to `Scale::factor`",

@@ -7,7 +7,9 @@
 //!
 //! Source: sensor zero of the output channel.
 
-use crate::description::{ActsOn, Description, Kind, OnMachine, ParameterSpec, Scope, state};
+use crate::description::{
+    ActsOn, Description, Kind, OUTPUT_UNIT, OnMachine, ParameterSpec, Scope, state,
+};
 use crate::law::{Kinematics, Law};
 use crate::numeric::number::Number;
 use snug_campaign::Quantity;
@@ -30,7 +32,7 @@ impl Law for OutputOffset {
             parameters: &[ParameterSpec {
                 name: "y0",
                 meaning: "offset",
-                unit: "output unit",
+                unit: OUTPUT_UNIT,
                 starts: &[0.0],
                 minimum: -10.0,
                 maximum: 10.0,

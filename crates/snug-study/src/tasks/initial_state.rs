@@ -3,7 +3,6 @@
 
 use crate::study::Study;
 use crate::tasks::cases::with_settled;
-use snug_campaign::Quantity;
 use snug_identify::{FitTask, SpectralStart};
 use snug_model::{Effect, ParameterSettings};
 use std::f64::consts::TAU;
@@ -11,10 +10,6 @@ use std::f64::consts::TAU;
 /// The effect that says how a recording begins, and its angle.
 const BEGINS: Effect = Effect::InitialMotion;
 const ANGLE: &str = "theta0_rad";
-/// Speed at the first sample, over its root mean square in the recording, from which it begins in motion \[–\]. Chosen.
-const IN_MOTION: f64 = 0.1;
-/// The same over the white noise of single samples \[–\]: five hardly ever come by chance.
-const BEYOND_NOISE: f64 = 5.0;
 
 /// The study with every recording beginning as it moves then, and its recordings; `None` where the speed is not measured, none of them
 /// is in motion, or the model cannot be simulated so.
@@ -27,6 +22,8 @@ pub(super) fn moving<'a>(
     start: Option<&SpectralStart>,
 ) -> Option<(Study, Vec<FitTask<'a>>)> {
     let is_told = |name: &String| name == BEGINS.name();
+    let base = start.map(|start| start.values);
+    let begins_moving = |case: &FitTask<'_>| case.begins_in_motion(base);
     if study.model.effects.iter().any(is_told) || !cases.iter().any(begins_moving) {
         return None;
     }
@@ -43,23 +40,6 @@ pub(super) fn moving<'a>(
     }
     let cases = with_settled(&study, cases.iter().map(FitTask::lent).collect()).ok()?;
     cases.iter().all(can_be_simulated).then_some((study, cases))
-}
-
-/// Whether the speed at the first sample is no noise, and no little of what it is elsewhere.
-fn begins_moving(case: &FitTask<'_>) -> bool {
-    let speeds = case.measured();
-    let Some(first) = speeds
-        .first()
-        .filter(|_| case.quantity() == Quantity::Velocity)
-    else {
-        return false;
-    };
-    let rms = |squares: f64| (squares / speeds.len() as f64).sqrt();
-    let usual = rms(speeds.iter().map(|speed| speed * speed).sum());
-    let bends = speeds.windows(3).map(|at| at[0] - 2.0 * at[1] + at[2]);
-    // Of white noise that has the sixfold variance.
-    let noise = rms(bends.map(|bend| bend * bend / 6.0).sum());
-    first.abs() > (IN_MOTION * usual).max(BEYOND_NOISE * noise)
 }
 
 /// Whether the mass swings on the spring within the longest of the recordings.
