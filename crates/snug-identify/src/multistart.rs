@@ -7,6 +7,5 @@ pub(crate) mod early_stopping;
 pub(crate) mod integral_start;
 pub(crate) mod multiple_shooting;
 pub(crate) mod search;
-pub(crate) mod smoothing;
 pub(crate) mod spectral_start;
 pub(crate) mod thresholds;

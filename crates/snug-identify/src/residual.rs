@@ -1,7 +1,8 @@
-//! A tightening's residual: restarts, simulation, whitening, agreement.
+//! A tightening's residual: restarts, simulation, whitening, smoothing, agreement.
 
 pub mod agreement;
 pub(crate) mod restarts;
+pub(crate) mod smoothing;
 pub(crate) mod thresholds;
 pub(crate) mod tightening;
 pub(crate) mod whitening;

@@ -2,7 +2,7 @@
 
 use crate::batch::SimulationRequest;
 use crate::error::IdentifyError;
-use crate::multistart::smoothing::smooth;
+use crate::residual::smoothing::smooth;
 use crate::residual::whitening::Whitening;
 use snug_campaign::Quantity;
 use snug_least_squares::{EvaluationError, Residual};
