@@ -5,7 +5,6 @@ pub(crate) mod acting_torque;
 pub(crate) mod along_motion;
 pub(crate) mod history;
 pub(crate) mod hook_set;
-pub(crate) mod inputs;
 pub(crate) mod model;
 pub(crate) mod plant;
 pub(crate) mod record;

@@ -4,9 +4,9 @@
 //! z″ + b3 z′ + b2 z = g, gives every sensitivity: ∂θ/∂K = −b1² z, ∂θ/∂C = −b1² z′, ∂θ/∂I = −b1² z″. So four states carry
 //! the response and all three derivatives; higher derivatives follow from the two equations themselves.
 
+use crate::assembly::inputs::SimulationInputs;
 use crate::numeric::matrix_exponential::exponential;
 use crate::numeric::number::Real;
-use crate::simulate::inputs::SimulationInputs;
 
 /// The base model in the form the recursion uses.
 #[derive(Debug, Clone, Copy)]

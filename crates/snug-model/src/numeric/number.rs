@@ -254,10 +254,11 @@ impl Number for f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::numeric::dual::Dual;
 
     #[test]
     fn functions_have_the_slopes_of_calculus() {
-        type Function = fn(crate::Dual<1>) -> crate::Dual<1>;
+        type Function = fn(Dual<1>) -> Dual<1>;
         let cases: [(Function, f64); 5] = [
             (Number::sqrt, 0.5 / 0.3_f64.sqrt()),
             (Number::exp, 0.3_f64.exp()),
@@ -266,7 +267,7 @@ mod tests {
             (Number::smooth_step, 6.0 * 0.3 * 0.7),
         ];
         for (index, (function, slope)) in cases.into_iter().enumerate() {
-            let found = function(crate::Dual::parameter(0.3, 0)).partials[0];
+            let found = function(Dual::parameter(0.3, 0)).partials[0];
             assert!((found - slope).abs() < 1e-14, "function {index}: {found}");
         }
     }

@@ -1,10 +1,10 @@
 //! From the torque that is logged to the one that acts on the joint: delay, lag, offset, and what effects add.
 
+use crate::assembly::inputs::SimulationInputs;
 use crate::assembly::layout::Part;
 use crate::input::torque::Earlier;
 use crate::law::{Instant, Law, LoggedTorque};
 use crate::numeric::number::{Number, Real};
-use crate::simulate::inputs::SimulationInputs;
 
 /// The torque that acts on the joint, from the one that is logged.
 pub struct ActingTorque<'a, N: Number> {

@@ -3,13 +3,13 @@
 //! Every law is asked through the same hooks as in a simulation, so that an effect's share of the equation of motion comes of its
 //! own definition. Its own states follow the motion by Heun's rule, one step per grid point of the input.
 
+use crate::assembly::inputs::SimulationInputs;
 use crate::assembly::layout::MAXIMUM_OWN_STATES;
 use crate::assembly::model::Model;
 use crate::error::ModelError;
 use crate::input::torque::Input;
 use crate::law::Instant;
 use crate::simulate::acting_torque::ActingTorque;
-use crate::simulate::inputs::SimulationInputs;
 use crate::simulate::plant::Plant;
 use crate::simulate::run::check_length;
 

@@ -1,9 +1,9 @@
 //! A model simulated by itself.
 
+use crate::assembly::inputs::SimulationInputs;
 use crate::assembly::model::Model;
 use crate::error::ModelError;
 use crate::input::torque::Input;
-use crate::simulate::inputs::SimulationInputs;
 use crate::simulate::run::Run;
 use crate::simulate::side_by_side::simulate_side_by_side;
 use snug_campaign::{Motion, Quantity};

@@ -1,11 +1,11 @@
 //! The equations of motion: tool, hand and arm with everything that effects add, evaluated at one stage of a step.
 
+use crate::assembly::inputs::SimulationInputs;
 use crate::assembly::layout::{Assembly, Part};
 use crate::law::{Deflection, Delayed, Instant, Law};
 use crate::numeric::number::{Number, OfOne};
 use crate::simulate::history::History;
 use crate::simulate::hook_set::HookSet;
-use crate::simulate::inputs::SimulationInputs;
 
 /// Tool, hand and arm of one simulation: the equations of motion with everything that stays the same worked out once.
 ///

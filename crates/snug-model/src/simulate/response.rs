@@ -1,6 +1,7 @@
 //! An assembly's answer to the torque: exact where the motion is the base model's, by Runge–Kutta where it is not, as its
 //! sensors show it.
 
+use crate::assembly::inputs::SimulationInputs;
 use crate::assembly::layout::Assembly;
 use crate::base_model::exact;
 use crate::base_model::exact::{Oscillator, Response};
@@ -8,7 +9,6 @@ use crate::law::Kinematics;
 use crate::numeric::lanewise::{Lanewise, Task};
 use crate::numeric::number::{Number, Real};
 use crate::simulate::acting_torque::ActingTorque;
-use crate::simulate::inputs::SimulationInputs;
 use crate::simulate::runge_kutta;
 use crate::simulate::sensors::{Moment, Sensors};
 use crate::simulate::zeroed::Zeroed;

@@ -1,9 +1,9 @@
 //! What one simulation is given and where its answer goes.
 
+use crate::assembly::inputs::SimulationInputs;
 use crate::assembly::model::Model;
 use crate::error::ModelError;
 use crate::input::torque::Input;
-use crate::simulate::inputs::SimulationInputs;
 use snug_campaign::Quantity;
 
 /// One of several simulations that run side by side.

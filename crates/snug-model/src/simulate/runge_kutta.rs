@@ -3,11 +3,11 @@
 //! At 10 kHz the error of a step is (h ω)⁵/120 ≈ 1e−15 of the amplitude for an arm at 30 rad/s; a band-limited input
 //! brings its own finer grid.
 
+use crate::assembly::inputs::SimulationInputs;
 use crate::assembly::layout::{Assembly, MAXIMUM_OWN_STATES};
 use crate::law::{Instant, Kinematics};
 use crate::numeric::number::Number;
 use crate::simulate::acting_torque::ActingTorque;
-use crate::simulate::inputs::SimulationInputs;
 use crate::simulate::plant::{Plant, initial_motion};
 use crate::simulate::sensors::{Moment, moves_elsewhere, relative_motion};
 

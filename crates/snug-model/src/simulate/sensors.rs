@@ -1,11 +1,12 @@
 //! From the true motion to the measured one, sample by sample.
 
+use crate::assembly::inputs::SimulationInputs;
 use crate::assembly::layout::{Assembly, Part};
+use crate::effects::Effect;
 use crate::law::{Instant, Kinematics, Law};
 use crate::numeric::number::Number;
 use crate::simulate::accelerometer::Accelerometer;
 use crate::simulate::acting_torque::{ActingTorque, with_added_torque};
-use crate::simulate::inputs::SimulationInputs;
 
 /// The motion of the tool at one sample, and the effects' own states there with their rates.
 #[derive(Debug, Clone, Copy)]
@@ -132,7 +133,7 @@ impl<'a, N: Number> Sensors<'a, N> {
 
     /// The sum of what the effects add to the same place, if any adds to it.
     #[inline(always)]
-    fn total(&self, of: impl Fn(crate::Effect, &[N]) -> Option<N>) -> Option<N> {
+    fn total(&self, of: impl Fn(Effect, &[N]) -> Option<N>) -> Option<N> {
         let mut total: Option<N> = None;
         for part in self.parts {
             if let Some(more) = of(part.effect, &self.p[part.parameters.clone()]) {

@@ -1,5 +1,6 @@
 //! Runs many simulations at once, each in its own lane of a vector register, with as many derivatives as are asked for.
 
+use crate::assembly::inputs::SimulationInputs;
 use crate::assembly::layout::{Assembly, BASE_PARAMETERS, MAXIMUM_FREE};
 use crate::assembly::model::Model;
 use crate::base_model::exact;
@@ -10,7 +11,6 @@ use crate::numeric::dual::Dual;
 use crate::numeric::lanewise::Task;
 use crate::numeric::number::{Number, Real};
 use crate::numeric::simd::{LaneTask, in_lanes};
-use crate::simulate::inputs::SimulationInputs;
 use crate::simulate::record::Record;
 use crate::simulate::run::Run;
 use snug_campaign::Quantity;

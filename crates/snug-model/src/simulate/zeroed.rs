@@ -1,9 +1,9 @@
 //! Counts a simulated displacement from where preprocessing took the zero of the measured one.
 
+use crate::assembly::inputs::SimulationInputs;
 use crate::law::Kinematics;
 use crate::numeric::lanewise::Lanewise;
 use crate::numeric::number::Number;
-use crate::simulate::inputs::SimulationInputs;
 
 /// Repeats on the simulated displacement what preprocessing did to the measured one: its value at one sample is taken off
 /// the whole signal.

@@ -10,7 +10,7 @@ use crate::numeric::number::Number;
 
 const PARAMETERS: [&str; 2] = ["p", "q"];
 
-fn surroundings<N: crate::Number>(x_m: N, v_m_per_s: N) -> Instant<N> {
+fn surroundings<N: Number>(x_m: N, v_m_per_s: N) -> Instant<N> {
     Instant {
         torque_nm: x_m.constant(12.0),
         x_m,
