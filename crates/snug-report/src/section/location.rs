@@ -6,7 +6,7 @@ pub(crate) mod force;
 mod force_map;
 pub(crate) mod response;
 
-use super::{Render, Section};
+use super::{BEYOND_CHANCE, Render, Section};
 use crate::words::number::{measured, missing, p_value, percent};
 use crate::words::quantity;
 use maud::{Markup, html};
@@ -91,12 +91,9 @@ fn drift(drifts: &[Drift], result: &CampaignResult) -> Markup {
     }
 }
 
-/// Adjusted p below which a drift is beyond chance; the customary level.
-const LEVEL: f64 = 0.05;
-
 /// Whether the change is beyond chance, all tests together.
 fn drifting(row: &Drift) -> bool {
-    row.p_adjusted.is_some_and(|p| p < LEVEL)
+    row.p_adjusted.is_some_and(|p| p < BEYOND_CHANCE)
 }
 
 fn drift_table(drifts: &[Drift], result: &CampaignResult) -> Markup {

@@ -33,6 +33,9 @@ use snug_campaign::{
     CampaignResult, ConditionSummary, Diagnosis, Rejection, Severity, TighteningResult,
 };
 
+/// Adjusted p below which a difference or a drift is beyond chance \[–\]: the customary level. Chosen.
+const BEYOND_CHANCE: f64 = 0.05;
+
 /// One part of the page.
 pub struct Section {
     /// Stable name within the page's address.

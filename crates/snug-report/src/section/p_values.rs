@@ -2,7 +2,7 @@
 
 mod assumptions;
 
-use super::{Render, Section, headings, nothing};
+use super::{BEYOND_CHANCE, Render, Section, headings, nothing};
 use crate::grouping::{first_seen, grouped};
 use crate::words::number::{fixed, measured, missing, p_value, plain};
 use crate::words::quantity;
@@ -16,9 +16,6 @@ pub const SECTION: Section = Section {
     title: "Do the conditions differ? p-values",
     render: Render::Always(render),
 };
-
-/// Differences below this adjusted p are set off.
-const LEVEL: f64 = 0.05;
 
 fn render(result: &CampaignResult) -> Markup {
     if result.tests.is_empty() {
@@ -56,7 +53,7 @@ fn methods(result: &CampaignResult) -> Vec<(&str, bool)> {
 }
 
 fn below_level(row: &TestRow) -> bool {
-    row.p_adjusted.or(row.p).is_some_and(|p| p < LEVEL)
+    row.p_adjusted.or(row.p).is_some_and(|p| p < BEYOND_CHANCE)
 }
 
 fn reading(result: &CampaignResult, methods: &[(&str, bool)]) -> String {

@@ -1,7 +1,8 @@
 //! How what the tests presume stands: one quiet line below every factor, and what it means.
 
-use super::{LEVEL, freedom};
+use super::freedom;
 use crate::grouping::first_seen;
+use crate::section::BEYOND_CHANCE;
 use crate::words::number::{fixed, missing, p_value, plain};
 use crate::words::quantity;
 use maud::{Markup, html};
@@ -89,7 +90,7 @@ fn reading(result: &CampaignResult, checks: &[&AssumptionCheck]) -> String {
 }
 
 fn is_doubted(check: &AssumptionCheck) -> bool {
-    check.p.is_some_and(|p| p < LEVEL)
+    check.p.is_some_and(|p| p < BEYOND_CHANCE)
 }
 
 fn subject(check: &AssumptionCheck) -> String {
