@@ -7,7 +7,7 @@ use snug_least_squares::PooledSettings;
 pub(crate) const HARDLY: f64 = 0.1;
 /// Share of the groups said to have an effect that may be without it \[–\]. Chosen: with the usual 0.05 people who had nothing of an
 /// effect were named beside those who had in 3 of 24 drawn campaigns; five standard errors lie far beyond either.
-pub(crate) const FALSE_DISCOVERIES: f64 = 0.005;
+pub const FALSE_DISCOVERIES: f64 = 0.005;
 /// Growth of the squared residual, over its mean, up to which a change may also lie elsewhere \[–\]: −2 ln(1 − √0.95), the 95 %
 /// interval of a place from which a size is another (Siegmund 1988).
 pub(crate) const CHANGE_POINT: f64 = 7.35;

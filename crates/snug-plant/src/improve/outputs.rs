@@ -9,15 +9,13 @@ use crate::storage::store::Store;
 use arrow::array::{ArrayRef, BooleanArray, Float64Array, RecordBatch, StringArray, UInt32Array};
 use arrow::datatypes::{DataType, Field};
 use snug_campaign::{EffectParameter, Factor, GroupSize, Interval};
+use snug_diagnose::FALSE_DISCOVERIES;
 use snug_model::{GroupValue, ParameterSettings};
 use snug_statistics::descriptive::{mean, standard_deviation};
 use snug_statistics::distributions::student_t_two_sided;
 use snug_statistics::multiplicity::benjamini_hochberg;
 use snug_study::{PreparedDiagnosis, Study};
 use std::sync::Arc;
-
-/// Share of the groups said to have an effect that may be without it, as `improve` says it of a campaign.
-const FALSE_DISCOVERIES: f64 = 0.05;
 
 /// What groups rows that are known by their tool and its state.
 const PLACE: &str = "tool";
