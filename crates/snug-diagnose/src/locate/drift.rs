@@ -6,7 +6,7 @@ use crate::locate::thresholds::{CONSTANT, FARTHEST, FEWEST_FREEDOM};
 use rayon::prelude::*;
 use snug_campaign::{Drift, FitStatus, Interval, Tightening, TighteningId};
 use snug_model::BASE_PARAMETERS;
-use snug_statistics::descriptive::median;
+use snug_statistics::descriptive::{MAD_OF_NORMAL, median};
 use snug_statistics::distributions::{student_t_quantile, student_t_two_sided};
 use snug_statistics::multiplicity::benjamini_hochberg;
 use std::collections::BTreeMap;
@@ -18,8 +18,6 @@ const AGAINST: [&str; 5] = [
     "pulse_length_s",
     "trial_number",
 ];
-/// Standard deviation of normal scatter over its median absolute deviation.
-const ROBUST: f64 = 1.4826;
 
 /// One tightening that takes part.
 struct Row<'a> {
@@ -218,7 +216,7 @@ fn without_outliers(groups: Vec<Vec<(f64, f64)>>) -> Option<Vec<Vec<(f64, f64)>>
         .zip(&medians)
         .flat_map(|(group, median)| group.iter().map(move |(_, y)| (y - median).abs()))
         .collect();
-    let scatter = ROBUST * median(&off).ok()?;
+    let scatter = median(&off).ok()? / MAD_OF_NORMAL;
     let near = |y: f64, median: f64| scatter == 0.0 || (y - median).abs() <= FARTHEST * scatter;
     Some(
         groups

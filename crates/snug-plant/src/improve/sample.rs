@@ -18,7 +18,7 @@ use datafusion::common::Column;
 use datafusion::logical_expr::{Expr, lit};
 use serde::Serialize;
 use snug_preprocess::Prepared;
-use snug_statistics::distributions::student_t_quantile;
+use snug_statistics::distributions::normal_quantile;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Why a sample has the size it has; its numbers have no unit.
@@ -44,8 +44,7 @@ impl SampleSize {
             let text = power.to_string();
             return Err(PlantError::setting("power", &text, "0.5 to below 1"));
         }
-        let quantile = student_t_quantile(power, 1e9);
-        let of_one = ((FAMILY_Z + quantile) / SHOWN_SD).powi(2);
+        let of_one = ((FAMILY_Z + normal_quantile(power)) / SHOWN_SD).powi(2);
         if !(of_one / MOST as f64..=1.0).contains(&share) {
             let least = (of_one / MOST as f64 * 1e4).ceil() / 1e4;
             let allowed = format!("{least} to 1: less would ask for more than {MOST} rows");

@@ -7,11 +7,8 @@
 use super::thresholds::{ALLOWANCE_SD, CLIPPED_SD, DECISION_SD};
 use crate::functions::question::{State, States, Totals};
 use crate::storage::partition::Partition;
-use snug_statistics::descriptive::median;
+use snug_statistics::descriptive::{MAD_OF_NORMAL, median};
 use std::collections::BTreeMap;
-
-/// Median absolute deviation of a normal distribution, as a share of its standard deviation.
-const MAD_OF_NORMAL: f64 = 0.674_489_750_196_081_7;
 
 /// The states of tools that leave more than others on some days.
 pub fn where_it_shows(said: &BTreeMap<Partition, Totals>) -> States {

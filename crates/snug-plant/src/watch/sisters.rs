@@ -4,9 +4,9 @@
 //! Groups that lie outside by their median absolute deviation (Hampel 1974) are no yardstick, so that several alike do not hide
 //! each other.
 
-use super::thresholds::{FEWEST_SISTERS, MAD_OF_NORMAL, OUTLYING_MADS};
+use super::thresholds::{FEWEST_SISTERS, OUTLYING_MADS};
 use snug_statistics::StatisticsError;
-use snug_statistics::descriptive::median;
+use snug_statistics::descriptive::{MAD_OF_NORMAL, median};
 use snug_statistics::distributions::student_t_two_sided;
 use snug_statistics::random_effects::random_effects;
 

@@ -10,16 +10,13 @@ pub const FEWEST_DAYS_BESIDE: usize = 2;
 /// Days that a group must have for a change to be looked for: two on either side and two degrees of freedom more.
 pub const FEWEST_DAYS: usize = 6;
 
-/// Sisters that a group must have to be compared with them.
+/// Sisters that a group must have to be compared with them. Chosen.
 pub const FEWEST_SISTERS: usize = 4;
 
 /// Scaled median absolute deviations beyond which a sister is no yardstick for the others (Hampel 1974's 3.5, the usual choice).
 pub const OUTLYING_MADS: f64 = 3.5;
 
-/// Median absolute deviation of a normal distribution, as a share of its standard deviation.
-pub const MAD_OF_NORMAL: f64 = 0.674_489_750_196_081_7;
-
-/// Tools of which the page shows a tightening's curves.
+/// Tools of which the page shows a tightening's curves. Chosen.
 pub const MOST_CURVES: usize = 24;
 
 /// Least change of a quantity that is called different \[share of the pooled daily spread\]: below it a year's days make a change

@@ -7,4 +7,4 @@ mod quantile;
 pub use mean_interval::{OneSampleT, one_sample_t};
 pub(crate) use moments::Moments;
 pub use moments::{mean, standard_deviation};
-pub use quantile::{median, quantile};
+pub use quantile::{MAD_OF_NORMAL, median, quantile};

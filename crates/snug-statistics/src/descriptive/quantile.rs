@@ -3,6 +3,9 @@
 use crate::sample::check_sample;
 use crate::{Result, StatisticsError};
 
+/// Median absolute deviation of a normal variable, as a share of its standard deviation \[–\]: Φ⁻¹(3/4).
+pub const MAD_OF_NORMAL: f64 = 0.674_489_750_196_081_7;
+
 /// Quantile by linear interpolation between order statistics at `h = (n − 1) q` (Hyndman and
 /// Fan's type 7: the default of R and NumPy). `q` from 0 to 1.
 ///
