@@ -8,7 +8,7 @@ use crate::functions::fit::{TAKEN, function};
 use crate::functions::results;
 use crate::rows;
 use crate::storage::dataset::{Commit, Dataset};
-use crate::storage::partition::{Partition, of_row};
+use crate::storage::partition::{COLUMNS, Partition, of_row};
 use crate::storage::schema::{self, IDENTITY};
 use crate::storage::store::Store;
 use arrow::array::{ArrayRef, AsArray, RecordBatch};
@@ -307,7 +307,7 @@ fn by_partition(rows: &RecordBatch) -> Result<BTreeMap<Partition, RecordBatch>, 
     if rows.num_rows() == 0 {
         return Ok(found);
     }
-    let places: Vec<ArrayRef> = ["day", "tool"]
+    let places: Vec<ArrayRef> = COLUMNS
         .iter()
         .filter_map(|name| rows.column_by_name(name).cloned())
         .collect();

@@ -5,6 +5,7 @@ use super::fit::{TAKEN, external, in_lanes, study, taken};
 use super::question::{Held, Totals};
 use super::sum::list_type;
 use crate::rows;
+use crate::storage::partition::COLUMNS;
 use crate::storage::schema::{IDENTITY, field};
 use arrow::array::{ArrayRef, Float64Builder, ListBuilder, StringArray};
 use arrow::datatypes::{DataType, Schema, SchemaRef};
@@ -37,8 +38,7 @@ pub(crate) static GROUPED: LazyLock<SchemaRef> = LazyLock::new(|| {
 /// What a fit takes, and by what rows are known.
 pub(crate) static ASKED: LazyLock<SchemaRef> = LazyLock::new(|| {
     let place = |name: &&str| IDENTITY.iter().find(|(known, ..)| known == name);
-    let beside = ["day", "tool"];
-    let beside = beside.iter().filter_map(place);
+    let beside = COLUMNS.iter().filter_map(place);
     let beside = beside.map(|(name, kind, nullable, _)| field(name, *kind, *nullable, ""));
     let taken = TAKEN.fields().iter().map(|field| field.as_ref().clone());
     Arc::new(Schema::new(taken.chain(beside).collect::<Vec<_>>()))

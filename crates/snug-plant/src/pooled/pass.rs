@@ -8,7 +8,7 @@ use crate::functions::block::{ASKED, GROUPED, block_function, group_function};
 use crate::functions::question::{Held, Totals};
 use crate::functions::sum::{Places, sum_function};
 use crate::storage::dataset::{Commit, Dataset};
-use crate::storage::partition::{Partition, of_row};
+use crate::storage::partition::{COLUMNS, Partition, of_row};
 use crate::storage::schema;
 use arrow::array::{Array, AsArray, RecordBatch};
 use arrow::datatypes::{Float64Type, SchemaRef};
@@ -136,7 +136,7 @@ impl Pass<'_> {
         };
         let asked = [vec![lit(self.study), lit(text)], taken(&ASKED)].concat();
         let named = |name: &str| Expr::Column(Column::from_name(name));
-        let mut by = vec![named("day"), named("tool")];
+        let mut by = Vec::from(COLUMNS.map(named));
         let mut wanted = by.clone();
         if held.sharing.factor.is_some() {
             let taken = [vec![lit(text)], taken(&GROUPED)].concat();

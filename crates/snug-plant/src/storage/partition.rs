@@ -53,6 +53,9 @@ impl Partition {
     }
 }
 
+/// The columns of [`IDENTITY`](super::schema::IDENTITY) that say a row's partition.
+pub const COLUMNS: [&str; 2] = ["day", "tool"];
+
 /// The partition of a row, by its columns `day` and `tool`.
 pub fn of_row(days: &ArrayRef, tools: &ArrayRef, row: usize) -> Result<Partition, PlantError> {
     let days = days.as_primitive::<Date32Type>();

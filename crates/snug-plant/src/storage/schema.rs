@@ -23,6 +23,22 @@ pub(crate) enum Kind {
 /// A column: name, what it holds, whether it may be null, what it is.
 pub(crate) type Column = (&'static str, Kind, bool, &'static str);
 
+/// A measurement file, in every table that names one.
+const FILE: Column = (
+    "file",
+    Kind::Text,
+    false,
+    "measurement file without its folder",
+);
+
+/// A tool, in every table that names one.
+const TOOL: Column = (
+    "tool",
+    Kind::Text,
+    false,
+    "name of the tool; 'unknown' where nothing says it",
+);
+
 /// Who, where, when: in front of every row of tightenings and results.
 pub(crate) const IDENTITY: &[Column] = &[
     (
@@ -31,12 +47,7 @@ pub(crate) const IDENTITY: &[Column] = &[
         false,
         "stable key: SHA-256 of the measurement file's bytes (first 16 bytes, hexadecimal), '-', number",
     ),
-    (
-        "file",
-        Kind::Text,
-        false,
-        "measurement file without its folder",
-    ),
+    FILE,
     (
         "number",
         Kind::Count,
@@ -49,12 +60,7 @@ pub(crate) const IDENTITY: &[Column] = &[
         true,
         "day of the tightening; null where nothing says it",
     ),
-    (
-        "tool",
-        Kind::Text,
-        false,
-        "name of the tool; 'unknown' where nothing says it",
-    ),
+    TOOL,
     ("station", Kind::Text, true, "name of the station"),
     (
         "time_of_day_s",
@@ -226,12 +232,7 @@ pub(crate) const FINDINGS: &[Column] = &[
         false,
         "SHA-256 of the measurement file's bytes (first 16 bytes, hexadecimal)",
     ),
-    (
-        "file",
-        Kind::Text,
-        false,
-        "measurement file without its folder",
-    ),
+    FILE,
     (
         "number",
         Kind::Count,
@@ -239,12 +240,7 @@ pub(crate) const FINDINGS: &[Column] = &[
         "1-based number of the tightening; null where the whole file is meant",
     ),
     ("day", Kind::Day, true, "day; null where nothing says it"),
-    (
-        "tool",
-        Kind::Text,
-        false,
-        "name of the tool; 'unknown' where nothing says it",
-    ),
+    TOOL,
     ("severity", Kind::Text, false, "note, repaired or left_out"),
     ("code", Kind::Text, false, "stable name of the kind"),
     ("channel", Kind::Text, true, "channel concerned"),
