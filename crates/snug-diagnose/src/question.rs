@@ -9,6 +9,7 @@ use snug_model::Effect;
 
 /// What is asked of the data.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub enum Goal {
     /// Model against measurement, and where it fails.
     Compare,

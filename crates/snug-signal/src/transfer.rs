@@ -11,6 +11,7 @@ const TOGETHER: f64 = 1.1;
 
 /// By what a stretch is multiplied before it is transformed, so that its ends leak nothing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Taper {
     /// Falls as half a cosine from 1 at the start, where everything is at rest, to 0 at the end, where it may not be.
     Falling,

@@ -17,6 +17,7 @@ const TIE: f64 = 1e-12;
 /// What a permutation test exchanges.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
+#[non_exhaustive]
 pub enum Scheme {
     /// Labels among the rows of each cluster.
     WithinClusters,

@@ -22,6 +22,7 @@ const STOP_M: f64 = 0.007;
 /// smooth step from 0 to 1.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
+#[non_exhaustive]
 pub enum HiddenEffect {
     /// F += k3 x³; k3 \[N/m³\].
     CubicStiffness,

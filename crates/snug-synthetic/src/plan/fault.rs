@@ -10,6 +10,7 @@ const SATURATION_RATIO: f64 = 0.7;
 /// Something wrong with one tightening's data, for findings to say.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
+#[non_exhaustive]
 pub enum Fault {
     /// The motor never started: no torque, no motion, only noise.
     NoPulse,

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 /// Tightening strategy; it decides the tool's inertia, since only Quick Step was recorded with the force transducer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub enum Strategy {
     /// Quick Step: changes its speed within the ramp.
     #[serde(rename = "QS")]
@@ -15,6 +16,7 @@ pub enum Strategy {
 
 /// Joint stiffness.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub enum Joint {
     /// Torque builds up slowly.
     Soft,
@@ -25,6 +27,7 @@ pub enum Joint {
 /// Which of the thesis' names a file gives its channels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
+#[non_exhaustive]
 pub enum ChannelNames {
     /// `angle_acc_Acc_FIR150`, `Inline_Torque`, `F_op_J`.
     Plain,

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 /// From when on a constant sensor error (acceleration bias, torque offset) is there.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
+#[non_exhaustive]
 pub enum ZeroErrors {
     /// All the time: the quiet part shows it.
     #[default]

@@ -13,6 +13,7 @@ const COLOURED_MEMORY: f64 = 0.895;
 /// Correlation structure of the accelerometer's noise.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
+#[non_exhaustive]
 pub enum NoiseKind {
     /// Every sample on its own.
     #[default]
