@@ -10,7 +10,7 @@ use std::str::FromStr;
 /// A number as an unevaluated sum `high + low`, `|low| ≤ ulp(high)/2`: 106 bits.
 ///
 /// `"1000000000000.4".parse::<DoubleDouble>()` keeps decimal readings that `f64` would round;
-/// see [`crate::k_sample::one_way_anova_extended`].
+/// see [`crate::k_sample::one_way_anova`].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct DoubleDouble {
     high: f64,

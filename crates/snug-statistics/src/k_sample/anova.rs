@@ -25,39 +25,32 @@ pub struct OneWayAnova {
 /// One-way analysis of variance of `k` groups with a common variance.
 ///
 /// `F = (SSB/(k − 1))/(SSW/(N − k))`. Two passes, centred, accumulated with 106 bits: what the
-/// `f64` readings hold is what comes out, however many leading digits they share.
+/// readings hold is what comes out, however many leading digits they share. Readings are `f64`, or
+/// [`DoubleDouble`] for decimals with a large constant part: rounded to `f64`, `1000000000000.4`
+/// is off by 2e-5 before any statistic sees it.
 ///
 /// # Errors
 /// [`StatisticsError::TooFewGroups`] below two groups; [`StatisticsError::TooFew`] for an empty
 /// group or no group with two values; [`StatisticsError::NotFinite`];
 /// [`StatisticsError::ZeroVariance`] when no group varies.
-pub fn one_way_anova<G: AsRef<[f64]>>(groups: &[G]) -> Result<OneWayAnova> {
-    check_groups(groups, METHOD, 1)?;
-    let extended: Vec<Vec<DoubleDouble>> = groups
+pub fn one_way_anova<T, G>(groups: &[G]) -> Result<OneWayAnova>
+where
+    T: Copy + Into<DoubleDouble>,
+    G: AsRef<[T]>,
+{
+    let groups: Vec<Vec<DoubleDouble>> = groups
         .iter()
         .map(|group| {
             group
                 .as_ref()
                 .iter()
-                .copied()
-                .map(DoubleDouble::from)
+                .map(|&reading| reading.into())
                 .collect()
         })
         .collect();
-    one_way_anova_extended(&extended)
-}
-
-/// [`one_way_anova`] of readings held with more digits than `f64` has.
-///
-/// For decimal readings with a large constant part: rounded to `f64`, `1000000000000.4` is off
-/// by 2e-5 before any statistic sees it.
-///
-/// # Errors
-/// As [`one_way_anova`].
-pub fn one_way_anova_extended<G: AsRef<[DoubleDouble]>>(groups: &[G]) -> Result<OneWayAnova> {
     let leading: Vec<Vec<f64>> = groups
         .iter()
-        .map(|g| g.as_ref().iter().map(|x| x.to_f64()).collect())
+        .map(|group| group.iter().map(|x| x.to_f64()).collect())
         .collect();
     check_groups(&leading, METHOD, 1)?;
     let sizes: Vec<f64> = leading.iter().map(|group| group.len() as f64).collect();
@@ -71,8 +64,8 @@ pub fn one_way_anova_extended<G: AsRef<[DoubleDouble]>>(groups: &[G]) -> Result<
             found: 1,
         });
     }
-    let constant = |group: &G| group.as_ref().windows(2).all(|pair| pair[0] == pair[1]);
-    let (between, within) = sums_of_squares(groups, total);
+    let constant = |group: &Vec<DoubleDouble>| group.windows(2).all(|pair| pair[0] == pair[1]);
+    let (between, within) = sums_of_squares(&groups, total);
     // Spreads below 1e-162 have squares that underflow.
     if groups.iter().all(constant) || within <= 0.0 {
         return Err(StatisticsError::ZeroVariance {
@@ -100,16 +93,16 @@ pub fn one_way_anova_extended<G: AsRef<[DoubleDouble]>>(groups: &[G]) -> Result<
 const METHOD: &str = "one-way analysis of variance";
 
 /// Sums of squares between and within the groups.
-fn sums_of_squares<G: AsRef<[DoubleDouble]>>(groups: &[G], total: f64) -> (f64, f64) {
-    let sum = |group: &G| group.as_ref().iter().copied().sum::<DoubleDouble>();
-    let size = |group: &G| DoubleDouble::from(group.as_ref().len() as f64);
+fn sums_of_squares(groups: &[Vec<DoubleDouble>], total: f64) -> (f64, f64) {
+    let sum = |group: &Vec<DoubleDouble>| group.iter().copied().sum::<DoubleDouble>();
+    let size = |group: &Vec<DoubleDouble>| DoubleDouble::from(group.len() as f64);
     let grand_mean = groups.iter().map(sum).sum::<DoubleDouble>() / DoubleDouble::from(total);
     let (mut between, mut within) = (DoubleDouble::default(), DoubleDouble::default());
     for group in groups {
         let mean = sum(group) / size(group);
         let shift = mean - grand_mean;
         between = between + size(group) * shift * shift;
-        for value in group.as_ref() {
+        for value in group {
             let deviation = *value - mean;
             within = within + deviation * deviation;
         }

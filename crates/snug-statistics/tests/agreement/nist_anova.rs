@@ -5,7 +5,7 @@
 use std::path::PathBuf;
 
 use snug_statistics::DoubleDouble;
-use snug_statistics::k_sample::{OneWayAnova, one_way_anova, one_way_anova_extended};
+use snug_statistics::k_sample::{OneWayAnova, one_way_anova};
 
 /// `−log₁₀ |found − certified|/|certified|`, at most 15.
 fn digits(found: f64, certified: f64) -> f64 {
@@ -91,7 +91,7 @@ fn certified_digits_from_decimal_readings() {
         let Some((groups, certified)) = read(name) else {
             continue;
         };
-        let found = one_way_anova_extended(&parse::<DoubleDouble>(&groups)).unwrap();
+        let found = one_way_anova(&parse::<DoubleDouble>(&groups)).unwrap();
         let digits = worst(&found, &certified);
         println!("{name}: {digits:.1} digits from decimal readings");
         assert!(digits >= 14.0, "{name}: {digits}");
@@ -159,7 +159,7 @@ fn simon_lesage_sets_rebuilt() {
             let (between, within) = (0.08 * r, 0.09 * (r - 1.0));
             let exact = [between, within, r, between / (between + within), 0.1];
             let groups = simon_lesage(leading, replicates);
-            let found = one_way_anova_extended(&parse::<DoubleDouble>(&groups)).unwrap();
+            let found = one_way_anova(&parse::<DoubleDouble>(&groups)).unwrap();
             let digits = worst(&found, &exact);
             assert!(digits >= 14.0, "{leading} {replicates}: {digits}");
         }
