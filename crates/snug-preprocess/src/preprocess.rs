@@ -9,8 +9,9 @@ use crate::segment::remarks::Remarks;
 use crate::settings::{PreprocessSettings, Preset, Window};
 use snug_campaign::{Finding, Quantity, Recording, Segment, Severity, TighteningId};
 
-/// Sampling intervals between a nanosecond and eleven days; beyond them sample counts have no meaning.
+/// Shortest sampling interval \[s\]: with a shorter one sample counts have no meaning. Chosen.
 const SHORTEST_INTERVAL_S: f64 = 1e-9;
+/// Longest sampling interval \[s\], eleven days: with a longer one neither. Chosen.
 const LONGEST_INTERVAL_S: f64 = 1e6;
 
 /// Turns one recording into tightenings.

@@ -1,23 +1,23 @@
 //! Thresholds of where a model fails: bins, what is beyond the noise, and what is worth a sentence.
 //! Each stands once, with its unit and how it was found: "chosen" is chosen, not measured.
 
-/// Standard deviations beyond which an excess over the noise is not chance: 0.1 % one-sided.
+/// Excess over the noise beyond which it is not chance \[standard deviations\]: 0.1 % one-sided. Chosen.
 pub(crate) const BEYOND_CHANCE: f64 = 3.0;
 /// A noise floor is not known better than this; a smaller excess in root mean square means nothing \[–\]. Chosen.
 pub(crate) const SMALLEST_EXCESS: f64 = 0.005;
-/// Campaigns drawn: 2.5 % of them are a dozen on each side.
+/// Campaigns drawn: 2.5 % of them are a dozen on each side. Chosen.
 pub(crate) const CAMPAIGNS: usize = 499;
 /// Fewer tightenings say nothing about their scatter. Chosen.
 pub(crate) const FEWEST: usize = 3;
 /// Width of a bin over time \[s\]. Chosen.
 pub(crate) const WIDTH_S: f64 = 0.02;
-/// Windows longer than so many bins get wider ones. Chosen.
+/// Windows longer than this get wider bins \[bins\]. Chosen.
 pub(crate) const MOST_TIME_BINS: f64 = 40.0;
-/// At most this many bins over the angle. Chosen.
+/// Most over the angle \[bins\]. Chosen.
 pub(crate) const MOST_AMPLITUDE_BINS: f64 = 10.0;
-/// A band this many frequencies wide is the narrowest. Chosen.
+/// Width of the narrowest band \[frequencies\]. Chosen.
 pub(crate) const NARROWEST: f64 = 1.5;
-/// Positions this little (in bins) below an edge are meant to be on it. Chosen.
+/// Positions this little below an edge are meant to be on it \[bins\]. Chosen.
 pub(crate) const EDGE: f64 = 1e-6;
 /// Bins of the missing force over time. Chosen.
 pub(crate) const TIME_BINS: usize = 60;
@@ -37,7 +37,7 @@ pub(crate) const PULSE: f64 = 0.1;
 pub(crate) const BIN_S: f64 = 0.005;
 /// From this many files on, a tightening's own file predicts nothing for it. Chosen.
 pub(crate) const ENOUGH_FILES: usize = 3;
-/// From this many others under the same conditions on, only they predict. Chosen.
+/// From this many others under the same conditions on, only they predict \[tightenings\]. Chosen.
 pub(crate) const ENOUGH_ALIKE: f64 = 2.0;
 /// Speed below which friction fades \[m/s\]. Chosen.
 pub(crate) const FADING_M_PER_S: f64 = 0.01;
@@ -45,9 +45,9 @@ pub(crate) const FADING_M_PER_S: f64 = 0.01;
 pub(crate) const SPANNED: f64 = 1e-9;
 /// Share of a shape that the others do not already say, below which it says nothing \[–\]. Chosen.
 pub(crate) const NO_NEWS: f64 = 1e-4;
-/// Fewer degrees of freedom show no drift. Chosen.
+/// Fewer show no drift \[degrees of freedom\]. Chosen.
 pub(crate) const FEWEST_FREEDOM: f64 = 3.0;
-/// Farther off their group's median (in robust standard deviations) estimates are not of this population. Chosen.
+/// Farther off their group's median estimates are not of this population \[robust standard deviations\]. Chosen.
 pub(crate) const FARTHEST: f64 = 5.0;
 /// A covariate whose spread is below this share of its size does not vary \[–\]. Chosen.
 pub(crate) const CONSTANT: f64 = 1e-9;

@@ -10,20 +10,22 @@ pub use mark::{Bar, Cell, Dot, Mark, Segment};
 use axis::Tick;
 use maud::{Markup, PreEscaped, html};
 
-/// Height of the text below the plot: tick labels and the axis label.
+/// Height of the text below the plot, tick labels and the axis label \[px\]. Chosen.
 const BELOW: f64 = 40.0;
+/// Height left free above the plot \[px\]. Chosen.
 const ABOVE: f64 = 10.0;
+/// Width left free to its right \[px\]. Chosen.
 const RIGHT: f64 = 20.0;
 /// Width of a drawing on a screen as narrow as a telephone's; one that is wider is drawn a second time with this width, so that
 /// its text stays as large \[px\].
 const NARROW: f64 = 300.0;
-/// A drawing is not shrunk below this share of its size, so that its text stays legible; it scrolls instead.
+/// A drawing is not shrunk below this share of its size, so that its text stays legible; it scrolls instead \[–\]. Chosen.
 const SMALLEST: f64 = 0.97;
-/// Nor enlarged beyond this one.
+/// Nor enlarged beyond this one \[–\]. Chosen.
 const LARGEST: f64 = 1.15;
 /// Least distance of neighbouring tick labels \[px\].
 const BETWEEN: f64 = 8.0;
-/// Width of one character of a tick label.
+/// Width of one character of a tick label \[px\].
 const CHARACTER: f64 = 6.4;
 
 /// One picture: two axes and what is drawn between them.

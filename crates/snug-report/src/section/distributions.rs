@@ -18,9 +18,9 @@ pub const SECTION: Section = Section {
     render: Render::Always(render),
 };
 
-/// About how many bars a histogram has.
+/// About how many bars a histogram has. Chosen.
 const BARS: usize = 18;
-/// Width of an axis over the values it shows, at the least.
+/// Width of an axis over the values it shows, at the least \[–\]. Chosen.
 const SPAN_RATIO: f64 = 0.02;
 
 fn render(result: &CampaignResult) -> Markup {

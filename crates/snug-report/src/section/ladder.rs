@@ -15,6 +15,7 @@ pub const SECTION: Section = Section {
     render: Render::Diagnosed(render),
 };
 
+/// Height of a rung's row \[px\]. Chosen.
 const ROW: f64 = 46.0;
 
 /// A way of holding data out: its colour, its place in the row, its words, its number.

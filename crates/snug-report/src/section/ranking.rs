@@ -19,9 +19,11 @@ pub const SECTION: Section = Section {
     render: Render::Diagnosed(render),
 };
 
+/// Height of a candidate's row \[px\]. Chosen.
 const ROW: f64 = 21.0;
-/// Candidates that are always shown, and at most without unfolding.
+/// Candidates that are always shown. Chosen.
 const ALWAYS: usize = 3;
+/// Most that are shown without unfolding. Chosen.
 const MOST: usize = 10;
 
 fn render(diagnosis: &Diagnosis, result: &CampaignResult) -> Option<Markup> {

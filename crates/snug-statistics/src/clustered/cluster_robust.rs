@@ -19,6 +19,8 @@ const METHOD: &str = "cluster-robust least squares";
 
 /// A direction of which this much lies in a single cluster is left out of its adjustment.
 const ABSORBED: f64 = 1e-10;
+/// Variance of a contrast, over the squared lengths of its axis and of the residual, up to which it is rounding \[–\]. Chosen.
+const ROUNDING: f64 = 1e-20;
 
 /// A least-squares fit with a bias-reduced cluster-robust covariance.
 pub struct ClusterRobustFit {
@@ -166,7 +168,6 @@ impl ClusterRobustFit {
 
     /// Refuses contrasts whose clusters are explained wholly: their variance is rounding.
     fn check_spread(&self, axes: &Mat<f64>, covariance: &Mat<f64>) -> Result<()> {
-        const ROUNDING: f64 = 1e-20;
         let residual = dot(&self.basis.residual, &self.basis.residual);
         for index in 0..axes.ncols() {
             let length: f64 = (0..axes.nrows())

@@ -10,6 +10,8 @@ use crate::{Result, StatisticsError};
 
 /// Approximate degrees of freedom below this mean that the data hold no test of the contrast.
 pub(super) const LEAST_FREEDOM: f64 = 0.1;
+/// Smallest eigenvalue of the contrasts' correlation below which one follows from the others \[–\]. Chosen.
+const SINGULAR: f64 = 1e-10;
 
 /// Contrasts in the orthonormal basis, as columns (coefficients × contrasts).
 ///
@@ -48,7 +50,6 @@ pub(super) fn in_basis(
 /// Inverse of a covariance of contrasts, factored so that the contrasts' units do not matter;
 /// `None` when it is singular.
 pub(super) fn inverse(covariance: &Mat<f64>) -> Option<Mat<f64>> {
-    const SINGULAR: f64 = 1e-10;
     let size = covariance.nrows();
     let scales: Vec<f64> = (0..size)
         .map(|index| covariance[(index, index)].sqrt())

@@ -5,6 +5,8 @@ use crate::{Result, StatisticsError};
 
 /// A column counts as dependent when this little of its length is left after projection.
 const DEPENDENT: f64 = 1e-10;
+/// Share of the response's sum of squares up to which what a design leaves of it is rounding \[–\]. Chosen.
+const ROUNDING: f64 = 1e-24;
 
 /// Orthonormal basis of a design's columns: `X = Q R`, and the response in it.
 ///
@@ -69,7 +71,6 @@ impl Orthonormal {
 
     /// Whether the design explains the response up to rounding.
     pub fn leaves_nothing(&self) -> bool {
-        const ROUNDING: f64 = 1e-24;
         let left = dot(&self.residual, &self.residual);
         left <= ROUNDING * (left + dot(&self.coordinates, &self.coordinates))
     }

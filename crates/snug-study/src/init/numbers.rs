@@ -3,6 +3,10 @@
 
 /// Steps of a time column may differ from their mean by so much of it, half of them.
 const UNEVEN: f64 = 0.5;
+/// Correlation beyond which a column is the derivative of another \[–\]. Chosen.
+const ALIKE: f64 = 0.97;
+/// Share of a motion's way, there and back, that its ends must be apart to go on in one direction \[–\]. Chosen.
+const ONE_WAY: f64 = 0.8;
 
 /// Whether no number differs from the others.
 pub(super) fn is_constant(values: &[f64]) -> bool {
@@ -36,7 +40,6 @@ pub(super) fn median_step(values: &[f64]) -> f64 {
 /// By what `rate`'s sum over time (in steps of `interval_s`) is multiplied to be `of`, both without their straight line;
 /// `None` where that is not what it is.
 pub(super) fn derivative(of: &[f64], rate: &[f64], interval_s: f64) -> Option<f64> {
-    const ALIKE: f64 = 0.97;
     let mut sum = 0.0;
     let integral: Vec<f64> = (rate.iter())
         .map(|value| {
@@ -78,7 +81,6 @@ fn without_line(values: &[f64]) -> Option<Vec<f64>> {
 
 /// Whether a motion goes on in one direction, as a drive that turns.
 pub(super) fn runs_away(values: &[f64]) -> bool {
-    const ONE_WAY: f64 = 0.8;
     let numbers: Vec<f64> = values
         .iter()
         .copied()

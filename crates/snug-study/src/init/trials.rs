@@ -11,6 +11,11 @@ use snug_ingest::Signal;
 use snug_ingest::survey::{Survey, SurveyedColumn, SurveyedPlace};
 use std::path::Path;
 
+/// Share of the motion's power that must be explained beside what is, for a sign to be asked about \[–\]. Chosen.
+const CLEARLY: f64 = 0.1;
+/// Share of the motion's power below which signs, columns and the rig itself are asked about \[–\]. Chosen.
+const HALF: f64 = 0.5;
+
 impl Choice {
     /// An input and a motion that names do not tell are those with which mass, damping and stiffness explain most.
     pub(super) fn take_the_rest(
@@ -143,8 +148,6 @@ impl Choice {
 
     /// Says what the model explains of the motion, and whether it were more with the input's sign turned; nothing is turned.
     pub(super) fn try_the_sign(&mut self, file: &Path) {
-        const CLEARLY: f64 = 0.1;
-        const HALF: f64 = 0.5;
         let mut turned = self.clone();
         let inputs = turned.taken.iter_mut().filter(|one| one.signal.is_input());
         inputs.for_each(|input| input.scale *= -1.0);

@@ -6,6 +6,9 @@ use snug_ingest::csv::TimeUnit;
 use snug_ingest::survey::{Survey, SurveyedColumn};
 use snug_ingest::{Signal, Unit};
 
+/// Length of a year with its share of a leap day \[s\].
+const YEAR_S: f64 = 365.25 * 86_400.0;
+
 /// In which unit a column probably is, and why.
 pub(super) fn unit_of(
     found: &Survey,
@@ -55,7 +58,6 @@ pub(super) fn unit_of(
 
 /// In which unit a clock counts since 1970, where its first reading then falls into this century.
 pub(super) fn since_1970(values: &[f64]) -> Option<TimeUnit> {
-    const YEAR_S: f64 = 365.25 * 86_400.0;
     let units = [
         TimeUnit::Second,
         TimeUnit::Millisecond,
