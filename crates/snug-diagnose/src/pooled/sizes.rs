@@ -7,7 +7,7 @@
 use crate::data::clusters::{student, student_among};
 use crate::library::is_unlisted;
 use crate::pooled::fitted::Fitted;
-use crate::pooled::group_sizes;
+use crate::pooled::groups;
 use crate::pooled::parameter_place::first_parameter;
 use BesideNothing::{Held, Told, Unknown};
 use snug_campaign::{EffectParameter, ParameterSource};
@@ -51,8 +51,8 @@ pub(crate) fn parameters(
             };
             let mut shared = (0..fitted.shared.len())
                 .filter(|&column| fitted.shared_sizes()[column].index == index);
-            if let Some(groups) = group_sizes::of(cases, fitted, index, effect, offset) {
-                groups.tell(&mut size);
+            if let Some(several) = groups::sizes::of(cases, fitted, index, effect, offset) {
+                several.tell(&mut size);
             } else if let Some(column) = shared.next() {
                 size.value = fitted.shared[column];
                 let inside = size.value > limits.0 && size.value < limits.1;

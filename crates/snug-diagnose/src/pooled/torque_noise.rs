@@ -4,6 +4,8 @@
 //! simulated output is in every residual. A lag or a smoothing delay takes it out and fits better although nothing lags.
 //! Models are therefore compared by what their residual holds beyond it.
 
+mod pull;
+
 use crate::data::clusters::Clusters;
 use crate::data::simulation::Asked;
 use crate::data::thresholds::SIMULATED_TOGETHER;
@@ -56,7 +58,7 @@ pub(crate) fn passed_on(
 }
 
 /// A member's torque with as much noise again as it has.
-pub(super) fn noisy(pooled: &PooledModel<'_>, member: usize) -> Input {
+fn noisy(pooled: &PooledModel<'_>, member: usize) -> Input {
     let case = &pooled.cases[member];
     let level = white_noise_level(&case.tightening.torque_nm);
     let mut random = ChaCha8Rng::seed_from_u64(0);

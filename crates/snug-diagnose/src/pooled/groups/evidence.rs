@@ -6,7 +6,7 @@
 //! clusters), and t = size/√V is Student's with n − p degrees of freedom where there is nothing of it, whatever the noise.
 
 use crate::pooled::fitted::Fitted;
-use crate::pooled::nothing::Nothing;
+use crate::pooled::groups::nothing::Nothing;
 use crate::pooled::parameter_place::effect_of;
 use crate::pooled::thresholds::FEWEST_OF_GROUP;
 use snug_least_squares::matrix::{SymmetricMatrix, inner_product as dot};

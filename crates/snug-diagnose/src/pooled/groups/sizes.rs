@@ -4,7 +4,7 @@
 use crate::data::clusters::student;
 use crate::pooled::change_point::change_point;
 use crate::pooled::fitted::Fitted;
-use crate::pooled::nothing::Nothing;
+use crate::pooled::groups::nothing::Nothing;
 use crate::pooled::sharing::Groups;
 use crate::pooled::thresholds::FALSE_DISCOVERIES;
 use snug_campaign::{ChangePoint, EffectParameter, GroupSize, GroupSizes};
