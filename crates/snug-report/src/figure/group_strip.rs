@@ -8,6 +8,8 @@ use snug_campaign::{EffectParameter, GroupSize, GroupSizes};
 
 /// Groups that a strip draws; of more those with most of the effect. Chosen.
 const DRAWN: usize = 40;
+/// Share of the axis that a whisker takes at its end which begins beyond it \[–\]. Chosen.
+const STUB: f64 = 0.06;
 
 /// A strip for each of the sizes that differ between groups; nothing where none does.
 pub fn group_strips(parameters: &[EffectParameter]) -> Markup {
@@ -29,18 +31,19 @@ fn strip(parameter: &EffectParameter, sizes: &GroupSizes) -> Markup {
         drawn.truncate(DRAWN);
     }
     let unit = unit_text(&parameter.unit);
-    let ends = drawn.iter().flat_map(|one| {
-        let low = one.low.unwrap_or(one.value);
-        match one.is_without_end() {
-            true => [low, low, 0.0],
-            false => [low, one.high.unwrap_or(one.value), 0.0],
-        }
-    });
-    let (low, high) = linear_range(ends, 0.05);
+    let vanishes_without_end = drawn.iter().any(|one| one.is_without_end());
+    let ended = drawn.iter().filter(|one| !one.is_without_end());
+    let ends = ended.flat_map(|one| [one.low.unwrap_or(one.value), one.high.unwrap_or(one.value)]);
+    let nothing = (!vanishes_without_end).then_some(0.0);
+    let (low, high) = linear_range(ends.chain(nothing), 0.05);
     let bottom = 0.5 - drawn.len() as f64;
-    let mut marks = vec![Mark::rule("c-zero", (0.0, 0.0), (0.5, bottom))];
-    marks.extend(rows_of("c-quiet", &drawn, false, &unit, high));
-    marks.extend(rows_of("c-selected", &drawn, true, &unit, high));
+    let mut marks = Vec::new();
+    if nothing.is_some() {
+        marks.push(Mark::rule("c-zero", (0.0, 0.0), (0.5, bottom)));
+    }
+    let beyond = (high - STUB * (high - low), high);
+    marks.extend(rows_of("c-quiet", &drawn, false, &unit, beyond));
+    marks.extend(rows_of("c-selected", &drawn, true, &unit, beyond));
     let name = parameter.size().name;
     let rows: Vec<(String, bool)> = drawn.iter().map(|one| (one.group.clone(), false)).collect();
     let label = match unit.as_str() {
@@ -55,12 +58,17 @@ fn strip(parameter: &EffectParameter, sizes: &GroupSizes) -> Markup {
         y: Axis::rows(&rows),
         marks,
     };
-    let note = (drawn.len() < sizes.groups.len()).then(|| {
-        format!(
-            "The {DRAWN} of {} with most of it are drawn.",
-            sizes.groups.len()
-        )
-    });
+    let mut notes = Vec::new();
+    if drawn.len() < sizes.groups.len() {
+        let all = sizes.groups.len();
+        notes.push(format!("The {DRAWN} of {all} with most of it are drawn."));
+    }
+    if vanishes_without_end {
+        notes.push(format!(
+            "The larger the {name}, the less there is of it; a line at the right end is beyond, and may be without end."
+        ));
+    }
+    let note = (!notes.is_empty()).then(|| notes.join(" "));
     captioned(
         &format!(
             "{} by {}: {}",
@@ -86,13 +94,14 @@ fn who(sizes: &GroupSizes) -> String {
     }
 }
 
-/// Whiskers and dots of the groups that have it, or of those that have not; of what may be without end a whisker to the axis' end.
+/// Whiskers and dots of the groups that have it, or of those that have not; of what may be without end a whisker to
+/// the axis' end, no shorter than `beyond`, which ends there.
 fn rows_of(
     class: &'static str,
     drawn: &[&GroupSize],
     present: bool,
     unit: &str,
-    end: f64,
+    beyond: (f64, f64),
 ) -> [Mark; 2] {
     let chosen = || {
         let rows = drawn.iter().enumerate();
@@ -100,11 +109,11 @@ fn rows_of(
             .map(|(row, one)| (-(row as f64), one))
     };
     let segments = chosen().filter_map(|(y, one)| {
-        let high = if one.is_without_end() { end } else { one.high? };
-        Some(Segment {
-            x: (one.low?, high),
-            y: (y, y),
-        })
+        let x = match one.is_without_end() {
+            true => (one.low?.min(beyond.0), beyond.1),
+            false => (one.low?, one.high?),
+        };
+        Some(Segment { x, y: (y, y) })
     });
     let ended = chosen().filter(|(_, one)| !one.is_without_end());
     let dots = ended.map(|(y, one)| Dot {
@@ -121,4 +130,60 @@ fn rows_of(
         Mark::Segments(class, segments.collect()),
         Mark::Dots(class, dots.collect()),
     ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use snug_campaign::Factor;
+
+    /// A second mass of 1.5 kg that one of two people has; of the other it would be heavier than 900 kg, at most without end.
+    #[test]
+    fn a_mass_that_may_be_without_end_does_not_stretch_the_axis_to_its_limit() {
+        let group = |name: &str, value: f64, low: f64, high: Option<f64>| GroupSize {
+            group: name.to_owned(),
+            tightenings: 8,
+            value,
+            standard_error: None,
+            shrunk: value,
+            low: Some(low),
+            high,
+            present: high.is_some(),
+        };
+        let sizes = GroupSizes {
+            factor: Factor::Participant,
+            groups: vec![
+                group("TP1", 1e6, 905.0, None),
+                group("TP2", 1.5, 1.4, Some(1.6)),
+            ],
+            change: None,
+        };
+        let parameter = EffectParameter {
+            name: "m2_kg".to_owned(),
+            meaning: "second mass".to_owned(),
+            unit: "kg".to_owned(),
+            value: 1.5,
+            low: Some(1.4),
+            high: Some(1.6),
+            standard_error: None,
+            per_tightening: false,
+            spread: None,
+            minimum: 0.2,
+            maximum: 20.0,
+            by_group: Some(sizes),
+        };
+        let drawn = group_strips(&[parameter]).into_string();
+        assert!(
+            drawn.contains("1 of 2 have it") && drawn.contains("may be without end"),
+            "{drawn}"
+        );
+        assert!(
+            !drawn.contains("c-zero"),
+            "nothing of it is not at 0: {drawn}"
+        );
+        assert!(
+            drawn.contains("TP2: 1.50 kg") && !drawn.contains("TP1: "),
+            "{drawn}"
+        );
+    }
 }
