@@ -7,11 +7,12 @@
 
 use crate::library::is_unlisted;
 use crate::pooled::fitted::Fitted;
+use crate::pooled::groups::nothing::Nothing;
 use crate::pooled::parameter_place::first_parameter;
 use crate::pooled::sharing::Groups;
 use snug_campaign::{AddedEffect, Factor, SizeComparison};
 use snug_identify::FitTask;
-use snug_model::Effect;
+use snug_model::{Effect, Law};
 use snug_statistics::clustered::{Design, fit_random_intercept};
 use snug_statistics::k_sample::welch_anova;
 use snug_statistics::multiplicity::benjamini_hochberg;
@@ -47,8 +48,12 @@ fn named(effect: Effect, name: &str) -> bool {
 
 fn of_effect(cases: &[FitTask<'_>], fitted: &Fitted, effect: Effect) -> Vec<SizeComparison> {
     let index = first_parameter(&fitted.effects, effect);
+    let spec = effect.description().parameters.first();
+    let nothing = spec.map_or(Nothing::At(0.0), |spec| {
+        Nothing::of(spec.vanishes_at, spec.limits)
+    });
     let sizes: Vec<Option<f64>> = (0..cases.len())
-        .map(|member| own_size(fitted, member, index))
+        .map(|member| own_size(fitted, member, index, nothing))
         .collect();
     let factors = [
         Factor::Joint,
@@ -86,11 +91,17 @@ fn of_effect(cases: &[FitTask<'_>], fitted: &Fitted, effect: Effect) -> Vec<Size
     compared.collect()
 }
 
-/// The size that one tightening asks for; `None` where it says nothing of it, or no tightening shares it.
-fn own_size(fitted: &Fitted, member: usize, index: usize) -> Option<f64> {
+/// The size that one tightening asks for, or its reciprocal where it is the less the larger it is; `None` where it says nothing of it,
+/// or no tightening shares it.
+fn own_size(fitted: &Fitted, member: usize, index: usize, nothing: Nothing) -> Option<f64> {
     let part = (fitted.parts(member, None).into_iter()).find(|part| part.index == index)?;
     let (gradient, curvature) = fitted.of_parameter(member, index)?;
-    Some(part.value - gradient / curvature)
+    let step = -gradient / curvature;
+    Some(match nothing {
+        Nothing::At(_) => part.value + step,
+        // d(1/s) = −ds/s².
+        Nothing::Beyond => 1.0 / part.value - step / (part.value * part.value),
+    })
 }
 
 /// Of groups of people.
@@ -156,7 +167,13 @@ mod tests {
     fn a_tightening_asks_for_its_own_size() {
         let fitted = Fitted::made_up(&[CubicStiffness], &[1.0; 2], 1)
             .with_shared(("k3_n_per_m3", 3, 2.0), &[(4.0, 2.0), (0.0, 0.0)]);
-        close(own_size(&fitted, 0, 3).expect("it says so"), 1.5, 1e-12);
-        assert_eq!(own_size(&fitted, 1, 3), None);
+        close(
+            own_size(&fitted, 0, 3, Nothing::At(0.0)).expect("it says so"),
+            1.5,
+            1e-12,
+        );
+        assert_eq!(own_size(&fitted, 1, 3, Nothing::At(0.0)), None);
+        let of_mass = own_size(&fitted, 0, 3, Nothing::Beyond).expect("it says so");
+        close(of_mass, 0.5 + 0.5 / 4.0, 1e-12);
     }
 }
