@@ -4,6 +4,8 @@ use crate::error::DiagnoseError;
 use crate::pooled::fit::fit_effects;
 use crate::pooled::fitted::Fitted;
 use crate::pooled::sizes::{BesideNothing, beside_nothing};
+use crate::ranking::applicability::can_act;
+use crate::ranking::kin::is_simpler;
 use crate::ranking::paired_gain::{clearness, gains};
 use crate::selection::model_selection::ModelSelection;
 use crate::selection::path::{SelectionPath, leaves_more};
@@ -85,6 +87,47 @@ fn without(
     Ok(fit_effects(selection.cases, &effects, Some(full), selection.clusters).ok())
 }
 
+/// Puts for each added effect a simpler one that does as well in its place beside the others: while another was missing, the richer
+/// explained some of that, too. Of one that stands alone its kin were compared as it was chosen; of few long records as each came in.
+pub(crate) fn prefer_simpler(
+    selection: &ModelSelection<'_>,
+    path: &mut SelectionPath,
+) -> Result<(), DiagnoseError> {
+    if path.additions.len() < 2 || !selection.clusters.are_whole() {
+        return Ok(());
+    }
+    let mut is_changed = false;
+    for place in 0..path.additions.len() {
+        let rich = path.additions[place].effect;
+        let full = path.last().clone();
+        let (case, others) = (&selection.cases[0], &full.effects);
+        let is_free = |simple: Effect| can_act(simple, case) && !others.contains(&simple);
+        let simpler = (Effect::ALL.iter().copied())
+            .filter(|&simple| is_simpler(simple, rich) && is_free(simple));
+        for simple in simpler {
+            let doing = format!("trying {} in place of {}", simple.name(), rich.name());
+            selection.watch.begin(&doing)?;
+            let heldout = full.heldout_beyond_torque_noise();
+            let swapped = in_place(selection, &full, rich, simple).ok();
+            let Some(swapped) = swapped.filter(|one| is_as_good(selection, &full, &heldout, one))
+            else {
+                continue;
+            };
+            let addition = &mut path.additions[place];
+            addition.effect = simple;
+            addition.twins.retain(|twin| *twin != simple);
+            addition.twins.insert(0, rich);
+            path.replace_last(swapped);
+            is_changed = true;
+            break;
+        }
+    }
+    if is_changed {
+        selection.rank_last(path)?;
+    }
+    Ok(())
+}
+
 /// Keeps of each added effect's twins those that still do as well in its place beside the others.
 ///
 /// While another effect was missing, many seemed to explain equally much.
@@ -106,7 +149,7 @@ pub(crate) fn look_at_twins_again(
                 twin.name(),
                 addition.effect.name()
             ))?;
-            if does_as_well(selection, &full, &heldout, addition.effect, twin)? {
+            if does_as_well(selection, &full, &heldout, addition.effect, twin) {
                 kept.push(twin);
             }
         }
@@ -121,15 +164,33 @@ fn does_as_well(
     heldout: &[f64],
     effect: Effect,
     twin: Effect,
-) -> Result<bool, DiagnoseError> {
-    let swap = |known: &Effect| if *known == effect { twin } else { *known };
+) -> bool {
+    let swapped = in_place(selection, full, effect, twin);
+    swapped.is_ok_and(|swapped| is_as_good(selection, full, heldout, &swapped))
+}
+
+/// `full` with `other` in place of `effect`.
+fn in_place(
+    selection: &ModelSelection<'_>,
+    full: &Fitted,
+    effect: Effect,
+    other: Effect,
+) -> Result<Fitted, DiagnoseError> {
+    let swap = |known: &Effect| if *known == effect { other } else { *known };
     let effects: Vec<Effect> = full.effects.iter().map(swap).collect();
-    let Ok(swapped) = fit_effects(selection.cases, &effects, Some(full), selection.clusters) else {
-        return Ok(false);
-    };
-    let lost: Vec<f64> = gains(heldout, &swapped).iter().map(|gain| -gain).collect();
-    Ok(clearness(&lost, full.scale()) < EQUAL
-        && !leaves_more(&swapped, full, &lost, &selection.clusters))
+    fit_effects(selection.cases, &effects, Some(full), selection.clusters)
+}
+
+/// Whether `swapped` explains hardly less than `full` of tightenings that took no part; `heldout` is what `full` leaves of them.
+fn is_as_good(
+    selection: &ModelSelection<'_>,
+    full: &Fitted,
+    heldout: &[f64],
+    swapped: &Fitted,
+) -> bool {
+    let lost: Vec<f64> = gains(heldout, swapped).iter().map(|gain| -gain).collect();
+    clearness(&lost, full.scale()) < EQUAL
+        && !leaves_more(swapped, full, &lost, &selection.clusters)
 }
 
 #[cfg(test)]
@@ -140,7 +201,10 @@ mod tests {
     use crate::selection::path::Addition;
     use crate::tests::made_up::{WHOLE, custom_force, noisy, quick, silent};
     use snug_identify::FitTask;
-    use snug_model::Effect::{CubicStiffness, QuadraticDamping, TorqueDelay, TorqueOffset};
+    use snug_model::Effect::{
+        CoulombFriction, CubicStiffness, QuadraticDamping, StribeckFriction, TorqueDelay,
+        TorqueOffset,
+    };
 
     /// Runs `look` on a selection that added `effects` to the base model of tightenings with a spring that stiffens and a torque
     /// that reads too much.
@@ -149,8 +213,22 @@ mod tests {
         twins: &[Effect],
         look: impl FnOnce(&ModelSelection<'_>, &mut SelectionPath) -> T,
     ) -> T {
-        let made_with = [CubicStiffness, TorqueOffset];
-        let cases: Vec<FitTask> = (0..8).map(|n| noisy(n, &made_with, &[2e6, 0.5])).collect();
+        let made_with: [(Effect, f64); 2] = [(CubicStiffness, 2e6), (TorqueOffset, 0.5)];
+        after_selection_of(made_with, effects, twins, look)
+    }
+
+    /// The same of tightenings with these.
+    fn after_selection_of<T>(
+        made_with: [(Effect, f64); 2],
+        effects: &[Effect],
+        twins: &[Effect],
+        look: impl FnOnce(&ModelSelection<'_>, &mut SelectionPath) -> T,
+    ) -> T {
+        let (made_with, sizes) = (
+            made_with.map(|(effect, _)| effect),
+            made_with.map(|(_, size)| size),
+        );
+        let cases: Vec<FitTask> = (0..8).map(|n| noisy(n, &made_with, &sizes)).collect();
         let (tally, watch) = (Tally::default(), silent());
         let settings = quick(99);
         let selection = ModelSelection {
@@ -265,5 +343,19 @@ mod tests {
                 );
             },
         );
+    }
+
+    /// Dry friction is a friction that goes with the speed in which nothing goes.
+    #[test]
+    fn dry_friction_is_told_where_a_richer_one_came_in_while_a_spring_was_missing() {
+        let made_with = [(CoulombFriction, 4.0), (CubicStiffness, 2e6)];
+        let added = [StribeckFriction, CubicStiffness];
+        after_selection_of(made_with, &added, &[], |selection, path| {
+            prefer_simpler(selection, path).expect("it can be fitted");
+            assert_eq!(path.additions[0].effect, CoulombFriction);
+            assert_eq!(path.additions[0].twins, [StribeckFriction]);
+            assert_eq!(path.last().effects, [CoulombFriction, CubicStiffness]);
+            assert!(!path.ranking.candidates.is_empty(), "it was ranked against");
+        });
     }
 }

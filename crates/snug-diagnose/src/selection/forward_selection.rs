@@ -2,7 +2,7 @@
 
 use crate::error::DiagnoseError;
 use crate::selection::backward_elimination::{
-    look_at_twins_again, take_out_what_may_be_nothing, try_removals,
+    look_at_twins_again, prefer_simpler, take_out_what_may_be_nothing, try_removals,
 };
 use crate::selection::model_selection::{ModelSelection, Step};
 use crate::selection::path::{SelectionPath, Stop, justified};
@@ -46,6 +46,7 @@ impl ModelSelection<'_> {
             self.go_up(path, steps)?;
         }
         try_removals(self, path)?;
+        prefer_simpler(self, path)?;
         look_at_twins_again(self, path)
     }
 
