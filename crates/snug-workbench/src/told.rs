@@ -145,7 +145,7 @@ fn ladder(
     rungs.collect()
 }
 
-/// `stiffness of the reflex 638.8 [632.6, 645.0] N/m`.
+/// `stiffness of the reflex 639.7 [633.4, 646.0] N/m`.
 fn size(campaign: &Campaign, parameter: &EffectParameter) -> String {
     let size = campaign.prepared.vocabulary.size(parameter);
     campaign.says(&size.size().to_string())
