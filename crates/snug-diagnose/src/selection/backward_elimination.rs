@@ -4,7 +4,6 @@ use crate::error::DiagnoseError;
 use crate::pooled::fit::fit_effects;
 use crate::pooled::fitted::Fitted;
 use crate::pooled::sizes::{BesideNothing, beside_nothing};
-use crate::ranking::applicability::can_act;
 use crate::ranking::kin::is_simpler;
 use crate::ranking::paired_gain::{clearness, gains};
 use crate::selection::model_selection::ModelSelection;
@@ -100,14 +99,10 @@ pub(crate) fn prefer_simpler(
     for place in 0..path.additions.len() {
         let rich = path.additions[place].effect;
         let full = path.last().clone();
-        let (case, others) = (&selection.cases[0], &full.effects);
-        let is_free = |simple: Effect| can_act(simple, case) && !others.contains(&simple);
-        let simpler = (Effect::ALL.iter().copied())
-            .filter(|&simple| is_simpler(simple, rich) && is_free(simple));
-        for simple in simpler {
+        let heldout = full.heldout_beyond_torque_noise();
+        for simple in selection.in_place_of(rich, &full, is_simpler)? {
             let doing = format!("trying {} in place of {}", simple.name(), rich.name());
             selection.watch.begin(&doing)?;
-            let heldout = full.heldout_beyond_torque_noise();
             let swapped = in_place(selection, &full, rich, simple).ok();
             let Some(swapped) = swapped.filter(|one| is_as_good(selection, &full, &heldout, one))
             else {

@@ -86,6 +86,26 @@ impl ModelSelection<'_> {
         Ok(())
     }
 
+    /// Effects of the catalogue, as this rig has them, that could stand in place of `effect` in the model `last`, of those that are
+    /// `like` it.
+    pub(super) fn in_place_of(
+        &self,
+        effect: Effect,
+        last: &Fitted,
+        like: impl Fn(Effect, Effect) -> bool,
+    ) -> Result<Vec<Effect>, DiagnoseError> {
+        let (case, model) = (&self.cases[0], &self.cases[0].model);
+        let is_there = |other: Effect| last.effects.iter().any(|one| one.name() == other.name());
+        let mut others = last.effects.clone();
+        others.retain(|known| *known != effect);
+        let mut all: Vec<Effect> = (Effect::ALL.iter())
+            .filter(|&&other| like(other, effect) && !is_there(other) && can_act(other, case))
+            .map(|&other| model.scale().effect(other, model.rig()))
+            .collect::<Result<_, _>>()?;
+        all.retain(|&other| can_stand_beside(&others, other, case));
+        Ok(all)
+    }
+
     /// What does better than `effect` beside the other effects of the last model.
     fn better_kin(
         &self,
@@ -93,18 +113,12 @@ impl ModelSelection<'_> {
         effect: Effect,
     ) -> Result<Option<Candidate>, DiagnoseError> {
         let (last, first) = (path.last(), &path.rungs[0]);
-        let (case, model) = (&self.cases[0], &self.cases[0].model);
-        let is_there = |other: Effect| last.effects.iter().any(|one| one.name() == other.name());
-        let mut others = last.effects.clone();
-        others.retain(|known| *known != effect);
-        let mut kin: Vec<Effect> = (Effect::ALL.iter())
-            .filter(|&&other| are_kin(other, effect) && !is_there(other) && can_act(other, case))
-            .map(|&other| model.scale().effect(other, model.rig()))
-            .collect::<Result<_, _>>()?;
-        kin.retain(|&other| can_stand_beside(&others, other, case));
+        let kin = self.in_place_of(effect, last, are_kin)?;
         if kin.is_empty() {
             return Ok(None);
         }
+        let mut others = last.effects.clone();
+        others.retain(|known| *known != effect);
         self.watch
             .begin(&format!("looking for what does for {}", effect.name()))?;
         let Ok(without) = fit_effects(self.cases, &others, Some(last), self.clusters) else {
