@@ -112,16 +112,16 @@ impl LiveCases {
         };
         // Where a fit was ended, what was tried in its place says so too.
         follower.go_on()?;
-        let fitted = fitted?.without_torque_noise(self.counted(&tally))?;
-        self.ended(fitted)
+        self.ended(fitted?)
     }
 
-    /// A fit that ended, if anything finite came of it.
+    /// A fit that ended, without the noise of the torque as the commands tell it, if anything finite came of it.
     pub(super) fn ended(&self, fitted: Fitted) -> Result<LiveFit, DiagnoseError> {
-        match fitted.squares().is_finite() {
-            true => Ok(LiveFit::new(&self.cases, fitted)),
-            false => Err(SolveError::NoStart.into()),
+        if !fitted.squares().is_finite() {
+            return Err(SolveError::NoStart.into());
         }
+        let fitted = fitted.without_torque_noise(self.counted(&Tally::default()))?;
+        Ok(LiveFit::new(&self.cases, fitted))
     }
 
     /// The model of `from` with what goes taken out and what is fresh put in, one after the other.
