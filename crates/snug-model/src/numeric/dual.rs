@@ -24,9 +24,10 @@ impl<const P: usize, R: Real> Dual<P, R> {
     #[inline(always)]
     fn with(value: R, mut partial: impl FnMut(usize) -> R) -> Self {
         // A loop, not `array::from_fn`: only what is inlined into the vector code uses its registers.
-        let mut partials = [value; P];
-        for (j, one) in partials.iter_mut().enumerate() {
-            *one = partial(j);
+        let (mut partials, mut j) = ([value; P], 0);
+        while j < P {
+            partials[j] = partial(j);
+            j += 1;
         }
         Self { value, partials }
     }

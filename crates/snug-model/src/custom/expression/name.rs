@@ -1,6 +1,6 @@
 //! The variables and functions that an expression may name.
 
-use crate::numeric::lanewise::Lanewise;
+use super::tree::Binary;
 use crate::numeric::number::Number;
 
 /// A quantity of the motion that an expression may use.
@@ -116,29 +116,32 @@ impl Function {
         Self::ALL.into_iter().find(|known| known.name() == name)
     }
 
-    /// Whether it takes two arguments.
-    pub fn takes_two(self) -> bool {
-        matches!(self, Self::Min | Self::Max)
+    /// Of two arguments it is an operator between them.
+    pub fn between_two(self) -> Option<Binary> {
+        match self {
+            Self::Min => Some(Binary::Min),
+            Self::Max => Some(Binary::Max),
+            _ => None,
+        }
     }
 
-    /// Its value; a function of one argument leaves `second` alone.
+    /// Its value for one argument.
     #[inline(always)]
-    pub fn of<N: Number>(self, first: N, second: N) -> N {
+    pub fn of<N: Number>(self, argument: N) -> N {
         match self {
-            Self::Abs => first.abs(),
-            Self::Sign => first.sign(),
-            Self::Sqrt => first.sqrt(),
-            Self::Exp => first.exp(),
-            Self::Log => first.log(),
-            Self::Sin => first.sin(),
-            Self::Cos => first.cos(),
-            Self::Tan => first.tan(),
-            Self::Tanh => first.tanh(),
-            Self::Atan => first.atan(),
-            Self::Step => first.step(),
-            Self::SmoothStep => first.smooth_step(),
-            Self::Min => N::select(first.value().is_above(second.value()), second, first),
-            Self::Max => N::select(second.value().is_above(first.value()), second, first),
+            Self::Abs => argument.abs(),
+            Self::Sign => argument.sign(),
+            Self::Sqrt => argument.sqrt(),
+            Self::Exp => argument.exp(),
+            Self::Log => argument.log(),
+            Self::Sin => argument.sin(),
+            Self::Cos => argument.cos(),
+            Self::Tan => argument.tan(),
+            Self::Tanh => argument.tanh(),
+            Self::Atan => argument.atan(),
+            Self::Step => argument.step(),
+            Self::SmoothStep => argument.smooth_step(),
+            Self::Min | Self::Max => argument,
         }
     }
 }

@@ -145,14 +145,15 @@ impl<'a> Parser<'a> {
         self.advance()?;
         self.expect('(', &format!("`(` after the function `{name}`"))?;
         let first = self.sum()?;
-        let second = if function.takes_two() {
-            self.expect(',', "`,`: the function takes two values")?;
-            Some(self.sum()?)
-        } else {
-            None
+        let call = match function.between_two() {
+            Some(operator) => {
+                self.expect(',', "`,`: the function takes two values")?;
+                Tree::binary(operator, first, self.sum()?)
+            }
+            None => Tree::call(function, first),
         };
         self.expect(')', "+ - * / ^ or `)`")?;
-        Ok(Tree::call(function, first, second))
+        Ok(call)
     }
 
     /// Every name that may stand in this expression.

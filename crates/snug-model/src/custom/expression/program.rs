@@ -43,18 +43,20 @@ struct Instruction {
     to: usize,
 }
 
+/// Operands are fetched in one place each: in every kind of operation, they would be in the compiled program once more.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Operation {
-    Add(Operand, Operand),
-    Subtract(Operand, Operand),
-    Multiply(Operand, Operand),
-    Divide(Operand, Operand),
-    Shift(Operand, f64),
-    Scale(Operand, f64),
-    WholePower(Operand, i32),
-    RealPower(Operand, f64),
-    Power(Operand, Operand),
-    Call(Function, Operand, Operand),
+    OfOne(OfOne, Operand),
+    OfTwo(Binary, Operand, Operand),
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum OfOne {
+    Shift(f64),
+    Scale(f64),
+    WholePower(i32),
+    RealPower(f64),
+    Call(Function),
 }
 
 impl Program {
@@ -79,13 +81,8 @@ impl Program {
                 let (left, right) = self.pair(left, right, free)?;
                 operation(*operator, left, right)
             }
-            Tree::Call(function, first, None) => {
-                let first = self.place(first, free)?;
-                Operation::Call(*function, first, first)
-            }
-            Tree::Call(function, first, Some(second)) => {
-                let (first, second) = self.pair(first, second, free)?;
-                Operation::Call(*function, first, second)
+            Tree::Call(function, argument) => {
+                Operation::OfOne(OfOne::Call(*function), self.place(argument, free)?)
             }
         };
         if free >= MAXIMUM_TEMPORARIES {
@@ -121,16 +118,8 @@ impl Program {
                 .instructions
                 .iter()
                 .any(|instruction| match instruction.operation {
-                    Operation::Add(a, b)
-                    | Operation::Subtract(a, b)
-                    | Operation::Multiply(a, b)
-                    | Operation::Divide(a, b)
-                    | Operation::Power(a, b)
-                    | Operation::Call(_, a, b) => a == wanted || b == wanted,
-                    Operation::Shift(a, _)
-                    | Operation::Scale(a, _)
-                    | Operation::WholePower(a, _)
-                    | Operation::RealPower(a, _) => a == wanted,
+                    Operation::OfOne(_, a) => a == wanted,
+                    Operation::OfTwo(_, a, b) => a == wanted || b == wanted,
                 })
     }
 
@@ -147,35 +136,31 @@ impl Program {
         around.at.lever_arm_m.vectorize(run)
     }
 
+    /// The same with room for the intermediate results.
     #[inline(always)]
-    fn run<N: Number, const T: usize>(&self, p: &[N], around: &Surroundings<N>) -> N {
-        let mut kept = [around.at.x_m.constant(0.0); T];
+    fn run<N: Number>(&self, p: &[N], around: &Surroundings<N>, kept: &mut [N]) -> N {
         for instruction in &self.instructions {
-            let from = Operands {
-                p,
-                around,
-                kept: &kept,
-            };
+            let from = Operands { p, around, kept };
             let value = match instruction.operation {
-                Operation::Add(a, b) => from.get(a) + from.get(b),
-                Operation::Subtract(a, b) => from.get(a) - from.get(b),
-                Operation::Multiply(a, b) => from.get(a) * from.get(b),
-                Operation::Divide(a, b) => from.get(a) / from.get(b),
-                Operation::Shift(a, by) => from.get(a) + by,
-                Operation::Scale(a, by) => from.get(a) * by,
-                Operation::WholePower(a, exponent) => from.get(a).power(exponent),
-                Operation::RealPower(a, exponent) => from.get(a).real_power(exponent),
-                Operation::Power(a, b) => from.get(a).power_of(from.get(b)),
-                Operation::Call(function, a, b) => function.of(from.get(a), from.get(b)),
+                Operation::OfOne(operation, a) => operation.of(from.get(a)),
+                Operation::OfTwo(operation, a, b) => operation.of(from.get(a), from.get(b)),
             };
             kept[instruction.to] = value;
         }
-        let from = Operands {
-            p,
-            around,
-            kept: &kept,
-        };
-        from.get(self.result)
+        Operands { p, around, kept }.get(self.result)
+    }
+}
+
+impl OfOne {
+    #[inline(always)]
+    fn of<N: Number>(self, a: N) -> N {
+        match self {
+            Self::Shift(by) => a + by,
+            Self::Scale(by) => a * by,
+            Self::WholePower(exponent) => a.power(exponent),
+            Self::RealPower(exponent) => a.real_power(exponent),
+            Self::Call(function) => function.of(a),
+        }
     }
 }
 
@@ -191,37 +176,46 @@ impl<N: Number> Task for Run<'_, N> {
     #[inline(always)]
     fn run(self) -> N {
         let Self { program, p, around } = self;
-        match program.temporaries {
-            0..=2 => program.run::<N, 2>(p, around),
-            3 | 4 => program.run::<N, 4>(p, around),
-            _ => program.run::<N, MAXIMUM_TEMPORARIES>(p, around),
-        }
+        // No more room than is needed: to clear it costs as much as a few operations.
+        let zero = around.at.x_m.constant(0.0);
+        let (mut two, mut four, mut all);
+        let kept: &mut [N] = match program.temporaries {
+            0..=2 => {
+                two = [zero; 2];
+                &mut two
+            }
+            3 | 4 => {
+                four = [zero; 4];
+                &mut four
+            }
+            _ => {
+                all = [zero; MAXIMUM_TEMPORARIES];
+                &mut all
+            }
+        };
+        program.run(p, around, kept)
     }
 }
 
 /// The cheapest operation that works `left operator right` out.
 fn operation(operator: Binary, left: Operand, right: Operand) -> Operation {
     use Operand::Constant;
-    match (operator, left, right) {
-        (Binary::Add, Constant(by), a) | (Binary::Add, a, Constant(by)) => Operation::Shift(a, by),
-        (Binary::Add, a, b) => Operation::Add(a, b),
-        (Binary::Subtract, a, Constant(by)) => Operation::Shift(a, -by),
-        (Binary::Subtract, a, b) => Operation::Subtract(a, b),
+    let (of_one, a) = match (operator, left, right) {
+        (Binary::Add, Constant(by), a) | (Binary::Add, a, Constant(by)) => (OfOne::Shift(by), a),
+        (Binary::Subtract, a, Constant(by)) => (OfOne::Shift(-by), a),
         (Binary::Multiply, Constant(by), a) | (Binary::Multiply, a, Constant(by)) => {
-            Operation::Scale(a, by)
+            (OfOne::Scale(by), a)
         }
-        (Binary::Multiply, a, b) => Operation::Multiply(a, b),
-        (Binary::Divide, a, b) => Operation::Divide(a, b),
         (Binary::Power, a, Constant(exponent)) => {
             let whole = exponent as i32;
-            if f64::from(whole) == exponent {
-                Operation::WholePower(a, whole)
-            } else {
-                Operation::RealPower(a, exponent)
+            match f64::from(whole) == exponent {
+                true => (OfOne::WholePower(whole), a),
+                false => (OfOne::RealPower(exponent), a),
             }
         }
-        (Binary::Power, a, b) => Operation::Power(a, b),
-    }
+        (_, a, b) => return Operation::OfTwo(operator, a, b),
+    };
+    Operation::OfOne(of_one, a)
 }
 
 /// What operands stand for at one instruction.

@@ -1,6 +1,7 @@
 //! An expression as the parser builds it, before it is compiled.
 
 use super::name::{Function, Variable};
+use crate::numeric::lanewise::Lanewise;
 use crate::numeric::number::Number;
 
 /// An expression as it was read, constant parts already worked out.
@@ -10,8 +11,7 @@ pub enum Tree {
     Variable(Variable),
     Parameter(usize),
     Binary(Binary, Box<Self>, Box<Self>),
-    /// Of one argument, or of two.
-    Call(Function, Box<Self>, Option<Box<Self>>),
+    Call(Function, Box<Self>),
 }
 
 /// An operator between two operands.
@@ -22,18 +22,29 @@ pub enum Binary {
     Multiply,
     Divide,
     Power,
+    Min,
+    Max,
+}
+
+impl Binary {
+    #[inline(always)]
+    pub fn of<N: Number>(self, a: N, b: N) -> N {
+        match self {
+            Self::Add => a + b,
+            Self::Subtract => a - b,
+            Self::Multiply => a * b,
+            Self::Divide => a / b,
+            Self::Power => a.power_of(b),
+            Self::Min => N::select(a.value().is_above(b.value()), b, a),
+            Self::Max => N::select(b.value().is_above(a.value()), b, a),
+        }
+    }
 }
 
 impl Tree {
     pub fn binary(operator: Binary, left: Self, right: Self) -> Self {
         match (operator, &left, &right) {
-            (_, &Self::Constant(a), &Self::Constant(b)) => Self::Constant(match operator {
-                Binary::Add => a + b,
-                Binary::Subtract => a - b,
-                Binary::Multiply => a * b,
-                Binary::Divide => a / b,
-                Binary::Power => a.real_power(b),
-            }),
+            (_, &Self::Constant(a), &Self::Constant(b)) => Self::Constant(operator.of(a, b)),
             (Binary::Power, _, &Self::Constant(0.0)) => Self::Constant(1.0),
             (Binary::Power, _, &Self::Constant(1.0)) => left,
             _ => Self::Binary(operator, Box::new(left), Box::new(right)),
@@ -44,11 +55,10 @@ impl Tree {
         Self::binary(Binary::Multiply, Self::Constant(-1.0), of)
     }
 
-    pub fn call(function: Function, first: Self, second: Option<Self>) -> Self {
-        match (&first, &second) {
-            (&Self::Constant(a), None) => Self::Constant(function.of(a, a)),
-            (&Self::Constant(a), &Some(Self::Constant(b))) => Self::Constant(function.of(a, b)),
-            _ => Self::Call(function, Box::new(first), second.map(Box::new)),
+    pub fn call(function: Function, argument: Self) -> Self {
+        match argument {
+            Self::Constant(a) => Self::Constant(function.of(a)),
+            _ => Self::Call(function, Box::new(argument)),
         }
     }
 }
