@@ -4,6 +4,8 @@ mod contradiction;
 pub(crate) mod decimated;
 mod in_motion;
 
+pub use in_motion::begin_in_motion;
+
 use crate::error::IdentifyError;
 use crate::residual::restarts::motions_at;
 use crate::residual::thresholds::RESTARTED_EVERY_S;

@@ -1,4 +1,4 @@
-//! Whether a recording of a speed begins in motion.
+//! Whether recordings of a speed begin in motion.
 
 use crate::task::FitTask;
 use snug_campaign::Quantity;
@@ -16,22 +16,52 @@ const LOSES: f64 = 0.1;
 /// Share of that loss below which it loses none \[–\]. Chosen.
 const LOSES_NONE: f64 = 0.2;
 
-impl FitTask<'_> {
-    /// Whether the speed at the first sample is no noise, no little of what it is elsewhere, and no error of the sensor: a rig that turns
-    /// while no torque acts on it loses speed by its damping, here with m, c, k \[kg, kg/s, N/m\] as `base`, where they are known. An
-    /// angle's slope at its first sample is too uncertain to say it.
-    pub fn begins_in_motion(&self, base: Option<[f64; BASE_PARAMETERS.len()]>) -> bool {
-        let speeds = self.measured();
-        let Some(first) = (speeds.first()).filter(|_| self.quantity() == Quantity::Velocity) else {
-            return false;
-        };
-        let least =
-            (IN_MOTION * root_mean_square(speeds)).max(BEYOND_NOISE * white_noise_level(speeds));
-        first.abs() > least && !base.is_some_and(|base| self.rests_at_an_offset(base))
+/// Whether any of a machine's recordings begins in motion: whether its speed at the first sample is no noise, no little of what it is
+/// elsewhere, and no error of the sensor. A rig that turns while no torque acts on it loses speed by its damping, here with m, c, k
+/// \[kg, kg/s, N/m\] as `base`, where they are known; what one shows that loses none is what the sensor reads at rest, in all of them. An
+/// angle's slope at its first sample is too uncertain to say it.
+pub fn begin_in_motion(
+    recordings: &[FitTask<'_>],
+    base: Option<[f64; BASE_PARAMETERS.len()]>,
+) -> bool {
+    let all: Vec<(&FitTask<'_>, Beginning)> = (recordings.iter())
+        .filter_map(|task| Some((task, Beginning::of(task)?)))
+        .collect();
+    let shifted = all.iter().filter(|(_, beginning)| beginning.is_beyond(0.0));
+    let at_rest: Vec<f64> = shifted
+        .filter_map(|(task, _)| task.speed_at_rest(base?))
+        .collect();
+    let offset = at_rest.iter().sum::<f64>() / at_rest.len().max(1) as f64;
+    all.iter().any(|(_, one)| one.is_beyond(offset))
+}
+
+/// How a recording of a speed begins.
+struct Beginning {
+    /// Of the first sample \[the output's unit\].
+    speed: f64,
+    /// From which on that is no noise and no little \[the output's unit\].
+    least: f64,
+}
+
+impl Beginning {
+    fn of(task: &FitTask<'_>) -> Option<Self> {
+        let speeds = task.measured();
+        let speed = *(speeds.first()).filter(|_| task.quantity() == Quantity::Velocity)?;
+        let noise = BEYOND_NOISE * white_noise_level(speeds);
+        Some(Self {
+            speed,
+            least: (IN_MOTION * root_mean_square(speeds)).max(noise),
+        })
     }
 
-    /// Whether what it shows before any torque acts stays what it is where a turning rig would have slowed down.
-    fn rests_at_an_offset(&self, [mass, damping, _]: [f64; BASE_PARAMETERS.len()]) -> bool {
+    fn is_beyond(&self, offset: f64) -> bool {
+        (self.speed - offset).abs() > self.least
+    }
+}
+
+impl FitTask<'_> {
+    /// What it shows before any torque acts, where that stays what it is while a turning rig would have slowed down.
+    fn speed_at_rest(&self, [mass, damping, _]: [f64; BASE_PARAMETERS.len()]) -> Option<f64> {
         let torques = &self.tightening.torque_nm;
         let none = NO_TORQUE * root_mean_square(torques);
         let free = torques
@@ -40,7 +70,7 @@ impl FitTask<'_> {
             .count();
         let (speeds, quarter) = (&self.measured()[..free], free / 4);
         if quarter == 0 {
-            return false;
+            return None;
         }
         let mean = |part: &[f64]| part.iter().sum::<f64>() / part.len() as f64;
         let (begin, end) = (mean(&speeds[..quarter]), mean(&speeds[free - quarter..]));
@@ -49,7 +79,8 @@ impl FitTask<'_> {
         let rate_per_s = damping * square / (rig.known_inertia_kg_m2 + mass * square);
         let apart_s = (free - quarter) as f64 * self.tightening.time_base.interval_s;
         let loss = 1.0 - (-rate_per_s * apart_s).exp();
-        loss > LOSES && (1.0 - end / begin).abs() < LOSES_NONE * loss
+        let stays = loss > LOSES && (1.0 - end / begin).abs() < LOSES_NONE * loss;
+        stays.then(|| mean(speeds))
     }
 }
 
@@ -66,23 +97,24 @@ mod tests {
     /// 0.02 kg/s on 0.01 kg at an arm of 1 m: a free speed falls by e every half second.
     const BASE: Option<[f64; 3]> = Some([0.01, 0.02, 0.0]);
 
-    /// 2 s at 1 kHz: no torque for so many samples, then 1 Nm; the speed before is as told, then 20 rad/s.
-    fn begins(free: usize, speed: impl Fn(f64) -> f64, base: Option<[f64; 3]>) -> bool {
+    /// 2 s at 1 kHz: no torque for so many samples, then 1 Nm; the speed before is as told, then 20 rad/s more than at rest.
+    fn recording(free: usize, at_rest: f64, speed: impl Fn(f64) -> f64) -> FitTask<'static> {
         let torque_nm: Vec<f64> = (0..2000).map(|k| f64::from(u8::from(k >= free))).collect();
-        let speeds = (0..2000).map(|k| {
-            if k < free {
-                speed(k as f64 * 1e-3)
-            } else {
-                20.0
-            }
+        let speeds = (0..2000).map(|k| match k < free {
+            true => speed(k as f64 * 1e-3),
+            false => at_rest + 20.0,
         });
         let rig = Rig {
             lever_arm_m: 1.0,
             known_inertia_kg_m2: 0.0,
         };
         let output = speeds.collect();
-        let task = FitTask::from_arrays(rig, 1e-3, torque_nm, Quantity::Velocity, output);
-        task.expect("its parts agree").begins_in_motion(base)
+        FitTask::from_arrays(rig, 1e-3, torque_nm, Quantity::Velocity, output)
+            .expect("its parts agree")
+    }
+
+    fn begins(free: usize, speed: impl Fn(f64) -> f64, base: Option<[f64; 3]>) -> bool {
+        begin_in_motion(&[recording(free, 0.0, speed)], base)
     }
 
     #[test]
@@ -100,5 +132,18 @@ mod tests {
             "nobody knows how it would slow down"
         );
         assert!(begins(20, |_| 3.0, BASE), "it has hardly had time to");
+    }
+
+    #[test]
+    fn what_the_sensor_of_one_reads_at_rest_that_of_the_others_reads_too() {
+        let resting = || recording(2000, 0.0, |_| 3.0);
+        let driven_at_once = |first: f64| {
+            let begins = move |t_s: f64| if t_s < 0.5e-3 { first } else { 23.0 };
+            recording(1, 3.0, begins)
+        };
+        assert!(!begin_in_motion(&[resting(), driven_at_once(3.0)], BASE));
+        assert!(begin_in_motion(&[resting(), driven_at_once(15.0)], BASE));
+        assert!(begin_in_motion(&[driven_at_once(3.0)], BASE));
+        assert!(!begin_in_motion(&[], BASE));
     }
 }

@@ -3,7 +3,7 @@
 
 use crate::study::Study;
 use crate::tasks::cases::with_settled;
-use snug_identify::{FitTask, SpectralStart};
+use snug_identify::{FitTask, SpectralStart, begin_in_motion};
 use snug_model::{Effect, ParameterSettings};
 use std::f64::consts::TAU;
 
@@ -23,8 +23,7 @@ pub(super) fn moving<'a>(
 ) -> Option<(Study, Vec<FitTask<'a>>)> {
     let is_told = |name: &String| name == BEGINS.name();
     let base = start.map(|start| start.values);
-    let begins_moving = |case: &FitTask<'_>| case.begins_in_motion(base);
-    if study.model.effects.iter().any(is_told) || !cases.iter().any(begins_moving) {
+    if study.model.effects.iter().any(is_told) || !begin_in_motion(cases, base) {
         return None;
     }
     let mut study = study.clone();
