@@ -1,7 +1,7 @@
 //! After the selection: whether each added term is still needed, and what would do in its place.
 
 use crate::error::DiagnoseError;
-use crate::pooled::fit::fit_effects;
+use crate::pooled::fit::{fit_effects, fit_in_place};
 use crate::pooled::fitted::Fitted;
 use crate::pooled::sizes::{BesideNothing, beside_nothing};
 use crate::ranking::kin::is_simpler;
@@ -103,7 +103,8 @@ pub(crate) fn prefer_simpler(
         for simple in selection.in_place_of(rich, &full, is_simpler)? {
             let doing = format!("trying {} in place of {}", simple.name(), rich.name());
             selection.watch.begin(&doing)?;
-            let swapped = in_place(selection, &full, rich, simple).ok();
+            let swapped =
+                fit_in_place(selection.cases, &full, rich, simple, selection.clusters).ok();
             let Some(swapped) = swapped.filter(|one| is_as_good(selection, &full, &heldout, one))
             else {
                 continue;
@@ -160,20 +161,8 @@ fn does_as_well(
     effect: Effect,
     twin: Effect,
 ) -> bool {
-    let swapped = in_place(selection, full, effect, twin);
+    let swapped = fit_in_place(selection.cases, full, effect, twin, selection.clusters);
     swapped.is_ok_and(|swapped| is_as_good(selection, full, heldout, &swapped))
-}
-
-/// `full` with `other` in place of `effect`.
-fn in_place(
-    selection: &ModelSelection<'_>,
-    full: &Fitted,
-    effect: Effect,
-    other: Effect,
-) -> Result<Fitted, DiagnoseError> {
-    let swap = |known: &Effect| if *known == effect { other } else { *known };
-    let effects: Vec<Effect> = full.effects.iter().map(swap).collect();
-    fit_effects(selection.cases, &effects, Some(full), selection.clusters)
 }
 
 /// Whether `swapped` explains hardly less than `full` of tightenings that took no part; `heldout` is what `full` leaves of them.
