@@ -8,18 +8,22 @@ use crate::data::clusters::Clusters;
 use crate::error::DiagnoseError;
 use crate::library::is_unlisted;
 use crate::pooled::fit::fit_effects;
+use crate::pooled::long_record;
 use crate::pooled::model::PooledModel;
 use crate::pooled::thresholds::A_FEW_STEPS;
 use crate::ranking::applicability::candidates;
 use crate::ranking::first_ranking::first_ranking;
-use crate::ranking::refit::as_regressed;
+use crate::ranking::refit::{as_regressed, refit};
 use crate::ranking::thresholds::{RUN_FREELY, WORTH_A_START};
+use crate::settings::DiagnoseSettings;
+use rayon::prelude::*;
 use snug_identify::FitTask;
 use snug_model::Effect;
 
 /// Whether a free run leaves less than `most` of the fitted output, Σ r² over all recordings in squares of its unit, with one of the
-/// effects of the catalogue beside those of the model; of those that promise most of the equation of motion, from where a regression
-/// of it puts all numbers and a few steps on.
+/// effects of the catalogue beside those of the model: of those that promise most of the equation of motion, from where a regression
+/// of it puts all numbers and a few steps on; of those that no regression knows, as a delay, from where they usually begin, unless the
+/// recordings take long to simulate.
 ///
 /// # Errors
 /// What the model or the fit refuses.
@@ -48,7 +52,18 @@ pub fn is_followed_with_an_effect(cases: &[FitTask<'_>], most: f64) -> Result<bo
             return Ok(true);
         }
     }
-    Ok(false)
+    if long_record::take_long(&cases) {
+        return Ok(false);
+    }
+    listed.retain(|effect| promises.iter().all(|promise| promise.effect != *effect));
+    let settings = DiagnoseSettings::default();
+    let follows = |&effect: &Effect| {
+        let fitted = refit(cases, &current, effect, &[], None, clusters, &settings);
+        let left = fitted.map_or(f64::INFINITY, |fitted| fitted.squares());
+        tracing::debug!(effect = effect.name(), left, most, "run freely");
+        left < most
+    };
+    Ok(listed.par_iter().any(follows))
 }
 
 #[cfg(test)]

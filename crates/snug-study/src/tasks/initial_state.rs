@@ -42,13 +42,17 @@ pub(super) fn moving<'a>(
 }
 
 /// Whether the mass swings on the spring within the longest of the recordings.
-fn swings(start: &SpectralStart, cases: &[FitTask<'_>]) -> bool {
+pub(super) fn swings(start: &SpectralStart, cases: &[FitTask<'_>]) -> bool {
     let [mass, _, stiffness] = start.values;
-    let longest_s = cases
+    TAU * (mass / stiffness).sqrt() < longest_s(cases)
+}
+
+/// How long the longest of the recordings lasts \[s\].
+pub(super) fn longest_s(cases: &[FitTask<'_>]) -> f64 {
+    cases
         .iter()
         .map(|case| case.measured().len() as f64 * case.tightening.time_base.interval_s)
-        .fold(0.0, f64::max);
-    TAU * (mass / stiffness).sqrt() < longest_s
+        .fold(0.0, f64::max)
 }
 
 /// Whether step by step, as no model without effects has to be, the model can be simulated from where it begins.

@@ -4,7 +4,7 @@
 use crate::evaluation::validation::every_s_of;
 use crate::study::Study;
 use crate::tasks::cases::with_settled;
-use crate::tasks::initial_state;
+use crate::tasks::initial_state::{self, longest_s, swings};
 use snug_campaign::Quantity;
 use snug_campaign::words::reason::Reason;
 use snug_diagnose::is_followed_with_an_effect;
@@ -67,14 +67,14 @@ pub(crate) fn settle(study: &Study, cases: &[FitTask<'_>]) -> Option<Settled> {
     if study.identify.simulation == Simulation::Automatic {
         let missed = missed(&cases);
         let every_s = every_s_of(sizes.period_s(), &cases[0].tightening);
+        let is_unheld = start.as_ref().is_some_and(|start| is_unheld(start, &cases));
         settled.study.identify.simulation = match (missed, every_s) {
-            (Some(missed), Some(every_s))
-                if missed.share() > POOR && !missed.would_be_less_with_an_effect(&cases) =>
-            {
+            (Some(missed), Some(every_s)) if missed.asks_for_restarts(&cases, is_unheld) => {
                 // A simulation that takes up the measured motion begins with it.
                 moving = None;
                 settled.reasons.push(Reason::Restarted {
                     missed: missed.share(),
+                    is_unheld: is_unheld && missed.share() <= POOR,
                     every_s,
                 });
                 let search = &mut settled.study.diagnosis.search;
@@ -107,6 +107,9 @@ fn states_a_start(study: &Study) -> bool {
 /// Root mean square of a free run's error over that of the measured motion beyond which it is restarted, unless an effect of the catalogue
 /// brings it below.
 const POOR: f64 = 0.25;
+/// What a free run leaves that goes on from sample to sample, over what does not, beyond which it is more than noise
+/// \[–\]. Chosen.
+const BEYOND_NOISE: f64 = 2.0;
 /// Smallest gain that matters where a model is restarted: less is within reach of errors of the motion taken up.
 const RESTARTED_GAIN: f64 = 0.05;
 /// Places in each record at which its motion is looked at.
@@ -203,6 +206,15 @@ impl Sizes {
     }
 }
 
+/// Whether an angle is fitted that nothing brings back while the longest recording lasts: what a free run has missed once it misses to
+/// the end, and of all laws those come closest that bend the whole way a little.
+fn is_unheld(start: &SpectralStart, cases: &[FitTask<'_>]) -> bool {
+    let [mass, damping, stiffness] = start.values;
+    let back_s = (damping / stiffness).max((mass / stiffness).sqrt());
+    let is_angle = |case: &FitTask<'_>| case.quantity() == Quantity::Displacement;
+    cases.iter().all(is_angle) && !swings(start, cases) && back_s > longest_s(cases)
+}
+
 fn displacement<'a>(case: &'a FitTask<'_>) -> &'a [f64] {
     case.tightening
         .motion
@@ -223,6 +235,8 @@ struct Missed {
     /// What is left at a sample times what is left at the next: noise is as often with as against its neighbour.
     left: f64,
     about_mean: f64,
+    /// What is left beyond that: what neighbours do not share.
+    noise: f64,
 }
 
 impl Missed {
@@ -232,17 +246,22 @@ impl Missed {
         (self.left.max(0.0) / self.about_mean).sqrt()
     }
 
-    /// Whether a free run follows the motion once one effect is added: then it is asked what is missing freely, which tells effects apart
-    /// that a restarted run hardly does.
-    fn would_be_less_with_an_effect(&self, cases: &[FitTask<'_>]) -> bool {
-        is_followed_with_an_effect(cases, POOR * POOR * self.about_mean).unwrap_or(false)
+    /// Whether the model is to be restarted from the measured motion: where a free run misses it by far, and where it misses an angle
+    /// that nothing brings back by more than noise. Not where a free run follows the motion as nearly once one effect is added: it
+    /// tells effects apart that a restarted run hardly does.
+    fn asks_for_restarts(&self, cases: &[FitTask<'_>], is_unheld: bool) -> bool {
+        let near = match is_unheld {
+            true => (1.0 + BEYOND_NOISE) * self.noise,
+            false => POOR * POOR * self.about_mean,
+        };
+        self.left > near && !is_followed_with_an_effect(cases, near).unwrap_or(false)
     }
 }
 
 /// What a free run of the study's own model leaves; `None` where restarts make no sense: an acceleration does not drift, and what is
 /// integrated from one has no measured motion to start from.
 fn missed(cases: &[FitTask<'_>]) -> Option<Missed> {
-    let (mut left, mut about_mean) = (0.0, 0.0);
+    let (mut left, mut about_mean, mut noise) = (0.0, 0.0, 0.0);
     for case in cases {
         let motion = &case.tightening.motion;
         if case.quantity() == Quantity::Acceleration || motion.acceleration_rad_per_s2.is_some() {
@@ -274,11 +293,18 @@ fn missed(cases: &[FitTask<'_>]) -> Option<Missed> {
             .map(|y| (y - mean).powi(2))
             .sum();
         // What cannot even be simulated misses everything.
-        left += error.map_or(about, |error| {
+        let (goes_on, all): (f64, f64) = error.map_or((about, about), |error| {
             let scored = &error[case.unscored()..];
-            scored.windows(2).map(|pair| pair[0] * pair[1]).sum()
+            let pairs = scored.windows(2).map(|pair| pair[0] * pair[1]);
+            (pairs.sum(), scored.iter().map(|one| one * one).sum())
         });
+        left += goes_on;
+        noise += all - goes_on;
         about_mean += about;
     }
-    (about_mean > 0.0).then_some(Missed { left, about_mean })
+    (about_mean > 0.0).then_some(Missed {
+        left,
+        about_mean,
+        noise,
+    })
 }
