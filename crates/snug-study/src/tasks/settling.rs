@@ -73,8 +73,7 @@ pub(crate) fn settle(study: &Study, cases: &[FitTask<'_>]) -> Option<Settled> {
                 // A simulation that takes up the measured motion begins with it.
                 moving = None;
                 settled.reasons.push(Reason::Restarted {
-                    missed: missed.share(),
-                    is_unheld: is_unheld && missed.share() <= POOR,
+                    missed: Some(missed.share()).filter(|share| !is_unheld || *share > POOR),
                     every_s,
                 });
                 let search = &mut settled.study.diagnosis.search;

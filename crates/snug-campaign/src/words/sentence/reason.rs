@@ -115,10 +115,8 @@ pub enum Reason {
     },
     /// The model is restarted from the measured motion.
     Restarted {
-        /// Share of the measured motion that a free run misses.
-        missed: f64,
-        /// Whether it is since nothing brings the angle back, not since a free run misses it by far.
-        is_unheld: bool,
+        /// Share of the measured motion that a free run misses; `None` where it is since nothing brings the angle back.
+        missed: Option<f64>,
         /// Time between restarts \[s\].
         every_s: f64,
     },
@@ -215,11 +213,7 @@ impl Display for Reason {
                 p_family,
                 more,
             } => would_decide(f, effect, *p_family, *more),
-            Self::Restarted {
-                missed,
-                is_unheld,
-                every_s,
-            } => restarted(f, *missed, *is_unheld, *every_s),
+            Self::Restarted { missed, every_s } => restarted(f, *missed, *every_s),
             Self::BeginsMoving => f.write_str("Recordings begin in motion: how each moves at its first sample is fitted with mass, damping and stiffness (`initial_motion` in `model.effects`)."),
             Self::Held {
                 spared,
@@ -331,10 +325,10 @@ fn tightenings_left_out(
     )
 }
 
-fn restarted(f: &mut Formatter<'_>, missed: f64, is_unheld: bool, every_s: f64) -> fmt::Result {
-    match is_unheld {
-        true => f.write_str("Nothing brings this angle back: what a free run has missed once it misses to the end, whatever moved the rig then, and single effects hardly show.")?,
-        false => write!(
+fn restarted(f: &mut Formatter<'_>, missed: Option<f64>, every_s: f64) -> fmt::Result {
+    match missed {
+        None => f.write_str("Nothing brings this angle back: what a free run has missed once it misses to the end, whatever moved the rig then, and single effects hardly show.")?,
+        Some(missed) => write!(
             f,
             "Run freely from its first sample on, the study's own model misses {} of the measured motion, so that a free run says little about single effects.",
             whole_percent(missed.min(9.99))
