@@ -1,6 +1,5 @@
 //! The variables and functions that an expression may name.
 
-use super::tree::Binary;
 use crate::numeric::number::Number;
 
 /// A quantity of the motion that an expression may use.
@@ -114,15 +113,6 @@ impl Function {
 
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|known| known.name() == name)
-    }
-
-    /// Of two arguments it is an operator between them.
-    pub fn between_two(self) -> Option<Binary> {
-        match self {
-            Self::Min => Some(Binary::Min),
-            Self::Max => Some(Binary::Max),
-            _ => None,
-        }
     }
 
     /// Its value for one argument.

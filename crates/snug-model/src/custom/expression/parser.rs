@@ -145,7 +145,7 @@ impl<'a> Parser<'a> {
         self.advance()?;
         self.expect('(', &format!("`(` after the function `{name}`"))?;
         let first = self.sum()?;
-        let call = match function.between_two() {
+        let call = match Binary::of_function(function) {
             Some(operator) => {
                 self.expect(',', "`,`: the function takes two values")?;
                 Tree::binary(operator, first, self.sum()?)

@@ -27,6 +27,15 @@ pub enum Binary {
 }
 
 impl Binary {
+    /// What a function of two arguments is between them; `None` of a function of one.
+    pub fn of_function(function: Function) -> Option<Self> {
+        match function {
+            Function::Min => Some(Self::Min),
+            Function::Max => Some(Self::Max),
+            _ => None,
+        }
+    }
+
     #[inline(always)]
     pub fn of<N: Number>(self, a: N, b: N) -> N {
         match self {
