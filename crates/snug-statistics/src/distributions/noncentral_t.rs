@@ -20,6 +20,7 @@ const GAUSS_LEGENDRE: [(f64, f64); 5] = [
 /// Absolute error below 1e-12 for `|t| < 30 √ν`.
 #[must_use]
 pub fn noncentral_t_cdf(t: f64, df: f64, delta: f64) -> f64 {
+    /// Chosen: with them the error is below 1e-12, as the tests say.
     const PANELS: u32 = 120;
     let root = df.sqrt();
     let low = (root - 9.0).max(0.0);

@@ -288,6 +288,7 @@ impl Choice {
 
     /// Turns the input's sign where it brakes the motion all the time, as a torque does that was counted as the load's.
     fn turn_the_input(&mut self) {
+        /// Power of the torque over what it would be if it always drove the motion, below which it brakes it \[–\]. Chosen.
         const MOSTLY: f64 = -0.5;
         let of = |signal: Signal| self.taken.iter().find(|one| one.signal == signal);
         let Some(at) = self.taken.iter().position(|one| one.signal.is_input()) else {

@@ -243,6 +243,7 @@ fn told_of(trials: &[Trial], found: &Survey) -> Option<String> {
 
 /// The columns by place, and whether they say anything.
 fn named(found: &Survey) -> String {
+    /// As many as a line of a message holds. Chosen.
     const MOST: usize = 12;
     let told = |column: &SurveyedColumn| match is_constant(&column.values) {
         true => format!("{} (does not change)", told_place(&column.place)),

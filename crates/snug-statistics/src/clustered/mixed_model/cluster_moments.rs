@@ -71,7 +71,8 @@ impl ClusterMoments {
     /// # Errors
     /// [`StatisticsError::NoFreedomLeft`].
     pub fn check_freedom(&self) -> Result<()> {
-        // A direction wholly between clusters has eigenvalue 0 within, one wholly within has 1.
+        /// Share of a direction that counts as none of it \[–\]: wholly between clusters it has eigenvalue 0 within, wholly within them 1.
+        /// Chosen: far above rounding.
         const NONE: f64 = 1e-10;
         let within = Spectrum::of(&self.q_within).values;
         let wholly_between = within.iter().filter(|value| **value < NONE).count();
