@@ -46,12 +46,12 @@ struct Instruction {
 /// Operands are fetched in one place each: in every kind of operation, they would be in the compiled program once more.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Operation {
-    OfOne(OfOne, Operand),
-    OfTwo(Binary, Operand, Operand),
+    Unary(Unary, Operand),
+    Binary(Binary, Operand, Operand),
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum OfOne {
+enum Unary {
     Shift(f64),
     Scale(f64),
     WholePower(i32),
@@ -82,7 +82,7 @@ impl Program {
                 operation(*operator, left, right)
             }
             Tree::Call(function, argument) => {
-                Operation::OfOne(OfOne::Call(*function), self.place(argument, free)?)
+                Operation::Unary(Unary::Call(*function), self.place(argument, free)?)
             }
         };
         if free >= MAXIMUM_TEMPORARIES {
@@ -118,8 +118,8 @@ impl Program {
                 .instructions
                 .iter()
                 .any(|instruction| match instruction.operation {
-                    Operation::OfOne(_, a) => a == wanted,
-                    Operation::OfTwo(_, a, b) => a == wanted || b == wanted,
+                    Operation::Unary(_, a) => a == wanted,
+                    Operation::Binary(_, a, b) => a == wanted || b == wanted,
                 })
     }
 
@@ -142,8 +142,8 @@ impl Program {
         for instruction in &self.instructions {
             let from = Operands { p, around, kept };
             let value = match instruction.operation {
-                Operation::OfOne(operation, a) => operation.of(from.get(a)),
-                Operation::OfTwo(operation, a, b) => operation.of(from.get(a), from.get(b)),
+                Operation::Unary(operation, a) => operation.of(from.get(a)),
+                Operation::Binary(operation, a, b) => operation.of(from.get(a), from.get(b)),
             };
             kept[instruction.to] = value;
         }
@@ -151,7 +151,7 @@ impl Program {
     }
 }
 
-impl OfOne {
+impl Unary {
     #[inline(always)]
     fn of<N: Number>(self, a: N) -> N {
         match self {
@@ -200,22 +200,22 @@ impl<N: Number> Task for Run<'_, N> {
 /// The cheapest operation that works `left operator right` out.
 fn operation(operator: Binary, left: Operand, right: Operand) -> Operation {
     use Operand::Constant;
-    let (of_one, a) = match (operator, left, right) {
-        (Binary::Add, Constant(by), a) | (Binary::Add, a, Constant(by)) => (OfOne::Shift(by), a),
-        (Binary::Subtract, a, Constant(by)) => (OfOne::Shift(-by), a),
+    let (unary, a) = match (operator, left, right) {
+        (Binary::Add, Constant(by), a) | (Binary::Add, a, Constant(by)) => (Unary::Shift(by), a),
+        (Binary::Subtract, a, Constant(by)) => (Unary::Shift(-by), a),
         (Binary::Multiply, Constant(by), a) | (Binary::Multiply, a, Constant(by)) => {
-            (OfOne::Scale(by), a)
+            (Unary::Scale(by), a)
         }
         (Binary::Power, a, Constant(exponent)) => {
             let whole = exponent as i32;
             match f64::from(whole) == exponent {
-                true => (OfOne::WholePower(whole), a),
-                false => (OfOne::RealPower(exponent), a),
+                true => (Unary::WholePower(whole), a),
+                false => (Unary::RealPower(exponent), a),
             }
         }
-        (_, a, b) => return Operation::OfTwo(operator, a, b),
+        (_, a, b) => return Operation::Binary(operator, a, b),
     };
-    Operation::OfOne(of_one, a)
+    Operation::Unary(unary, a)
 }
 
 /// What operands stand for at one instruction.
