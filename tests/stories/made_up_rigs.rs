@@ -386,3 +386,21 @@ fn what_one_recording_reads_at_rest_is_no_motion_in_the_other() {
     let offset = &diagnosis.added[0].parameters[0];
     assert!((offset.value - 2.0).abs() < 0.01, "{offset:?}");
 }
+
+/// A drive with a fine encoder, its torque held from sample to sample: what a straight torque misses is more than the encoder's noise and no
+/// reason to restart, and nothing is missing.
+#[test]
+fn a_drive_with_a_fine_encoder_and_a_held_torque_lacks_nothing() {
+    let mut noise = Noise(21);
+    let mut recording = || {
+        let inputs = noise.tones([0.1, 8.0], 0.16, 2000);
+        let rate = |[_, v]: [f64; 2], u: f64| [v, (u - 0.05 * v) / 0.01];
+        let angles = moved(&inputs, 50, rate).map(|[x, _]| x);
+        noise.with(&inputs, angles, 1e-6)
+    };
+    let rig = Rig::that_turns((0..2).map(|_| recording()).collect());
+    let diagnosis = rig.told(&Verb::Improve);
+    assert_eq!(names(&diagnosis), [""; 0], "{}", diagnosis.headline);
+    let left = diagnosis.ladder.last().unwrap().rms_fitted_output;
+    assert!(left < 1.1e-6, "{left}: {}", diagnosis.headline);
+}

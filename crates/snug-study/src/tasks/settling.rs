@@ -4,6 +4,7 @@
 use crate::evaluation::validation::every_s_of;
 use crate::study::Study;
 use crate::tasks::cases::with_settled;
+use crate::tasks::held_input;
 use crate::tasks::initial_state::{self, longest_s, swings};
 use snug_campaign::Quantity;
 use snug_campaign::words::reason::Reason;
@@ -69,7 +70,10 @@ pub(crate) fn settle(study: &Study, cases: &[FitTask<'_>]) -> Option<Settled> {
         let every_s = every_s_of(sizes.period_s(), &cases[0].tightening);
         let is_unheld = start.as_ref().is_some_and(|start| is_unheld(start, &cases));
         settled.study.identify.simulation = match (missed, every_s) {
-            (Some(missed), Some(every_s)) if missed.asks_for_restarts(&cases, is_unheld) => {
+            (Some(missed), Some(every_s))
+                if missed.asks_for_restarts(&cases, is_unheld)
+                    && !(is_unheld && is_followed_when_held(&settled.study, &cases)) =>
+            {
                 // A simulation that takes up the measured motion begins with it.
                 moving = None;
                 settled.reasons.push(Reason::Restarted {
@@ -212,6 +216,16 @@ fn is_unheld(start: &SpectralStart, cases: &[FitTask<'_>]) -> bool {
     let back_s = (damping / stiffness).max((mass / stiffness).sqrt());
     let is_angle = |case: &FitTask<'_>| case.quantity() == Quantity::Displacement;
     cases.iter().all(is_angle) && !swings(start, cases) && back_s > longest_s(cases)
+}
+
+/// Whether a free run follows an angle that nothing brings back once the input is taken as held from sample to sample, where the study
+/// leaves that open: what a straight input misses is no matter of the rig.
+fn is_followed_when_held(study: &Study, cases: &[FitTask<'_>]) -> bool {
+    let follows = |held: &[FitTask<'_>]| {
+        missed(held).is_some_and(|missed| !missed.asks_for_restarts(held, true))
+    };
+    held_input::is_open(study, cases)
+        && held_input::held(study, cases).is_ok_and(|(_, held)| follows(&held))
 }
 
 fn displacement<'a>(case: &'a FitTask<'_>) -> &'a [f64] {
