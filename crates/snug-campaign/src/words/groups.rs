@@ -10,7 +10,7 @@ use crate::words::over_time;
 const TOLD: usize = 8;
 
 impl GroupSizes {
-    /// Whose it is: `3 of 6 participants: TP1 4.04 N, TP3 3.99 N, TP4 3.96 N; none in TP2, TP5, TP6 (below 0.073 N)`. Of groups
+    /// Whose it is: `in 3 of 6 participants: TP1 4.04 N, TP3 3.99 N, TP4 3.96 N; none in TP2, TP5, TP6 (below 0.073 N)`. Of groups
     /// that all have it their sizes.
     pub fn sentence(&self, unit: &str) -> String {
         let unit = unit_text(unit);
@@ -22,8 +22,8 @@ impl GroupSizes {
         let plural = self.factor.plural();
         let whose = match (with.len(), without.len()) {
             (0, all) => return format!("in none of {all} {plural}"),
-            (all, 0) => format!("all {all} {plural}"),
-            (some, _) => format!("{some} of {} {plural}", self.groups.len()),
+            (all, 0) => format!("in all {all} {plural}"),
+            (some, _) => format!("in {some} of {} {plural}", self.groups.len()),
         };
         if with.len() > TOLD {
             with.sort_by(|a, b| b.value.abs().total_cmp(&a.value.abs()));
@@ -96,7 +96,7 @@ mod tests {
         ]);
         assert_eq!(
             some.sentence("N"),
-            "2 of 4 participants: TP1 4.10\u{a0}N, TP3 3.90\u{a0}N; none in TP2 and TP5 (below 0.30\u{a0}N)"
+            "in 2 of 4 participants: TP1 4.10\u{a0}N, TP3 3.90\u{a0}N; none in TP2 and TP5 (below 0.30\u{a0}N)"
         );
     }
 
@@ -108,7 +108,7 @@ mod tests {
         ]);
         assert_eq!(
             all.sentence("N"),
-            "all 2 participants: TP1 2.0\u{a0}N, TP2 5.0\u{a0}N"
+            "in all 2 participants: TP1 2.0\u{a0}N, TP2 5.0\u{a0}N"
         );
         let none = sizes(vec![group("TP1", (-1.0, 0.0, 1.0), false); 3]);
         assert_eq!(none.sentence("N"), "in none of 3 participants");
@@ -127,7 +127,7 @@ mod tests {
         });
         let told = sizes(many.collect()).sentence("N");
         assert!(
-            told.starts_with("20 of 200 participants: tool 190 191.00\u{a0}N, tool 180 "),
+            told.starts_with("in 20 of 200 participants: tool 190 191.00\u{a0}N, tool 180 "),
             "{told}"
         );
         assert!(
@@ -149,7 +149,7 @@ mod tests {
         ];
         assert_eq!(
             sizes(all).sentence("kg"),
-            "1 of 3 participants: TP1 1.463\u{a0}kg; none in TP2 and TP3 (above 12\u{a0}kg)"
+            "in 1 of 3 participants: TP1 1.463\u{a0}kg; none in TP2 and TP3 (above 12\u{a0}kg)"
         );
     }
 }

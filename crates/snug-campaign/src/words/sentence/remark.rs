@@ -173,11 +173,16 @@ impl Display for Remark {
                 "{} of the misfit can be predicted from the other tightenings: a missing effect can explain it.",
                 whole_percent(*share)
             ),
-            Self::DoesNotRepeat(share) => write!(
-                f,
-                "Only {} of the misfit can be predicted from the other tightenings: most of it is different each time, or is no simple function of time, displacement and velocity.",
-                whole_percent(*share)
-            ),
+            Self::DoesNotRepeat(share) => {
+                let (predicted, most) = match *share < 0.005 {
+                    true => ("Nothing".to_owned(), "it"),
+                    false => (format!("Only {}", whole_percent(*share)), "most of it"),
+                };
+                write!(
+                    f,
+                    "{predicted} of the misfit can be predicted from the other tightenings: {most} is different each time, or is no simple function of time, displacement and velocity."
+                )
+            }
             Self::SpreadOut => f.write_str(SPREAD_OUT),
         }
     }
