@@ -28,7 +28,7 @@ pub use live::held_out::HeldOut;
 pub use live::tightening::LiveTightening;
 pub use locate::{Seen, compare, drifts, locate};
 pub use pooled::shared_block::{SharedBlock, SharedParameter, shared_blocks, shared_parameters};
-pub use pooled::thresholds::FALSE_DISCOVERIES;
+pub use pooled::thresholds::{FALSE_DISCOVERIES, ROUNDING};
 pub use pooled::together::{Together, fit_together};
 pub use question::{Goal, Question};
 pub use ranking::free_run::is_followed_with_an_effect;

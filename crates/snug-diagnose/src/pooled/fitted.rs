@@ -1,11 +1,12 @@
 //! A pooled model after its fit: sizes, errors, and what it is worth in data that took no part.
 
 use crate::data::clusters::Clusters;
+use crate::data::power::power;
 use crate::pooled::error_beyond::error_beyond;
 use crate::pooled::model::{PooledModel, Room, Start};
 use crate::pooled::parameter_place::{effect_of, first_parameter, index_among};
 use crate::pooled::sharing::{SharedSize, Sharing, differs_by_group};
-use crate::pooled::thresholds::{AT_FLOOR, HARDLY, NOISE_AND_A_LITTLE};
+use crate::pooled::thresholds::{AT_FLOOR, HARDLY, NOISE_AND_A_LITTLE, ROUNDING};
 use crate::pooled::torque_noise::passed_on;
 use crate::settings::DiagnoseSettings;
 use snug_least_squares::matrix::{SymmetricMatrix, inner_product as dot};
@@ -53,6 +54,8 @@ pub(crate) struct Fitted {
     pub(super) clusters: Clusters,
     /// Whether residuals are in units of a measured noise.
     pub is_weighted: bool,
+    /// Whether it leaves less than an instrument could see, so that only rounding is left.
+    pub is_exact: bool,
     /// Per tightening curvature over own and shared (only where clusters are stretches).
     pub(super) member_curvature: Vec<SymmetricMatrix>,
     /// Per tightening projected curvature and gradient over its shared parameters.
@@ -85,6 +88,7 @@ impl Fitted {
             torque_noise: Vec::new(),
             clusters: *clusters,
             is_weighted: pooled.is_weighted(),
+            is_exact: false,
             member_curvature: Vec::new(),
             profiles,
             own_effect_count: pooled
@@ -96,6 +100,7 @@ impl Fitted {
             shared: fit.shared,
         };
         fitted.work_out_blocks(pooled, &fit.profiles);
+        fitted.is_exact = !fitted.is_weighted && fitted.squares() < ROUNDING * power(&pooled.cases);
         fitted
     }
 
@@ -234,9 +239,9 @@ impl Fitted {
         error_beyond(self.squares(), self.count(), parameters)
     }
 
-    /// Whether what it leaves is the noise.
+    /// Whether what it leaves is the noise, or rounding.
     pub fn is_at_floor(&self) -> bool {
-        self.is_weighted && self.error() < AT_FLOOR
+        self.is_exact || (self.is_weighted && self.error() < AT_FLOOR)
     }
 
     /// Whether it leaves no more than the noise, the torque's as well, and a little.

@@ -17,6 +17,9 @@ pub(crate) const AT_FLOOR: f64 = 1.02;
 /// which they are not of one machine in one state \[–\]. Chosen: four tests of a motor that lacks friction leave 0.86, torque steps of
 /// a rig that turns harder one way than the other 0.36.
 pub(crate) const ONE_MACHINE: f64 = 0.6;
+/// Squared error, over the output's about its mean, below which it is rounding and nothing of the rig \[–\]: an error of 10⁻⁷ of the motion,
+/// where a converter of 24 bits resolves no better than 0.6 · 10⁻⁷ of its range. Chosen.
+pub const ROUNDING: f64 = 1e-14;
 /// Mean squared residual, without what the torque's noise makes of it and in units of the noise's variance, that is the noise and a
 /// little: half as much beyond the noise as `AT_FLOOR`, which is of the root mean square. Chosen.
 pub(crate) const NOISE_AND_A_LITTLE: f64 = 1.02;

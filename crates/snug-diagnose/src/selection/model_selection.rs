@@ -126,7 +126,11 @@ impl ModelSelection<'_> {
 
     /// Ranks what is missing beside the last model. Where a candidate's end leads that model itself to a better place, the place
     /// is the model's, and all are judged by it: credit belongs to what an effect adds, not to the way out of a poor minimum.
+    /// Beside rounding nothing is looked for.
     pub fn rank_last(&self, path: &mut SelectionPath) -> Result<(), DiagnoseError> {
+        if path.last().is_exact {
+            return Ok(());
+        }
         let campaigns = self.settings.control_campaigns;
         path.ranking = self.rank(path.last(), campaigns)?;
         for _ in 0..MOST_ESCAPES {
@@ -136,6 +140,7 @@ impl ModelSelection<'_> {
             path.replace_last(better);
             path.ranking = self.rank(path.last(), campaigns)?;
         }
+        path.doubt_what_was_taken_out();
         Ok(())
     }
 
@@ -188,6 +193,9 @@ impl ModelSelection<'_> {
         next: Option<usize>,
     ) -> Result<Option<Fitted>, DiagnoseError> {
         let last = path.last();
+        if last.is_exact {
+            return Ok(None);
+        }
         let groupings = Groups::worth_trying(&self.cases);
         let (family, heldout) = (last.effects.len(), last.heldout_beyond_torque_noise());
         let gain = |fitted: &Fitted| gains(&heldout, fitted).iter().sum::<f64>();

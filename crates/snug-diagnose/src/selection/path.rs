@@ -129,6 +129,25 @@ impl SelectionPath {
         self.ranking = Ranking::default();
     }
 
+    /// What was beside the effects of the last model before, and taken out, is not told from nothing there: added again, it would be taken
+    /// out again, and so on for ever.
+    pub fn doubt_what_was_taken_out(&mut self) {
+        let Some((last, before)) = self.rungs.split_last() else {
+            return;
+        };
+        for candidate in &mut self.ranking.candidates {
+            let is_with_it = |one: &Fitted| {
+                one.effects.len() == last.effects.len() + 1
+                    && one.effects.contains(&candidate.effect)
+                    && last
+                        .effects
+                        .iter()
+                        .all(|effect| one.effects.contains(effect))
+            };
+            candidate.is_told_from_nothing &= !before.iter().any(is_with_it);
+        }
+    }
+
     /// Another last model, against which nothing is ranked yet.
     pub fn stand_on(&mut self, fitted: Fitted) {
         let ranking = std::mem::take(&mut self.ranking);
@@ -211,6 +230,8 @@ pub(crate) enum Stop {
     SizeMayBeNothing { effect: Effect },
     /// The best supported candidate lowers the error by too little to matter.
     TooSmall { effect: Effect, share: f64 },
+    /// What is left is rounding.
+    Exact,
     /// What the best of the rest takes away is a trifle beside what the study's own model leaves.
     Trifle { effect: Effect, share: f64 },
     /// The model cannot carry more.
@@ -272,6 +293,9 @@ pub(crate) fn justified(
     first: &Fitted,
     settings: &DiagnoseSettings,
 ) -> Result<usize, Stop> {
+    if current.is_exact {
+        return Err(Stop::Exact);
+    }
     let all = &ranking.candidates;
     let supported = |index: &usize| all[*index].is_supported(settings);
     let share = |index: usize, of: &Fitted| all[index].gain_beside(current) / of.squares();

@@ -1,5 +1,6 @@
 //! Whether there is a model at all that a verdict could be about, and what to check where there is none.
 
+use crate::data::power::power;
 use crate::locate::Seen;
 use crate::pooled::fitted::Fitted;
 use crate::ranking::rank::Candidate;
@@ -21,24 +22,6 @@ pub(crate) fn share(cases: &[FitTask<'_>], fitted: &Fitted) -> Option<f64> {
     (!fitted.is_weighted).then(|| 1.0 - fitted.squares() / power(cases))
 }
 
-/// Of the fitted output about its mean; about the mean between two restarts where the model is restarted, since what it takes up
-/// it need not explain.
-fn power(cases: &[FitTask<'_>]) -> f64 {
-    let about_mean = |values: &[f64]| -> f64 {
-        let mean = values.iter().sum::<f64>() / values.len() as f64;
-        values.iter().map(|y| (y - mean).powi(2)).sum()
-    };
-    let of_case = |case: &FitTask<'_>| -> f64 {
-        let scored = &case.measured()[case.unscored()..];
-        let apart = case.input.samples_between_restarts();
-        (scored
-            .chunks(apart.unwrap_or(scored.len()).max(1))
-            .map(about_mean))
-        .sum()
-    };
-    cases.iter().map(of_case).sum()
-}
-
 /// The same in words, with how far from noise is what is left.
 pub(crate) fn explained(
     cases: &[FitTask<'_>],
@@ -50,6 +33,7 @@ pub(crate) fn explained(
         output: quantity.name(),
         share: share(cases, fitted)?,
         neighbours: neighbours(quantity, seen),
+        is_exact: fitted.is_exact,
     })
 }
 

@@ -195,7 +195,11 @@ fn no_model(situation: &Situation<'_>) -> Option<NoModel> {
 
 /// Why.
 pub(crate) fn reasons(situation: &Situation<'_>) -> Vec<Reason> {
-    let mut reasons = vec![what_is_left(situation)];
+    let is_exact = situation.after.is_exact;
+    let mut reasons: Vec<Reason> = (!is_exact)
+        .then(|| what_is_left(situation))
+        .into_iter()
+        .collect();
     reasons.extend(situation.suspicions.iter().cloned().map(Reason::Check));
     let additions = situation.additions.iter();
     reasons.extend(
@@ -329,6 +333,7 @@ pub(crate) fn stopped(situation: &Situation<'_>) -> Option<Stopped> {
             share,
             smallest: least_share(effect),
         },
+        Stop::Exact => Stopped::Exact,
         Stop::Full => Stopped::Full,
         Stop::Interrupted => Stopped::Interrupted(situation.additions.len()),
     })

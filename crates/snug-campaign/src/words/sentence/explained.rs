@@ -16,6 +16,8 @@ pub struct Explained {
     pub share: f64,
     /// Correlation of neighbouring samples of what is left \[–\]: 0 of white noise, near 1 of a motion.
     pub neighbours: f64,
+    /// Whether what is left is rounding.
+    pub is_exact: bool,
 }
 
 impl Display for Explained {
@@ -32,11 +34,14 @@ impl Display for Explained {
 impl Explained {
     /// Whether what is left is a motion rather than noise.
     pub fn leaves_a_motion(&self) -> bool {
-        self.neighbours >= A_MOTION
+        self.neighbours >= A_MOTION && !self.is_exact
     }
 
     /// How far what is left is from noise, as a sentence.
     pub fn left(&self) -> String {
+        if self.is_exact {
+            return "What is left is rounding: less than an instrument could see.".into();
+        }
         let correlation = format!(
             "correlate by {} (0 is white noise, 1 a smooth motion).",
             fixed(self.neighbours, 2)
@@ -71,6 +76,7 @@ mod tests {
                 output: "velocity",
                 share: 0.999,
                 neighbours,
+                is_exact: false,
             };
             one.left()
         };
@@ -85,6 +91,7 @@ mod tests {
                 output: "velocity",
                 share,
                 neighbours: 0.0,
+                is_exact: false,
             };
             one.to_string().replace('\u{a0}', " ")
         };

@@ -39,6 +39,8 @@ pub enum Stopped {
         /// Share that matters.
         smallest: f64,
     },
+    /// What is left is rounding.
+    Exact,
     /// The model cannot carry more.
     Full,
     /// Whoever watches ended it after so many effects.
@@ -82,6 +84,9 @@ impl Display for Stopped {
                     true => "a law that is in no catalogue is",
                     false => "an effect is",
                 }
+            ),
+            Self::Exact => f.write_str(
+                "What is left is less than an instrument could see, as if these data were computed: it is rounding, and no effect is looked for in it.",
             ),
             Self::Full => f.write_str(
                 "The model carries as many effects as can be told apart; look at the data before adding more.",

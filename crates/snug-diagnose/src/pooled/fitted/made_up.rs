@@ -34,6 +34,7 @@ impl Fitted {
             torque_noise: vec![0.0; squares.len()],
             clusters: Clusters { per_case: 1 },
             is_weighted: true,
+            is_exact: false,
             member_curvature: Vec::new(),
             profiles: squares.iter().map(|_| nothing()).collect(),
             own_effect_count: 0,
@@ -44,6 +45,12 @@ impl Fitted {
     pub fn unweighted(mut self) -> Self {
         self.is_weighted = false;
         self
+    }
+
+    /// The same where only rounding is left.
+    pub fn exact(mut self) -> Self {
+        self.is_exact = true;
+        self.unweighted()
     }
 
     /// The same of stretches of a long record.

@@ -121,6 +121,34 @@ fn where_nothing_is_supported_the_smallest_p_of_those_that_gain_is_told() {
     assert_eq!(none, Err(Stop::NothingSupported { best_p: 1.0 }));
 }
 
+/// Beside friction a delay was added and taken out again: beside friction it is doubted, beside friction and a stiffness it is not.
+#[test]
+fn what_was_taken_out_is_doubted_beside_the_same_effects_only() {
+    let with = |effects: &[Effect]| Fitted::made_up(effects, &[100.0], 100);
+    let mut path = SelectionPath::only(with(&[CoulombFriction]));
+    path.stand_on(with(&[CoulombFriction, TorqueDelay]));
+    for (last, doubted) in [
+        (&[CoulombFriction][..], true),
+        (&[CubicStiffness, CoulombFriction], false),
+    ] {
+        path.stand_on(with(last));
+        path.ranking = ranking(vec![candidate(TorqueDelay, 0.001, &clear(50.0))]);
+        path.doubt_what_was_taken_out();
+        let candidates = &path.ranking.candidates;
+        assert_eq!(!candidates[0].is_told_from_nothing, doubted);
+    }
+}
+
+#[test]
+fn where_rounding_is_left_nothing_is_looked_for() {
+    let all = || ranking(vec![candidate(CubicStiffness, 0.001, &clear(50.0))]);
+    let exact = model(300.0).exact();
+    let first = model(300.0).unweighted();
+    let stop = justified(&all(), &exact, &first, &settings());
+    assert_eq!(stop, Err(Stop::Exact));
+    assert_eq!(justified(&all(), &first, &first, &settings()), Ok(0));
+}
+
 #[test]
 fn misfit_is_what_noise_does_not_explain() {
     let fitted = Fitted::made_up(&[], &[250.0, 80.0], 100);

@@ -54,6 +54,7 @@ fn suspected(task: FitTask<'_>) -> Vec<Suspicion> {
         output: task.quantity().name(),
         share: 0.0,
         neighbours: 0.0,
+        is_exact: false,
     };
     suspicions(&[task], explained, None)
 }
@@ -131,6 +132,7 @@ fn told_of(left: &[f64], share: f64) -> Option<Suspicion> {
         output: "displacement",
         share,
         neighbours: neighbours(Quantity::Displacement, &seen),
+        is_exact: false,
     };
     left_over(&[task.lent()], Some(&explained), &seen)
 }
