@@ -1,6 +1,7 @@
 //! Rigs that were made up here, by small steps of the midpoint rule, of which an engineer would say at once what they lack.
 
 mod rig;
+mod unheld;
 
 use rig::{Noise, Rig, TORQUE, moved};
 use snug_campaign::{Diagnosis, Verdict};
@@ -333,35 +334,6 @@ fn a_tachometer_that_reads_too_much_at_rest_is_no_motion() {
     assert_eq!(offset.unit, "rad/s");
 }
 
-/// An axis on which a load pulls that nobody recorded, its angle measured: once astray, a free run stays so, and laws come closest to that
-/// which bend the whole way a little. What air does is told by itself, and where nothing is hidden nothing is named.
-#[test]
-fn an_axis_with_an_unrecorded_load_lacks_what_air_does_or_nothing() {
-    for (air, expected) in [(0.004, &["quadratic_damping"][..]), (0.0, &[])] {
-        let mut noise = Noise(19);
-        let mut recording = || {
-            let inputs = noise.tones([0.1, 8.0], 0.16, 6000);
-            let loads = noise.levels([-0.05, 0.05], 100, 6000);
-            let acting: Vec<f64> = inputs.iter().zip(&loads).map(|(u, w)| u + w).collect();
-            let rate = |[_, v]: [f64; 2], u: f64| [v, (u - 0.05 * v - air * v * v.abs()) / 0.01];
-            let angles = moved(&acting, 4, rate).map(|[x, _]| x);
-            noise.with(&inputs, angles, 5e-4)
-        };
-        let rig = Rig::that_turns((0..4).map(|_| recording()).collect());
-        let diagnosis = rig.told(&Verb::Improve);
-        assert_eq!(names(&diagnosis), expected, "{}", diagnosis.headline);
-        let said: Vec<String> = diagnosis.reasons.iter().map(ToString::to_string).collect();
-        assert!(
-            said.iter().any(|one| one.starts_with("Nothing brings")),
-            "{said:?}"
-        );
-        for one in &diagnosis.added {
-            let size = one.parameters[0].value;
-            assert!((size / air - 1.0).abs() < 0.15, "{size}");
-        }
-    }
-}
-
 /// One recording rests while the tachometer reads 2 rad/s too much, the other is driven from its first sample on: what is read at rest in
 /// one is no motion in the other.
 #[test]
@@ -385,22 +357,4 @@ fn what_one_recording_reads_at_rest_is_no_motion_in_the_other() {
     );
     let offset = &diagnosis.added[0].parameters[0];
     assert!((offset.value - 2.0).abs() < 0.01, "{offset:?}");
-}
-
-/// A drive with a fine encoder, its torque held from sample to sample: what a straight torque misses is more than the encoder's noise and no
-/// reason to restart, and nothing is missing.
-#[test]
-fn a_drive_with_a_fine_encoder_and_a_held_torque_lacks_nothing() {
-    let mut noise = Noise(21);
-    let mut recording = || {
-        let inputs = noise.tones([0.1, 8.0], 0.16, 2000);
-        let rate = |[_, v]: [f64; 2], u: f64| [v, (u - 0.05 * v) / 0.01];
-        let angles = moved(&inputs, 50, rate).map(|[x, _]| x);
-        noise.with(&inputs, angles, 1e-6)
-    };
-    let rig = Rig::that_turns((0..2).map(|_| recording()).collect());
-    let diagnosis = rig.told(&Verb::Improve);
-    assert_eq!(names(&diagnosis), [""; 0], "{}", diagnosis.headline);
-    let left = diagnosis.ladder.last().unwrap().rms_fitted_output;
-    assert!(left < 1.1e-6, "{left}: {}", diagnosis.headline);
 }

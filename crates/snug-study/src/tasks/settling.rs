@@ -4,14 +4,12 @@
 use crate::evaluation::validation::every_s_of;
 use crate::study::Study;
 use crate::tasks::cases::with_settled;
-use crate::tasks::held_input;
-use crate::tasks::initial_state::{self, longest_s, swings};
+use crate::tasks::free_run::why_restarted;
+use crate::tasks::initial_state;
 use snug_campaign::Quantity;
 use snug_campaign::words::reason::Reason;
-use snug_diagnose::is_followed_with_an_effect;
 use snug_identify::{
-    FitTask, IdentifySettings, Simulation, SpectralStart, identify, motions, spectral_start,
-    widest_half_width,
+    FitTask, Simulation, SpectralStart, motions, spectral_start, widest_half_width,
 };
 use snug_model::{BASE_PARAMETERS, Scale};
 use snug_preprocess::Window;
@@ -66,20 +64,15 @@ pub(crate) fn settle(study: &Study, cases: &[FitTask<'_>]) -> Option<Settled> {
         }
     };
     if study.identify.simulation == Simulation::Automatic {
-        let missed = missed(&cases);
         let every_s = every_s_of(sizes.period_s(), &cases[0].tightening);
-        let is_unheld = start.as_ref().is_some_and(|start| is_unheld(start, &cases));
-        settled.study.identify.simulation = match (missed, every_s) {
-            (Some(missed), Some(every_s))
-                if missed.asks_for_restarts(&cases, is_unheld)
-                    && !(is_unheld && is_followed_when_held(&settled.study, &cases)) =>
-            {
+        let why = every_s.and_then(|every_s| {
+            why_restarted(&settled.study, &cases, start.as_ref()).map(|why| (why, every_s))
+        });
+        settled.study.identify.simulation = match why {
+            Some((why, every_s)) => {
                 // A simulation that takes up the measured motion begins with it.
                 moving = None;
-                settled.reasons.push(Reason::Restarted {
-                    missed: Some(missed.share()).filter(|share| !is_unheld || *share > POOR),
-                    every_s,
-                });
+                settled.reasons.push(Reason::Restarted { why, every_s });
                 let search = &mut settled.study.diagnosis.search;
                 for gain in [
                     &mut search.smallest_gain,
@@ -89,7 +82,7 @@ pub(crate) fn settle(study: &Study, cases: &[FitTask<'_>]) -> Option<Settled> {
                 }
                 Simulation::Restarted { every_s }
             }
-            _ => Simulation::FreeRun,
+            None => Simulation::FreeRun,
         };
     }
     if let Some(moving) = moving {
@@ -107,12 +100,6 @@ fn states_a_start(study: &Study) -> bool {
     free.peek().is_none() || free.any(|name| told(name).is_some_and(|one| one.value.is_some()))
 }
 
-/// Root mean square of a free run's error over that of the measured motion beyond which it is restarted, unless an effect of the catalogue
-/// brings it below.
-const POOR: f64 = 0.25;
-/// What a free run leaves that goes on from sample to sample, over what does not, beyond which it is more than noise
-/// \[–\]. Chosen.
-const BEYOND_NOISE: f64 = 2.0;
 /// Smallest gain that matters where a model is restarted: less is within reach of errors of the motion taken up.
 const RESTARTED_GAIN: f64 = 0.05;
 /// Places in each record at which its motion is looked at.
@@ -209,25 +196,6 @@ impl Sizes {
     }
 }
 
-/// Whether an angle is fitted that nothing brings back while the longest recording lasts: what a free run has missed once it misses to
-/// the end, and of all laws those come closest that bend the whole way a little.
-fn is_unheld(start: &SpectralStart, cases: &[FitTask<'_>]) -> bool {
-    let [mass, damping, stiffness] = start.values;
-    let back_s = (damping / stiffness).max((mass / stiffness).sqrt());
-    let is_angle = |case: &FitTask<'_>| case.quantity() == Quantity::Displacement;
-    cases.iter().all(is_angle) && !swings(start, cases) && back_s > longest_s(cases)
-}
-
-/// Whether a free run follows an angle that nothing brings back once the input is taken as held from sample to sample, where the study
-/// leaves that open: what a straight input misses is no matter of the rig.
-fn is_followed_when_held(study: &Study, cases: &[FitTask<'_>]) -> bool {
-    let follows = |held: &[FitTask<'_>]| {
-        missed(held).is_some_and(|missed| !missed.asks_for_restarts(held, true))
-    };
-    held_input::is_open(study, cases)
-        && held_input::held(study, cases).is_ok_and(|(_, held)| follows(&held))
-}
-
 fn displacement<'a>(case: &'a FitTask<'_>) -> &'a [f64] {
     case.tightening
         .motion
@@ -241,83 +209,4 @@ fn interval_s(case: &FitTask<'_>) -> f64 {
 
 fn mean_square(values: &[f64]) -> f64 {
     values.iter().map(|value| value * value).sum::<f64>() / values.len().max(1) as f64
-}
-
-/// What a free run leaves of the measured motion, both Σ over what is scored.
-struct Missed {
-    /// What is left at a sample times what is left at the next: noise is as often with as against its neighbour.
-    left: f64,
-    about_mean: f64,
-    /// What is left beyond that: what neighbours do not share.
-    noise: f64,
-}
-
-impl Missed {
-    /// Root mean square of what is left, over that of the motion about its mean, as far as it goes on from sample to sample: a record that
-    /// is half noise is not followed better for being restarted from its noise.
-    fn share(&self) -> f64 {
-        (self.left.max(0.0) / self.about_mean).sqrt()
-    }
-
-    /// Whether the model is to be restarted from the measured motion: where a free run misses it by far, and where it misses an angle
-    /// that nothing brings back by more than noise. Not where a free run follows the motion as nearly once one effect is added: it
-    /// tells effects apart that a restarted run hardly does.
-    fn asks_for_restarts(&self, cases: &[FitTask<'_>], is_unheld: bool) -> bool {
-        let near = match is_unheld {
-            true => (1.0 + BEYOND_NOISE) * self.noise,
-            false => POOR * POOR * self.about_mean,
-        };
-        self.left > near && !is_followed_with_an_effect(cases, near).unwrap_or(false)
-    }
-}
-
-/// What a free run of the study's own model leaves; `None` where restarts make no sense: an acceleration does not drift, and what is
-/// integrated from one has no measured motion to start from.
-fn missed(cases: &[FitTask<'_>]) -> Option<Missed> {
-    let (mut left, mut about_mean, mut noise) = (0.0, 0.0, 0.0);
-    for case in cases {
-        let motion = &case.tightening.motion;
-        if case.quantity() == Quantity::Acceleration || motion.acceleration_rad_per_s2.is_some() {
-            return None;
-        }
-        let settings = IdentifySettings {
-            fitted_output: case.quantity(),
-            constraints: case.settings.constraints.clone(),
-            unscored_samples: case.unscored(),
-            simulation: Simulation::FreeRun,
-            ..IdentifySettings::default()
-        };
-        let measured = motion.get(case.quantity())?;
-        let mean = measured.iter().sum::<f64>() / measured.len() as f64;
-        let found = identify(&case.model, &case.input, &case.tightening, &settings);
-        let error = found.and_then(|found| {
-            let values: Vec<f64> = found.parameters.iter().map(|p| p.value).collect();
-            let mut error = vec![0.0; measured.len()];
-            case.model
-                .output(&values, &case.input, case.quantity(), &mut error)?;
-            error
-                .iter_mut()
-                .zip(measured)
-                .for_each(|(simulated, y)| *simulated -= y);
-            Ok(error)
-        });
-        let about: f64 = measured[case.unscored()..]
-            .iter()
-            .map(|y| (y - mean).powi(2))
-            .sum();
-        // What cannot even be simulated misses everything.
-        let (goes_on, all): (f64, f64) = error.map_or((about, about), |error| {
-            let scored = &error[case.unscored()..];
-            let pairs = scored.windows(2).map(|pair| pair[0] * pair[1]);
-            (pairs.sum(), scored.iter().map(|one| one * one).sum())
-        });
-        left += goes_on;
-        noise += all - goes_on;
-        about_mean += about;
-    }
-    (about_mean > 0.0).then_some(Missed {
-        left,
-        about_mean,
-        noise,
-    })
 }

@@ -2,6 +2,7 @@
 
 use crate::effect::corrected::CorrectedEffect;
 use crate::effect::size::EffectParameter;
+use crate::measurement::quantity::Quantity;
 use crate::words::chance::by_chance;
 use crate::words::effect_name::Named;
 use crate::words::effect_name::effect_name;
@@ -45,6 +46,15 @@ pub enum MoreData {
 const MOST_TIGHTENINGS: f64 = 500.0;
 /// Times as long as a record is \[–\] beyond which nobody would take a longer one. Chosen.
 const MOST_TIMES: f64 = 50.0;
+
+/// Why a model is restarted from the measured motion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum WhyRestarted {
+    /// A free run misses this share of the measured motion.
+    Misses(f64),
+    /// Nothing brings the fitted output back.
+    Unheld(Quantity),
+}
 
 /// One reason for a verdict.
 #[derive(Debug, Clone, PartialEq)]
@@ -115,8 +125,8 @@ pub enum Reason {
     },
     /// The model is restarted from the measured motion.
     Restarted {
-        /// Share of the measured motion that a free run misses; `None` where it is since nothing brings the angle back.
-        missed: Option<f64>,
+        /// Why it is.
+        why: WhyRestarted,
         /// Time between restarts \[s\].
         every_s: f64,
     },
@@ -213,7 +223,7 @@ impl Display for Reason {
                 p_family,
                 more,
             } => would_decide(f, effect, *p_family, *more),
-            Self::Restarted { missed, every_s } => restarted(f, *missed, *every_s),
+            Self::Restarted { why, every_s } => restarted(f, *why, *every_s),
             Self::BeginsMoving => f.write_str("Recordings begin in motion: how each moves at its first sample is fitted with mass, damping and stiffness (`initial_motion` in `model.effects`)."),
             Self::Held {
                 spared,
@@ -325,13 +335,21 @@ fn tightenings_left_out(
     )
 }
 
-fn restarted(f: &mut Formatter<'_>, missed: Option<f64>, every_s: f64) -> fmt::Result {
-    match missed {
-        None => f.write_str("Nothing brings this angle back: what a free run has missed once it misses to the end, whatever moved the rig then, and single effects hardly show.")?,
-        Some(missed) => write!(
+fn restarted(f: &mut Formatter<'_>, why: WhyRestarted, every_s: f64) -> fmt::Result {
+    match why {
+        WhyRestarted::Unheld(quantity) => {
+            f.write_str(match quantity {
+                Quantity::Displacement => "Nothing brings this angle back",
+                Quantity::Velocity | Quantity::Acceleration => {
+                    "Hardly anything brings this speed back"
+                }
+            })?;
+            f.write_str(": what a free run has missed once it misses to the end, whatever moved the rig then, such as a load that was not recorded, and single effects hardly show.")?;
+        }
+        WhyRestarted::Misses(share) => write!(
             f,
             "Run freely from its first sample on, the study's own model misses {} of the measured motion, so that a free run says little about single effects.",
-            whole_percent(missed.min(9.99))
+            whole_percent(share.min(9.99))
         )?,
     }
     write!(

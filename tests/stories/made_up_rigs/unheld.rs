@@ -1,0 +1,146 @@
+//! Rigs that nothing brings back, on which a load pulls that nobody recorded.
+
+use super::names;
+use super::rig::{Noise, Rig, TORQUE, moved};
+use snug_campaign::{Diagnosis, Verdict};
+use snug_study::Verb;
+
+fn says(diagnosis: &Diagnosis, beginning: &str) -> bool {
+    let mut reasons = diagnosis.reasons.iter().map(ToString::to_string);
+    reasons.any(|one| one.starts_with(beginning))
+}
+
+/// An axis on which a load pulls that nobody recorded, its angle measured: once astray, a free run stays so, and laws come closest to that
+/// which bend the whole way a little. What air does is told by itself, and where nothing is hidden nothing is named.
+#[test]
+fn an_axis_with_an_unrecorded_load_lacks_what_air_does_or_nothing() {
+    for (air, expected) in [(0.004, &["quadratic_damping"][..]), (0.0, &[])] {
+        let mut noise = Noise(19);
+        let mut recording = || {
+            let inputs = noise.tones([0.1, 8.0], 0.16, 6000);
+            let loads = noise.levels([-0.05, 0.05], 100, 6000);
+            let acting: Vec<f64> = inputs.iter().zip(&loads).map(|(u, w)| u + w).collect();
+            let rate = |[_, v]: [f64; 2], u: f64| [v, (u - 0.05 * v - air * v * v.abs()) / 0.01];
+            let angles = moved(&acting, 4, rate).map(|[x, _]| x);
+            noise.with(&inputs, angles, 5e-4)
+        };
+        let rig = Rig::that_turns((0..4).map(|_| recording()).collect());
+        let diagnosis = rig.told(&Verb::Improve);
+        assert_eq!(names(&diagnosis), expected, "{}", diagnosis.headline);
+        assert!(
+            says(&diagnosis, "Nothing brings"),
+            "{:?}",
+            diagnosis.reasons
+        );
+        for one in &diagnosis.added {
+            let size = one.parameters[0].value;
+            assert!((size / air - 1.0).abs() < 0.15, "{size}");
+        }
+    }
+}
+
+/// A drive with a fine encoder, its torque held from sample to sample: what a straight torque misses is more than the encoder's noise and no
+/// reason to restart, and nothing is missing.
+#[test]
+fn a_drive_with_a_fine_encoder_and_a_held_torque_lacks_nothing() {
+    let mut noise = Noise(21);
+    let mut recording = || {
+        let inputs = noise.tones([0.1, 8.0], 0.16, 2000);
+        let rate = |[_, v]: [f64; 2], u: f64| [v, (u - 0.05 * v) / 0.01];
+        let angles = moved(&inputs, 50, rate).map(|[x, _]| x);
+        noise.with(&inputs, angles, 1e-6)
+    };
+    let rig = Rig::that_turns((0..2).map(|_| recording()).collect());
+    let diagnosis = rig.told(&Verb::Improve);
+    assert_eq!(names(&diagnosis), [""; 0], "{}", diagnosis.headline);
+    let left = diagnosis.ladder.last().unwrap().rms_fitted_output;
+    assert!(left < 1.1e-6, "{left}: {}", diagnosis.headline);
+}
+
+/// One recording of a minute of such an axis with dry friction in it: a spring that shows nowhere is none, however long a recording lasts.
+#[test]
+fn a_long_recording_of_an_axis_with_an_unrecorded_load_lacks_dry_friction_alone() {
+    let mut noise = Noise(22);
+    let inputs = noise.tones([0.1, 8.0], 0.16, 60_000);
+    let loads = noise.levels([-0.05, 0.05], 100, 60_000);
+    let acting: Vec<f64> = inputs.iter().zip(&loads).map(|(u, w)| u + w).collect();
+    let rate = |[_, v]: [f64; 2], u: f64| [v, (u - 0.05 * v - 0.08 * (v / 0.05).tanh()) / 0.01];
+    let angles = moved(&acting, 4, rate).map(|[x, _]| x);
+    let rig = Rig::that_turns(vec![noise.with(&inputs, angles, 5e-4)]);
+    let diagnosis = rig.told(&Verb::Improve);
+    let headline = diagnosis.headline.to_string();
+    assert_eq!(names(&diagnosis), ["coulomb_friction"], "{headline}");
+    let friction = &diagnosis.added[0].parameters[0];
+    assert!((friction.value / 0.08 - 1.0).abs() < 0.1, "{friction:?}");
+}
+
+/// A flywheel that hardly anything slows down, its speed measured, with dry friction in its bearing and without: what a load did to it once
+/// it keeps, and the motion it began with is no more to blame than anything else.
+#[test]
+fn a_flywheel_with_an_unrecorded_load_lacks_dry_friction_or_nothing() {
+    for (friction, expected) in [(0.05, &["coulomb_friction"][..]), (0.0, &[])] {
+        let mut noise = Noise(23);
+        let mut recording = || {
+            let inputs = noise.tones([0.1, 8.0], 0.16, 6000);
+            let loads = noise.levels([-0.06, 0.06], 100, 6000);
+            let acting: Vec<f64> = inputs.iter().zip(&loads).map(|(u, w)| u + w).collect();
+            let rate =
+                |[v]: [f64; 1], u: f64| [(u - 0.002 * v - friction * (v / 0.02).tanh()) / 0.05];
+            let speeds = moved(&acting, 4, rate).map(|[v]| v);
+            noise.with(&inputs, speeds, 0.02)
+        };
+        let rig = Rig {
+            recordings: (0..3).map(|_| recording()).collect(),
+            declared: [TORQUE, "Velocity", "RadianPerSecond"],
+            fitted: "Velocity",
+        };
+        let diagnosis = rig.told(&Verb::Improve);
+        assert_eq!(names(&diagnosis), expected, "{}", diagnosis.headline);
+        assert!(
+            says(&diagnosis, "Hardly anything brings") || says(&diagnosis, "Run freely"),
+            "{:?}",
+            diagnosis.reasons
+        );
+        assert_ne!(diagnosis.verdict, Verdict::UnlistedEffect);
+        for one in &diagnosis.added {
+            let size = one.parameters[0].value;
+            assert!((size / friction - 1.0).abs() < 0.15, "{size}");
+        }
+    }
+}
+
+/// An axis that was computed and not measured: what is left is rounding, which lacks nothing.
+#[test]
+fn of_computed_data_rounding_is_no_effect() {
+    let mut noise = Noise(24);
+    let mut recording = || {
+        let inputs = noise.tones([0.1, 8.0], 0.16, 2000);
+        // Exact for a torque that is held: v goes to u/c, and x with it.
+        let (c, decay) = (0.05, f64::exp(-0.05 / 0.01 * 1e-3));
+        let (mut x, mut v) = (0.0, 0.0);
+        let angles: Vec<f64> = inputs
+            .iter()
+            .map(|u| {
+                let at = x;
+                x += u / c * 1e-3 + (v - u / c) * (1.0 - decay) * 0.01 / c;
+                v = u / c + (v - u / c) * decay;
+                at
+            })
+            .collect();
+        noise.with(&inputs, angles.into_iter(), 0.0)
+    };
+    let rig = Rig::that_turns((0..3).map(|_| recording()).collect());
+    let diagnosis = rig.told(&Verb::Improve);
+    assert_eq!(names(&diagnosis), [""; 0], "{}", diagnosis.headline);
+    assert_eq!(
+        diagnosis.verdict,
+        Verdict::Adequate,
+        "{}",
+        diagnosis.headline
+    );
+    assert!(
+        diagnosis.headline.to_string().contains("rounding"),
+        "{}",
+        diagnosis.headline
+    );
+}
