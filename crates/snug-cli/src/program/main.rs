@@ -7,9 +7,15 @@ mod workbench;
 use clap::Subcommand;
 use clap_complete::CompleteEnv;
 use completions::Shell;
+use mimalloc::MiMalloc;
 use snug_campaign::words::program;
 use snug_cli::Front;
 use std::process::ExitCode;
+
+/// A workbench lives for a day: 180 clicks on models chosen at random leave it at 130 MB, where the system's own leaves 260 MB and more
+/// with every click.
+#[global_allocator]
+static ALLOCATOR: MiMalloc = MiMalloc;
 
 /// What to do.
 #[derive(Debug, Subcommand)]
