@@ -11,6 +11,7 @@ use crate::selection::model_selection::ModelSelection;
 use crate::selection::path::SelectionPath;
 use crate::settings::DiagnoseSettings;
 use crate::verdict::answer::{Answer, Examination};
+use crate::verdict::earned::is_declared_wrong;
 use crate::verdict::units::in_other_units;
 
 /// Answers a question.
@@ -45,10 +46,11 @@ pub fn examine(
     let units = (!settings.loads_differ)
         .then(|| in_other_units(cases, apart.as_ref().unwrap_or(compared.last())))
         .flatten();
-    // What is missing is no question where recordings stand in units of their own.
-    let goal = match &units {
-        Some(units) if units.is_prefix => &Goal::Compare,
-        _ => &question.goal,
+    // What is missing is no question where recordings stand in units of their own or channels are not what they are said to be.
+    let stand_apart = units.as_ref().is_some_and(|units| units.is_prefix);
+    let goal = match stand_apart || is_declared_wrong(cases, compared.last()) {
+        true => &Goal::Compare,
+        false => &question.goal,
     };
     let slow = match goal {
         Goal::Compare => None,

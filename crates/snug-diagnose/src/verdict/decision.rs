@@ -18,9 +18,11 @@ impl Examination<'_> {
         let wrong = [
             self.units_that_differ(true).map(Suspicion::Units),
             self.failed_fit().map(Suspicion::FailedFit),
+            earned::is_undriven(self.question.cases).then_some(Suspicion::Undriven),
         ];
         let wrong: Vec<Suspicion> = wrong.into_iter().flatten().collect();
-        let is_open = wrong.is_empty() && !self.is_another_derivative();
+        let is_open = wrong.is_empty()
+            && !earned::is_declared_wrong(self.question.cases, &self.path.rungs[0]);
         let verdict = match is_open || self.path.is_interrupted() {
             true => self.verdict(
                 places.last().repeatable_share,
@@ -47,13 +49,6 @@ impl Examination<'_> {
             (Goal::Compare, [Suspicion::NoOscillator]) => (Verdict::Undecided, Vec::new()),
             _ => (verdict, suspicions),
         }
-    }
-
-    /// Whether the output is another derivative, where the study's own model explains too little and with that alone it would
-    /// explain most: what effects make of it then is no rig.
-    fn is_another_derivative(&self) -> bool {
-        let share = earned::share(self.question.cases, &self.path.rungs[0]);
-        !earned::is_a_model(share) && earned::is_another_derivative(self.question.cases)
     }
 
     /// That most candidates could not be tried, if so: then nothing is known of what is missing.

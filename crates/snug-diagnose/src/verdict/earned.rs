@@ -8,7 +8,7 @@ use crate::selection::path::SelectionPath;
 use crate::selection::thresholds::MOST;
 use crate::settings::DiagnoseSettings;
 use crate::verdict::thresholds::{
-    FAR_BETTER, FEW_SAMPLES, LEAST_EXPLAINED, MOST_IN_FEW, SHORTFALL, WHITE,
+    FAR_BETTER, FEW_SAMPLES, LEAST_EXPLAINED, MOST_IN_FEW, MOSTLY_EXPLAINED, SHORTFALL, WHITE,
 };
 use snug_campaign::Quantity;
 use snug_campaign::words::explained::Explained;
@@ -74,13 +74,18 @@ fn left(quantity: Quantity, one: &Seen<'_>) -> Option<Vec<f64>> {
 
 /// Correlation of neighbouring samples of what is left \[–\]; 0 where nothing is.
 fn neighbours(quantity: Quantity, seen: &[Seen<'_>]) -> f64 {
+    let all: Vec<Vec<f64>> = (seen.iter())
+        .filter_map(|one| left(quantity, one))
+        .collect();
+    correlation(&all)
+}
+
+/// Of neighbouring samples, in any of the recordings \[–\]; 0 where nothing is.
+fn correlation(recordings: &[Vec<f64>]) -> f64 {
     let (mut products, mut squares) = (0.0, 0.0);
-    for one in seen {
-        let Some(left) = left(quantity, one) else {
-            continue;
-        };
-        products += left.windows(2).map(|pair| pair[0] * pair[1]).sum::<f64>();
-        squares += left.iter().map(|r| r * r).sum::<f64>();
+    for one in recordings {
+        products += one.windows(2).map(|pair| pair[0] * pair[1]).sum::<f64>();
+        squares += one.iter().map(|r| r * r).sum::<f64>();
     }
     let correlation = products / squares;
     if correlation.is_finite() {
@@ -196,9 +201,34 @@ impl<'a> Changed<'a> {
     }
 }
 
-/// Whether the output is another derivative of the angle than is declared, as far as m, c, k alone say.
-pub(crate) fn is_another_derivative(cases: &[FitTask<'_>]) -> bool {
-    Changed::of(cases).derivatives().next().is_some()
+/// Whether a channel is not what it is declared to be: `own`, the study's own model, explains too little, and m, c, k alone would explain
+/// enough of another derivative of the angle, or most with the input's other sign or the columns swapped. What effects make of that is
+/// no rig.
+pub(crate) fn is_declared_wrong(cases: &[FitTask<'_>], own: &Fitted) -> bool {
+    if is_a_model(share(cases, own)) {
+        return false;
+    }
+    let changed = Changed::of(cases);
+    let explains_most = |one: &Suspicion| matches!(one, Suspicion::Sign(share) | Suspicion::Swapped(share) if *share >= MOSTLY_EXPLAINED);
+    changed.derivatives().next().is_some()
+        || changed.sign().as_ref().is_some_and(explains_most)
+        || changed.swapped().as_ref().is_some_and(explains_most)
+}
+
+/// Whether no torque acts in any recording, and nothing is known of what moves, so that ratios show only.
+pub(crate) fn is_undriven(cases: &[FitTask<'_>]) -> bool {
+    let is_unknown = |case: &FitTask<'_>| case.known_torque(1.0, 1.0).is_none();
+    (cases.iter()).all(|case| case.is_undriven() && is_unknown(case))
+}
+
+/// Whether what was measured is white about its mean, in every recording.
+fn is_still(cases: &[FitTask<'_>]) -> bool {
+    cases.iter().all(|case| {
+        let scored = &case.measured()[case.unscored()..];
+        let mean = scored.iter().sum::<f64>() / scored.len() as f64;
+        let about_mean: Vec<f64> = scored.iter().map(|y| y - mean).collect();
+        correlation(&[about_mean]).abs() < WHITE
+    })
 }
 
 /// What to check, the likeliest first; what is `left_over` where nothing else is.
@@ -217,7 +247,10 @@ pub(crate) fn suspicions(
         .chain(changed.derivatives())
         .collect();
     if found.is_empty() {
-        found.push(left_over.unwrap_or(Suspicion::NoOscillator));
+        found.push(match is_still(cases) {
+            true => Suspicion::Still,
+            false => left_over.unwrap_or(Suspicion::NoOscillator),
+        });
     }
     found
 }

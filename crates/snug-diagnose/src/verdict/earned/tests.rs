@@ -108,8 +108,18 @@ fn another_derivative_is_suspected() {
 
 #[test]
 fn two_signals_that_know_nothing_of_each_other_are_no_oscillator() {
-    let found = suspected(declared(random(1), random(2), Quantity::Velocity));
+    let smooth: Vec<f64> = (random(2).windows(8))
+        .map(|some| some.iter().sum())
+        .chain([0.0; 7])
+        .collect();
+    let found = suspected(declared(random(1), smooth, Quantity::Velocity));
     assert_eq!(found, [Suspicion::NoOscillator]);
+}
+
+#[test]
+fn where_noise_alone_is_measured_nothing_moves() {
+    let found = suspected(declared(random(1), random(2), Quantity::Velocity));
+    assert_eq!(found, [Suspicion::Still]);
 }
 
 /// What is told of a model that leaves `left` of a motion.
