@@ -1,5 +1,6 @@
 //! Rigs that were made up here, by small steps of the midpoint rule, of which an engineer would say at once what they lack.
 
+mod free_motion;
 mod rig;
 mod unheld;
 
@@ -249,6 +250,24 @@ fn an_input_of_the_other_sign_is_said_before_anything_else() {
     let headline = diagnosis.headline.to_string();
     assert_eq!(diagnosis.verdict, Verdict::NotFitted, "{headline}");
     assert!(headline.contains("other sign"), "{headline}");
+}
+
+/// Input and output declared the other way round: no chain of effects that happens to look like it is looked for, the columns are named.
+#[test]
+fn swapped_columns_are_said_before_anything_else() {
+    let mut noise = Noise(16);
+    let mut recording = || {
+        let inputs = noise.tones([1.0, 40.0], 4.0, 2000);
+        let rate = |[x, v]: [f64; 2], u: f64| [v, (u - 12.0 * v - 6400.0 * x) / 2.0];
+        let places = moved(&inputs, 10, rate).map(|[x, _]| x);
+        let rows = noise.with(&inputs, places, 1e-6);
+        rows.into_iter().map(|[u, y]| [y, u]).collect()
+    };
+    let rig = Rig::that_slides((0..3).map(|_| recording()).collect());
+    let diagnosis = rig.told(&Verb::Improve);
+    let headline = diagnosis.headline.to_string();
+    assert_eq!(diagnosis.verdict, Verdict::NotFitted, "{headline}");
+    assert!(headline.contains("swapped"), "{headline}");
 }
 
 /// Half of what is measured is noise of the sensor: what is left knows nothing of its neighbours, and is called noise.

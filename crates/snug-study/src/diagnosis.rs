@@ -59,7 +59,7 @@ fn nothing_to_compare(
         (0, _) | (_, Some(_)) => Ok(outcome),
         (tightenings, None) => Err(DiagnoseError::NothingToCompare {
             tightenings,
-            reason: "each is faulty or kept for validation; findings.json says why",
+            reason: "each is faulty, kept for validation or too short; findings.json says which are faulty",
         }
         .into()),
     }

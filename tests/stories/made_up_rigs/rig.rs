@@ -38,6 +38,11 @@ impl Rig {
 
     /// The diagnosis of a study as README teaches it, sampled at 1 kHz.
     pub fn told(&self, verb: &Verb) -> Diagnosis {
+        self.told_with("", verb)
+    }
+
+    /// The same of one that says this of its `model`.
+    pub fn told_with(&self, model: &str, verb: &Verb) -> Diagnosis {
         let (folder, out) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
         for (number, recording) in self.recordings.iter().enumerate() {
             let rows = recording.iter().map(|[u, y]| format!("{u:e},{y:e}\n"));
@@ -55,6 +60,7 @@ impl Rig {
                     sampling: Rate(hz: 1000.0),
                 )),
                 preprocess: (window: Whole, rig: (lever_arm_m: 1.0, known_inertia: Fixed(0.0))),
+                model: ({model}),
                 identify: (fitted_output: {fitted}, constraints: [Positive]),
             )"#,
             path = folder.path(),

@@ -1,4 +1,4 @@
-//! Whether recordings of a speed begin in motion.
+//! Whether recordings begin in motion.
 
 use crate::task::FitTask;
 use snug_campaign::Quantity;
@@ -19,11 +19,15 @@ const LOSES_NONE: f64 = 0.2;
 /// Whether any of a machine's recordings begins in motion: whether its speed at the first sample is no noise, no little of what it is
 /// elsewhere, and no error of the sensor. A rig that turns while no torque acts on it loses speed by its damping, here with m, c, k
 /// \[kg, kg/s, N/m\] as `base`, where they are known; what one shows that loses none is what the sensor reads at rest, in all of them. An
-/// angle's slope at its first sample is too uncertain to say it.
+/// angle's slope at its first sample is too uncertain to say it. Where no torque acts in any of them, there is nothing else that could move
+/// them.
 pub fn begin_in_motion(
     recordings: &[FitTask<'_>],
     base: Option<[f64; BASE_PARAMETERS.len()]>,
 ) -> bool {
+    if !recordings.is_empty() && recordings.iter().all(FitTask::is_undriven) {
+        return true;
+    }
     let all: Vec<(&FitTask<'_>, Beginning)> = (recordings.iter())
         .filter_map(|task| Some((task, Beginning::of(task)?)))
         .collect();
@@ -60,6 +64,32 @@ impl Beginning {
 }
 
 impl FitTask<'_> {
+    /// Whether no torque acts from its first sample to its last.
+    pub fn is_undriven(&self) -> bool {
+        let torques = &self.tightening.torque_nm;
+        torques.iter().all(|torque_nm| *torque_nm == 0.0)
+    }
+
+    /// How large a torque moves what is known of the rig, its own inertia or a mass, damping or stiffness that is held, by this angle in
+    /// this time \[Nm\]; `None` where nothing is.
+    pub fn known_torque(&self, angle_rad: f64, time_s: f64) -> Option<f64> {
+        let rig = self.model.rig();
+        let square = rig.lever_arm_m * rig.lever_arm_m;
+        let base = &self.model.parameters()[..BASE_PARAMETERS.len()];
+        let held = |index: usize| match base[index].fixed {
+            true => base[index].value * square,
+            false => 0.0,
+        };
+        let inertia_kg_m2 = rig.known_inertia_kg_m2 + held(0);
+        let torques_nm = [
+            inertia_kg_m2 * angle_rad / (time_s * time_s),
+            held(1) * angle_rad / time_s,
+            held(2) * angle_rad,
+        ];
+        let largest = torques_nm.into_iter().fold(0.0, f64::max);
+        (largest > 0.0).then_some(largest)
+    }
+
     /// What it shows before any torque acts, where that stays what it is while a turning rig would have slowed down.
     fn speed_at_rest(&self, [mass, damping, _]: [f64; BASE_PARAMETERS.len()]) -> Option<f64> {
         let torques = &self.tightening.torque_nm;

@@ -28,8 +28,17 @@ pub fn cases(
     Ok(chosen(study, &Host, files, most, &|_| ())?.0.cases)
 }
 
-/// Samples that must be scored for a comparison to say anything.
-const FEWEST_SCORED: usize = 100;
+/// Samples that must be scored for a comparison to say anything: some for each number of a model with an effect. Chosen.
+const FEWEST_SCORED: usize = 30;
+
+/// Why a tightening takes no part in a comparison.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum NoPart {
+    /// Its data are faulty.
+    Faulty,
+    /// Too few of its samples are scored.
+    Short,
+}
 
 /// How far reading has come.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -54,6 +63,7 @@ pub(crate) fn chosen(
 ) -> Result<(Comparable, KeptFiles), StudyError> {
     let kept = Mutex::new(KeptFiles::default());
     let (read_files, to_read) = (AtomicUsize::new(0), AtomicUsize::new(0));
+    let short = AtomicUsize::new(0);
     let is_fitted = |file: &&PathBuf| !study.validation.keeps(file);
     let files: Vec<PathBuf> = files.iter().filter(is_fitted).cloned().collect();
     let stride = files.len().div_ceil((most / EACH).max(1)).max(1);
@@ -65,7 +75,8 @@ pub(crate) fn chosen(
             let path = &files[number];
             let (all, unread) = match PreparedFile::read(study, disk, path)? {
                 Ok(file) => {
-                    let all = cases_of_file(study, &file)?;
+                    let (all, few) = cases_of_file(study, &file)?;
+                    short.fetch_add(few, Ordering::Relaxed);
                     if let Ok(mut kept) = kept.lock() {
                         kept.offer(path, file);
                     }
@@ -100,6 +111,11 @@ pub(crate) fn chosen(
         .collect();
     let mut comparable = comparable(parts.into_iter().flat_map(|part| part.cases).collect());
     comparable.reasons.extend(is_selection.then_some(reason));
+    let short = short.into_inner();
+    (comparable.reasons).extend((short > 0).then_some(Reason::Short {
+        left_out: short,
+        samples: FEWEST_SCORED,
+    }));
     // A disk that fails for a moment may read them again when the study is run, and then no finding names them.
     (comparable.reasons).extend(unread.first().map(|first| Reason::Unread {
         first: first.to_string(),
@@ -159,26 +175,34 @@ pub(crate) fn with_settled<'a>(
 }
 
 /// What of a file can be compared with the model. Everything else that is left out the run of the study names in its findings.
-fn cases_of_file(study: &Study, file: &PreparedFile) -> Result<Vec<FitTask<'static>>, StudyError> {
+/// How many are too short is said of the verdict, since they are fitted all the same.
+fn cases_of_file(
+    study: &Study,
+    file: &PreparedFile,
+) -> Result<(Vec<FitTask<'static>>, usize), StudyError> {
     let only_simulated = study.validation_segments();
-    let mut cases = Vec::new();
+    let (mut cases, mut short) = (Vec::new(), 0);
     for (_, prepared) in &file.recordings {
         for one in &prepared.tightenings {
             if !only_simulated.contains(&one.tightening.id.number) {
-                cases.extend(case_of(study, one)?);
+                match case_of(study, one)? {
+                    Ok(case) => cases.push(case),
+                    Err(NoPart::Short) => short += 1,
+                    Err(NoPart::Faulty) => {}
+                }
             }
         }
     }
-    Ok(cases)
+    Ok((cases, short))
 }
 
-/// A tightening as it is compared with the model; `None` where it cannot be.
+/// A tightening as it is compared with the model, or why it cannot be.
 pub(crate) fn case_of(
     study: &Study,
     one: &Prepared,
-) -> Result<Option<FitTask<'static>>, StudyError> {
+) -> Result<Result<FitTask<'static>, NoPart>, StudyError> {
     if one.rejections().contains(&Rejection::DataQuality) {
-        return Ok(None);
+        return Ok(Err(NoPart::Faulty));
     }
     let input = input(study, one);
     let tightening = one.tightening.clone();
@@ -202,5 +226,10 @@ pub(crate) fn case_of(
         settings: Cow::Owned(settings),
         tightening: Cow::Owned(tightening),
     };
-    Ok((case.measured().len() > case.unscored() + FEWEST_SCORED).then_some(case))
+    Ok(
+        match case.measured().len() < case.unscored() + FEWEST_SCORED {
+            true => Err(NoPart::Short),
+            false => Ok(case),
+        },
+    )
 }

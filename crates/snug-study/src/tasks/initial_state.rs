@@ -3,6 +3,7 @@
 
 use crate::study::Study;
 use crate::tasks::cases::with_settled;
+use snug_campaign::Quantity;
 use snug_identify::{FitTask, SpectralStart, begin_in_motion};
 use snug_model::{Effect, ParameterSettings};
 use std::f64::consts::TAU;
@@ -11,8 +12,8 @@ use std::f64::consts::TAU;
 const BEGINS: Effect = Effect::InitialMotion;
 const ANGLE: &str = "theta0_rad";
 
-/// The study with every recording beginning as it moves then, and its recordings; `None` where the speed is not measured, none of them
-/// is in motion, or the model cannot be simulated so.
+/// The study with every recording beginning as it moves then, and its recordings; `None` where none of them begins in motion, as far as
+/// that shows, or the model cannot be simulated so.
 ///
 /// Where a spring is so soft that no recording sees the mass swing on it once, a constant force of it at the angle of the start is no
 /// spring: that angle is held at 0 then.
@@ -28,7 +29,11 @@ pub(super) fn moving<'a>(
     }
     let mut study = study.clone();
     study.model.effects.insert(0, BEGINS.name().to_owned());
-    if !start.is_some_and(|start| swings(start, cases)) {
+    // What no torque moves and swings was pulled out to an angle.
+    let is_pulled =
+        |case: &FitTask<'_>| case.is_undriven() && case.quantity() == Quantity::Displacement;
+    let swings = start.is_some_and(|start| swings(start, cases));
+    if !swings && !cases.iter().all(is_pulled) {
         let held = ParameterSettings {
             value: Some(0.0),
             fixed: true,

@@ -39,10 +39,15 @@ pub(crate) fn settle(study: &Study, cases: &[FitTask<'_>]) -> Option<Settled> {
         study: study.clone(),
         reasons: Vec::new(),
     };
-    if let Some(start) = start.as_ref().filter(|_| !states_a_start(study)) {
-        for (name, value) in BASE_PARAMETERS.iter().zip(start.values) {
+    let values = start.as_ref().map(|start| start.values);
+    let values = values.or_else(|| sizes.base_of(cases));
+    if let Some(values) = values.filter(|_| !states_a_start(study)) {
+        for (name, value) in BASE_PARAMETERS.iter().zip(values) {
             let told = settled.study.model.parameters.entry((*name).to_owned());
-            told.or_default().value = Some(value);
+            let told = told.or_default();
+            if !told.fixed {
+                told.value = Some(value);
+            }
         }
     }
     if study.model.scale == Scale::Automatic {
@@ -116,9 +121,11 @@ struct Sizes {
 }
 
 impl Sizes {
-    /// As measured where the angle was, otherwise as the model moves from its `start`: an angle that was integrated drifts.
+    /// As measured where the angle was, and where no torque acts as what is known of the rig would take one; otherwise as the model moves from its `start`: an angle that was integrated drifts.
     fn of(cases: &[FitTask<'_>], start: Option<&SpectralStart>) -> Option<Self> {
-        let is_measured = |case: &FitTask<'_>| case.quantity() == Quantity::Displacement;
+        let is_undriven = cases.iter().all(FitTask::is_undriven);
+        let is_measured =
+            |case: &FitTask<'_>| is_undriven || case.quantity() == Quantity::Displacement;
         if !cases.iter().all(is_measured) {
             let samples = || {
                 cases
@@ -166,6 +173,9 @@ impl Sizes {
             let time_s = sizes.time_of_speed(cases);
             sizes.time_s = time_s.map_or(sizes.time_s, |time_s| sizes.time_s.min(time_s));
         }
+        if is_undriven {
+            sizes.torque_nm = cases[0].known_torque(sizes.angle_rad, sizes.time_s)?;
+        }
         let all = [sizes.torque_nm, sizes.angle_rad, sizes.time_s];
         let sane = |size: &f64| size.is_finite() && *size > 0.0;
         all.iter().all(sane).then_some(sizes)
@@ -188,6 +198,16 @@ impl Sizes {
             }
         }
         Some(f64::sqrt(speeds / changes)).filter(|time_s| time_s.is_finite())
+    }
+
+    /// Mass, damping and stiffness \[kg, kg/s, N/m\] that each take this torque to move so far in that time, where no torque acts and
+    /// spectra say nothing.
+    fn base_of(&self, cases: &[FitTask<'_>]) -> Option<[f64; 3]> {
+        let first = cases.first().filter(|case| case.is_undriven())?;
+        let arm_m = first.model.rig().lever_arm_m;
+        let stiffness = self.torque_nm / self.angle_rad / (arm_m * arm_m);
+        let damping = stiffness * self.time_s;
+        Some([damping * self.time_s, damping, stiffness])
     }
 
     /// Of an oscillation that is as large and as fast.

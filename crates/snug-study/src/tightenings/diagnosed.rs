@@ -151,7 +151,7 @@ pub fn shared_parameters(
     study: &Study,
     prepared: &Prepared,
 ) -> Result<Vec<SharedParameter>, StudyError> {
-    let Some(case) = case_of(study, prepared)? else {
+    let Ok(case) = case_of(study, prepared)? else {
         let reason = "it is faulty or too short";
         return Err(DiagnoseError::NothingToCompare {
             tightenings: 1,
@@ -178,7 +178,9 @@ pub fn shared_blocks(
     let mut places = Vec::new();
     let mut cases = Vec::new();
     for (place, one) in prepared.iter().enumerate() {
-        let case = case_of(study, one)?.filter(|case| compared(case) == compared_by);
+        let case = case_of(study, one)?
+            .ok()
+            .filter(|case| compared(case) == compared_by);
         if let Some(case) = case {
             places.push(place);
             cases.push(case);

@@ -44,7 +44,7 @@ pub fn prepare(study: &Study, tell: &(dyn Fn(FilesRead) + Sync)) -> Result<Prepa
     if comparable.cases.is_empty() {
         return Err(DiagnoseError::NothingToCompare {
             tightenings: 0,
-            reason: "each is faulty or kept for validation; `run` on the same data says why",
+            reason: "each is faulty, kept for validation or too short; `run` on the same data says why",
         }
         .into());
     }

@@ -6,7 +6,7 @@ use crate::measurement::quantity::Quantity;
 use crate::words::chance::by_chance;
 use crate::words::effect_name::Named;
 use crate::words::effect_name::effect_name;
-use crate::words::grammar::{capitalised, joined};
+use crate::words::grammar::{capitalised, counted, joined};
 use crate::words::number::whole_percent;
 use crate::words::sentence::headline::Left;
 use crate::words::sentence::said::written_as_said;
@@ -150,6 +150,13 @@ pub enum Reason {
         /// Whether in multiples of its noise.
         has_noise: bool,
     },
+    /// Tightenings with too few samples to be compared.
+    Short {
+        /// How many.
+        left_out: usize,
+        /// Samples that it takes.
+        samples: usize,
+    },
     /// Effects were learnt from some tightenings only.
     LearntFrom {
         /// Tightenings used.
@@ -235,6 +242,10 @@ impl Display for Reason {
                 quantity,
                 has_noise,
             } => tightenings_left_out(f, *left_out, *all, quantity, *has_noise),
+            Self::Short { left_out, samples } => {
+                let them = counted(*left_out, "tightening");
+                write!(f, "{them} took no part in the diagnosis: fewer than {samples} samples are scored, too few to compare a model with.")
+            }
             Self::LearntFrom { taken, read, files } => learnt_from(f, *taken, *read, *files),
             Self::Unread { first, more } => unread(f, first, *more),
         }

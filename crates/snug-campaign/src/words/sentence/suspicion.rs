@@ -47,6 +47,10 @@ pub enum Suspicion {
     },
     /// What is left is white, so that no model could explain it.
     Noise,
+    /// No torque acts in any recording, and nothing says how heavy, damped or stiff the rig is.
+    Undriven,
+    /// What is measured is white, as if nothing moved.
+    Still,
     /// None of these helps.
     NoOscillator,
 }
@@ -163,6 +167,12 @@ impl Display for Suspicion {
             ),
             Self::Noise => f.write_str(
                 "Check the sensor: what is left is white, each sample apart from its neighbours, as noise is and no motion. A model cannot explain it; filter it where it is measured, drive the rig harder, or measure its noise (a quiet part before the input begins) so that it can be counted off.",
+            ),
+            Self::Undriven => f.write_str(
+                "The input is zero in all recordings, and a free motion shows mass, damping and stiffness as ratios only. If a torque acted, check the input's column; if none did, hold one of the three in the study at what it is: `model: (parameters: {\"mass_kg\": (value: 1.0, fixed: true)})`, for example.",
+            ),
+            Self::Still => f.write_str(
+                "Nothing moves in these recordings: what is measured is white, each sample apart from its neighbours, as noise is and no motion. Check the output's column, or record while the input changes.",
             ),
             Self::NoOscillator => f.write_str(
                 "Another sign, swapped channels or another derivative of the angle would not help. The rig may be no mass on a spring and damper, several modes may move at once, or something else than the logged input drives it. Units and sampling rate are not to blame: the fit is the same in any.",
