@@ -14,6 +14,12 @@ fn names(diagnosis: &Diagnosis) -> Vec<&str> {
     added.map(|one| one.effect.as_str()).collect()
 }
 
+/// Whether one of the reasons holds these words.
+fn says(diagnosis: &Diagnosis, words: &str) -> bool {
+    let mut reasons = diagnosis.reasons.iter().map(ToString::to_string);
+    reasons.any(|one| one.contains(words))
+}
+
 /// A motor that is turned one way in one recording and the other way in the next: dry friction and what its torque sensor reads at rest
 /// show together only, and a friction with a shape is nearer to either alone. Its recordings are long for how slowly it moves.
 #[test]
@@ -283,7 +289,6 @@ fn noise_as_large_as_the_motion_is_called_noise() {
     let rig = Rig::that_slides((0..3).map(|_| recording()).collect());
     let diagnosis = rig.told(&Verb::Improve);
     assert_eq!(names(&diagnosis), [""; 0], "{}", diagnosis.headline);
-    let reasons: Vec<String> = diagnosis.reasons.iter().map(ToString::to_string).collect();
     assert_eq!(
         diagnosis.verdict,
         Verdict::NotFitted,
@@ -291,10 +296,9 @@ fn noise_as_large_as_the_motion_is_called_noise() {
         diagnosis.headline
     );
     assert!(
-        reasons
-            .iter()
-            .any(|one| one.contains("what is left is white")),
-        "{reasons:?}"
+        says(&diagnosis, "what is left is white"),
+        "{:?}",
+        diagnosis.reasons
     );
 }
 
@@ -341,10 +345,10 @@ fn a_tachometer_that_reads_too_much_at_rest_is_no_motion() {
         fitted: "Velocity",
     };
     let diagnosis = rig.told(&Verb::Diagnose);
-    let said: Vec<String> = diagnosis.reasons.iter().map(ToString::to_string).collect();
     assert!(
-        !said.iter().any(|one| one.contains("begin in motion")),
-        "{said:?}"
+        !says(&diagnosis, "begin in motion"),
+        "{:?}",
+        diagnosis.reasons
     );
     let best = &diagnosis.ranking[0];
     assert_eq!(best.effect, "output_offset", "{}", diagnosis.headline);

@@ -1,14 +1,9 @@
 //! Rigs that are let go and that no torque moves, and such of which hardly anything was recorded.
 
-use super::names;
 use super::rig::{Noise, Rig, TORQUE, moved};
-use snug_campaign::{Diagnosis, Verdict};
+use super::{names, says};
+use snug_campaign::Verdict;
 use snug_study::Verb;
-
-fn says(diagnosis: &Diagnosis, words: &str) -> bool {
-    let mut reasons = diagnosis.reasons.iter().map(ToString::to_string);
-    reasons.any(|one| one.contains(words))
-}
 
 /// Three recordings in which no torque acts: a state that begins elsewhere each time.
 fn let_go<const N: usize>(

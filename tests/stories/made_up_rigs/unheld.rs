@@ -1,14 +1,9 @@
 //! Rigs that nothing brings back, on which a load pulls that nobody recorded.
 
-use super::names;
 use super::rig::{Noise, Rig, TORQUE, moved};
-use snug_campaign::{Diagnosis, Verdict};
+use super::{names, says};
+use snug_campaign::Verdict;
 use snug_study::Verb;
-
-fn says(diagnosis: &Diagnosis, beginning: &str) -> bool {
-    let mut reasons = diagnosis.reasons.iter().map(ToString::to_string);
-    reasons.any(|one| one.starts_with(beginning))
-}
 
 /// An axis on which a load pulls that nobody recorded, its angle measured: once astray, a free run stays so, and laws come closest to that
 /// which bend the whole way a little. What air does is told by itself, and where nothing is hidden nothing is named.

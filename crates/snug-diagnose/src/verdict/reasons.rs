@@ -6,7 +6,7 @@ use crate::library::{declaration, in_words};
 use crate::pooled::fitted::Fitted;
 use crate::ranking::rank::Candidate;
 use crate::selection::path::{Addition, Attempt, Stop, least_share};
-use crate::selection::thresholds::SMALL;
+use crate::selection::thresholds::{MOST, SMALL};
 use crate::settings::DiagnoseSettings;
 use snug_campaign::words::effect_name::Named;
 use snug_campaign::words::explained::Explained;
@@ -71,9 +71,12 @@ impl Situation<'_> {
         self.stopped == Some(Stop::Interrupted)
     }
 
-    /// What was added, that first which explains most; what is small beside it only where `is_small`.
+    /// What was added, that first which explains most; what is small beside it only where `is_small`. What takes most of what the others
+    /// leave is not: an angle that is read 5 rad too large makes any friction a trifle.
     fn added(&self, is_small: bool) -> Vec<Named> {
-        let small = |one: &&Addition| !self.after.is_weighted && one.share_of_first < SMALL;
+        let small = |one: &&Addition| {
+            !self.after.is_weighted && one.share_of_first < SMALL && one.heldout_gain < MOST
+        };
         let mut added: Vec<&Addition> = (self.additions.iter())
             .filter(|one| small(one) == is_small)
             .collect();
