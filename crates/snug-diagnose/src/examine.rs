@@ -89,7 +89,8 @@ fn selected(
         Goal::Compare => Ok(compared),
         Goal::Diagnose => selection.diagnose(compared),
         Goal::Add(effects) => selection.add(effects, compared),
-        Goal::Improve => selection.improve(compared),
+        Goal::Improve => selection.improve(&[], compared),
+        Goal::ImproveFrom(effects) => selection.improve(effects, compared),
     }
 }
 

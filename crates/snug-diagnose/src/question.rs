@@ -19,6 +19,8 @@ pub enum Goal {
     Add(Vec<Effect>),
     /// Effects are added as long as the data justify it.
     Improve,
+    /// The same, begun with these.
+    ImproveFrom(Vec<Effect>),
 }
 
 impl<'a> Question<'a> {
@@ -59,7 +61,7 @@ impl Goal {
             Self::Compare => "compare",
             Self::Diagnose => "diagnose",
             Self::Add(_) => "add",
-            Self::Improve => "improve",
+            Self::Improve | Self::ImproveFrom(_) => "improve",
         }
     }
 }

@@ -9,12 +9,13 @@ use crate::run::{Outcome, Task, pool, run_with};
 use crate::study::Study;
 use crate::tasks::cases::{chosen, with_settled};
 use crate::tasks::comparable::Comparable;
+use crate::tasks::free_run::is_followed;
 use crate::tasks::held_input;
 use crate::tasks::settling::{Settled, settle};
 use snug_campaign::words::number::significant;
 use snug_campaign::{GroupSize, GroupSizes};
 use snug_diagnose::{Answer, DiagnoseError, Goal, Pieces, Question, RungModel, Watch, examine};
-use snug_identify::{FitTask, IdentifyError};
+use snug_identify::{FitTask, IdentifyError, Simulation};
 use snug_least_squares::SolveError;
 use snug_model::{Effect, GroupValue, ParameterSettings, ValuesByGroup};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -127,11 +128,13 @@ pub(crate) fn climbed(
         reasons: left_out,
     } = comparable;
     let settled = settle(study, &cases);
+    let (as_told, recorded) = (study, &cases);
+    let lent = || recorded.iter().map(FitTask::lent).collect();
     let (study, cases, reasons) = match &settled {
-        Some(Settled { study, reasons }) => {
-            (study, with_settled(study, cases)?, reasons.as_slice())
+        Some(Settled { study, reasons, .. }) => {
+            (study, with_settled(study, lent())?, reasons.as_slice())
         }
-        None => (study, cases, [].as_slice()),
+        None => (study, lent(), [].as_slice()),
     };
     let mut search = study.diagnosis.search.clone();
     search.seed = search.seed.wrapping_add(study.seed);
@@ -149,10 +152,73 @@ pub(crate) fn climbed(
         interrupted,
     };
     let (mut answer, held) = search.answer(study, &question)?;
+    let may_run_freely = settled
+        .as_ref()
+        .is_some_and(|settled| settled.may_run_freely);
+    if may_run_freely
+        && *verb == Verb::Improve
+        && let Some((free, cases)) = run_freely(study, as_told, &answer, lent())?
+    {
+        let mut settings = free.diagnosis.search.clone();
+        settings.seed = search.settings.seed;
+        let search = Search {
+            settings: &settings,
+            ..search
+        };
+        let names: Vec<String> = added(&answer).map(str::to_owned).collect();
+        let question = Question {
+            goal: Goal::ImproveFrom(effects(&free, &names, &cases)?),
+            cases: &cases,
+            ..question
+        };
+        let (mut answer, held) = search.answer(&free, &question)?;
+        answer.diagnosis.reasons.extend(left_out);
+        return Ok(climb(held.as_ref().unwrap_or(&free), answer));
+    }
     let study = held.as_ref().unwrap_or(study);
     answer.diagnosis.reasons.extend_from_slice(reasons);
     answer.diagnosis.reasons.extend(left_out);
     Ok(climb(study, answer))
+}
+
+/// Names of what was added.
+fn added(answer: &Answer) -> impl Iterator<Item = &str> {
+    (answer.diagnosis.added.iter()).map(|one| one.effect.as_str())
+}
+
+/// The `restarted` study and its recordings, run freely, where with what was found, all of it in the catalogue, a free run follows: that
+/// tells apart what else is missing, which over the short way between two restarts hardly shows.
+fn run_freely<'a>(
+    restarted: &Study,
+    as_told: &Study,
+    found: &Answer,
+    recorded: Vec<FitTask<'a>>,
+) -> Result<Option<(Study, Vec<FitTask<'a>>)>, StudyError> {
+    let is_listed = found
+        .diagnosis
+        .added
+        .iter()
+        .all(|one| one.expression.is_none());
+    let Some(model) = found
+        .models
+        .last()
+        .filter(|_| is_listed && !found.diagnosis.added.is_empty())
+    else {
+        return Ok(None);
+    };
+    let mut free = restarted.clone();
+    free.identify.simulation = Simulation::FreeRun;
+    free.diagnosis.search.clone_from(&as_told.diagnosis.search);
+    let with_all = with_model(&free, model, true);
+    let lent = recorded.iter().map(FitTask::lent).collect();
+    let follows = is_followed(&with_settled(&with_all, lent)?);
+    match follows {
+        true => {
+            let cases = with_settled(&free, recorded)?;
+            Ok(Some((free, cases)))
+        }
+        false => Ok(None),
+    }
 }
 
 fn goal(study: &Study, verb: &Verb, cases: &[FitTask<'_>]) -> Result<Goal, StudyError> {
@@ -194,15 +260,26 @@ impl Search<'_> {
             cases: &cases,
             ..question.clone()
         };
-        let mut held = self.examined(&question)?;
+        // Of a model whose delay is half an interval the rest is the model, whatever a search afresh would find.
         let interval_s = cases[0].tightening.time_base.interval_s;
-        match held_input::speaks_for_it(&held.diagnosis, &straight.diagnosis, interval_s) {
-            Some(reason) => {
+        let rest = held_input::without_stand_ins(&straight.diagnosis, interval_s);
+        let from = rest.map(|names| effects(&held_study, &names, &cases));
+        let goals =
+            std::iter::once(question.goal.clone()).chain(from.transpose()?.map(Goal::ImproveFrom));
+        for goal in goals {
+            let question = Question {
+                goal,
+                ..question.clone()
+            };
+            let mut held = self.examined(&question)?;
+            if let Some(reason) =
+                held_input::speaks_for_it(&held.diagnosis, &straight.diagnosis, interval_s)
+            {
                 held.diagnosis.reasons.push(reason);
-                Ok((held, Some(held_study)))
+                return Ok((held, Some(held_study)));
             }
-            None => Ok((straight, None)),
         }
+        Ok((straight, None))
     }
 
     fn examined(&self, question: &Question<'_>) -> Result<Answer, StudyError> {

@@ -2,7 +2,7 @@
 
 pub(crate) mod cases;
 pub(crate) mod comparable;
-mod free_run;
+pub(crate) mod free_run;
 pub(crate) mod held_input;
 mod initial_state;
 pub(crate) mod settling;

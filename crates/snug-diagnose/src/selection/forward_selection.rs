@@ -7,11 +7,18 @@ use crate::selection::backward_elimination::{
 use crate::selection::model_selection::{ModelSelection, Step};
 use crate::selection::path::{SelectionPath, Stop, justified};
 use crate::selection::thresholds::MOST_EFFECTS;
+use snug_model::Effect;
 
 impl ModelSelection<'_> {
-    /// Adds to the study's own effects as far as the data justify, or until whoever watches ends it.
-    pub fn improve(&self, mut path: SelectionPath) -> Result<SelectionPath, DiagnoseError> {
-        let ended = self.add_justified(&mut path);
+    /// Adds to the study's own effects, begun with those `from` which the way is known to lead, as far as the data justify, or until
+    /// whoever watches ends it.
+    pub fn improve(
+        &self,
+        from: &[Effect],
+        mut path: SelectionPath,
+    ) -> Result<SelectionPath, DiagnoseError> {
+        let put_in = self.put_in(from, &mut path);
+        let ended = put_in.and_then(|()| self.add_justified(&mut path));
         path.until_interrupted(ended)
     }
 
@@ -91,7 +98,7 @@ mod tests {
             watch: &Watch::new(&tell).until(&ended),
         };
         let path = selection.compare().expect("it can be fitted");
-        selection.improve(path).expect("it can be fitted")
+        selection.improve(&[], path).expect("it can be fitted")
     }
 
     #[test]

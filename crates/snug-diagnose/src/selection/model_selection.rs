@@ -78,10 +78,15 @@ impl ModelSelection<'_> {
         mut path: SelectionPath,
     ) -> Result<SelectionPath, DiagnoseError> {
         let ended = self.put_in(effects, &mut path);
+        let ended = ended.and_then(|()| self.name_the_next(&mut path));
         path.until_interrupted(ended)
     }
 
-    fn put_in(&self, effects: &[Effect], path: &mut SelectionPath) -> Result<(), DiagnoseError> {
+    pub(super) fn put_in(
+        &self,
+        effects: &[Effect],
+        path: &mut SelectionPath,
+    ) -> Result<(), DiagnoseError> {
         for &effect in effects {
             let ranking = self.rank_these(path.last(), effect)?;
             let index = ranking.candidates.iter().position(|c| c.effect == effect);
@@ -91,6 +96,10 @@ impl ModelSelection<'_> {
             path.ranking = ranking;
             path.add(addition, settled);
         }
+        Ok(())
+    }
+
+    fn name_the_next(&self, path: &mut SelectionPath) -> Result<(), DiagnoseError> {
         self.rank_last(path)?;
         let next = justified(&path.ranking, path.last(), &path.rungs[0], self.settings);
         if self.puts_differing_first(path, next.ok())? {

@@ -22,13 +22,19 @@ const BROUGHT_BACK: f64 = 2.86;
 /// falls 2.4 times was said to lack a law in no catalogue where it lacked a load that nobody had recorded, one that falls 6 times nothing.
 const FALLS: f64 = 4.0;
 
-/// Why the study's model is restarted from the measured motion again and again, if it is. The motion between two restarts is that of the
-/// `start`, where the spectra give one.
-pub(super) fn why_restarted(
+/// That a study's model is restarted from the measured motion again and again.
+pub(super) struct Restarts {
+    pub why: WhyRestarted,
+    /// Whether something brings the motion back, so that a free run follows it once the model lacks little.
+    pub comes_back: bool,
+}
+
+/// Why the study's model is restarted, if it is. The motion between two restarts is that of the `start`, where the spectra give one.
+pub(super) fn restarts(
     study: &Study,
     cases: &[FitTask<'_>],
     start: Option<&SpectralStart>,
-) -> Option<WhyRestarted> {
+) -> Option<Restarts> {
     let missed = missed(cases)?;
     let is_unheld = start.is_some_and(|start| is_unheld(start, &missed, cases));
     if !missed.asks_for_restarts(cases, is_unheld)
@@ -37,10 +43,18 @@ pub(super) fn why_restarted(
         return None;
     }
     let share = missed.share();
-    Some(match is_unheld && share <= POOR {
-        true => WhyRestarted::Unheld(cases[0].quantity()),
-        false => WhyRestarted::Misses(share),
+    Some(Restarts {
+        why: match is_unheld && share <= POOR {
+            true => WhyRestarted::Unheld(cases[0].quantity()),
+            false => WhyRestarted::Misses(share),
+        },
+        comes_back: !is_unheld,
     })
+}
+
+/// Whether a free run of the model of `cases` misses the measured motion by little.
+pub(crate) fn is_followed(cases: &[FitTask<'_>]) -> bool {
+    missed(cases).is_some_and(|missed| missed.share() <= POOR)
 }
 
 /// Whether what is fitted is a motion that nothing brings back while the longest recording lasts, an angle for want of a spring, a speed of

@@ -101,11 +101,9 @@ pub(crate) fn speaks_for_it(
     let spares = stand_ins(held).all(|one| stand_ins(straight).any(|other| other == one));
     let is_far_better = spares && with < FAR_LESS * without;
     let is_better = is_far_better || (fewer <= more && with < PLAINLY_LESS * without);
-    let is_the_hold = fewer <= more && with <= AS_LITTLE * without && {
-        let delays = straight.added.iter().filter(|one| one.effect == DELAY);
-        let mut values = delays.flat_map(|one| &one.parameters);
-        values.any(|delay| HALF_AN_INTERVAL.contains(&(delay.value / interval_s)))
-    };
+    let is_the_hold = fewer <= more
+        && with <= AS_LITTLE * without
+        && is_half_an_interval_late(straight, interval_s);
     let is_needed = |effect: &&str| !stand_ins(held).any(|other| other == *effect);
     (!held.interrupted && (is_simpler || is_better || is_the_hold)).then(|| Reason::Held {
         spared: stand_ins(straight)
@@ -114,6 +112,26 @@ pub(crate) fn speaks_for_it(
             .collect(),
         is_half_an_interval: is_the_hold && !is_simpler && !is_better,
     })
+}
+
+/// The effects of a model that takes half a sampling interval for a delay, without those that stand in for it; `None` where it takes none
+/// or has nothing else, or a law that is in no catalogue.
+pub(crate) fn without_stand_ins(straight: &Diagnosis, interval_s: f64) -> Option<Vec<String>> {
+    let is_listed = straight.added.iter().all(|one| one.expression.is_none());
+    let added = straight.added.iter().map(|added| added.effect.as_str());
+    let rest: Vec<String> = added
+        .filter(|effect| !STAND_INS.contains(effect))
+        .map(str::to_owned)
+        .collect();
+    let is_late = is_listed && is_half_an_interval_late(straight, interval_s);
+    (is_late && !rest.is_empty()).then_some(rest)
+}
+
+/// Whether one of the effects is a delay of half a sampling interval.
+fn is_half_an_interval_late(straight: &Diagnosis, interval_s: f64) -> bool {
+    let delays = straight.added.iter().filter(|one| one.effect == DELAY);
+    let mut values = delays.flat_map(|one| &one.parameters);
+    values.any(|delay| HALF_AN_INTERVAL.contains(&(delay.value / interval_s)))
 }
 
 fn stand_ins(diagnosis: &Diagnosis) -> impl Iterator<Item = &str> {

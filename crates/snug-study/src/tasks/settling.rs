@@ -4,7 +4,7 @@
 use crate::evaluation::validation::every_s_of;
 use crate::study::Study;
 use crate::tasks::cases::with_settled;
-use crate::tasks::free_run::why_restarted;
+use crate::tasks::free_run::{Restarts, restarts};
 use crate::tasks::initial_state;
 use snug_campaign::Quantity;
 use snug_campaign::words::reason::Reason;
@@ -18,6 +18,8 @@ use snug_preprocess::Window;
 pub(crate) struct Settled {
     pub study: Study,
     pub reasons: Vec<Reason>,
+    /// Whether the model is restarted, though a free run would follow once it lacks little.
+    pub may_run_freely: bool,
 }
 
 /// Whether a study leaves anything to be settled: how large things are on its rig, where m, c, k begin, how it is simulated.
@@ -38,6 +40,7 @@ pub(crate) fn settle(study: &Study, cases: &[FitTask<'_>]) -> Option<Settled> {
     let mut settled = Settled {
         study: study.clone(),
         reasons: Vec::new(),
+        may_run_freely: false,
     };
     let values = start.as_ref().map(|start| start.values);
     let values = values.or_else(|| sizes.base_of(cases));
@@ -70,11 +73,13 @@ pub(crate) fn settle(study: &Study, cases: &[FitTask<'_>]) -> Option<Settled> {
     };
     if study.identify.simulation == Simulation::Automatic {
         let every_s = every_s_of(sizes.period_s(), &cases[0].tightening);
-        let why = every_s.and_then(|every_s| {
-            why_restarted(&settled.study, &cases, start.as_ref()).map(|why| (why, every_s))
+        let restarts = every_s.and_then(|every_s| {
+            let restarts = restarts(&settled.study, &cases, start.as_ref());
+            restarts.map(|restarts| (restarts, every_s))
         });
-        settled.study.identify.simulation = match why {
-            Some((why, every_s)) => {
+        settled.study.identify.simulation = match restarts {
+            Some((Restarts { why, comes_back }, every_s)) => {
+                settled.may_run_freely = comes_back;
                 // A simulation that takes up the measured motion begins with it.
                 moving = None;
                 settled.reasons.push(Reason::Restarted { why, every_s });

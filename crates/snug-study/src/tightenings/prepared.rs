@@ -50,7 +50,7 @@ pub fn prepare(study: &Study, tell: &(dyn Fn(FilesRead) + Sync)) -> Result<Prepa
     }
     let cases = comparable.cases;
     let (study, cases, reasons) = match settle(study, &cases) {
-        Some(Settled { study, reasons }) => {
+        Some(Settled { study, reasons, .. }) => {
             let cases = with_settled(&study, cases)?;
             (study, cases, reasons)
         }
