@@ -9,7 +9,7 @@ use crate::run::{Outcome, Task, pool, run_with};
 use crate::study::Study;
 use crate::tasks::cases::{chosen, with_settled};
 use crate::tasks::comparable::Comparable;
-use crate::tasks::free_run::is_followed;
+use crate::tasks::free_run::{is_followed, leaves_a_motion};
 use crate::tasks::held_input;
 use crate::tasks::settling::{Settled, settle};
 use snug_campaign::words::number::significant;
@@ -155,25 +155,16 @@ pub(crate) fn climbed(
     let may_run_freely = settled
         .as_ref()
         .is_some_and(|settled| settled.may_run_freely);
-    if may_run_freely
-        && *verb == Verb::Improve
-        && let Some((free, cases)) = run_freely(study, as_told, &answer, lent())?
-    {
-        let mut settings = free.diagnosis.search.clone();
-        settings.seed = search.settings.seed;
-        let search = Search {
-            settings: &settings,
-            ..search
+    if may_run_freely && *verb == Verb::Improve {
+        let restarted = Restarted {
+            study,
+            as_told,
+            found: &answer,
         };
-        let names: Vec<String> = added(&answer).map(str::to_owned).collect();
-        let question = Question {
-            goal: Goal::ImproveFrom(effects(&free, &names, &cases)?),
-            cases: &cases,
-            ..question
-        };
-        let (mut answer, held) = search.answer(&free, &question)?;
-        answer.diagnosis.reasons.extend(left_out);
-        return Ok(climb(held.as_ref().unwrap_or(&free), answer));
+        if let Some((free, mut answer)) = restarted.run_freely(&lent, &question, &search)? {
+            answer.diagnosis.reasons.extend(left_out);
+            return Ok(climb(&free, answer));
+        }
     }
     let study = held.as_ref().unwrap_or(study);
     answer.diagnosis.reasons.extend_from_slice(reasons);
@@ -181,43 +172,57 @@ pub(crate) fn climbed(
     Ok(climb(study, answer))
 }
 
-/// Names of what was added.
-fn added(answer: &Answer) -> impl Iterator<Item = &str> {
-    (answer.diagnosis.added.iter()).map(|one| one.effect.as_str())
+/// What was found with a model that is restarted from the measured motion, though something brings that back.
+struct Restarted<'a> {
+    study: &'a Study,
+    /// The study before it was settled.
+    as_told: &'a Study,
+    found: &'a Answer,
 }
 
-/// The `restarted` study and its recordings, run freely, where with what was found, all of it in the catalogue, a free run follows: that
-/// tells apart what else is missing, which over the short way between two restarts hardly shows.
-fn run_freely<'a>(
-    restarted: &Study,
-    as_told: &Study,
-    found: &Answer,
-    recorded: Vec<FitTask<'a>>,
-) -> Result<Option<(Study, Vec<FitTask<'a>>)>, StudyError> {
-    let is_listed = found
-        .diagnosis
-        .added
-        .iter()
-        .all(|one| one.expression.is_none());
-    let Some(model) = found
-        .models
-        .last()
-        .filter(|_| is_listed && !found.diagnosis.added.is_empty())
-    else {
-        return Ok(None);
-    };
-    let mut free = restarted.clone();
-    free.identify.simulation = Simulation::FreeRun;
-    free.diagnosis.search.clone_from(&as_told.diagnosis.search);
-    let with_all = with_model(&free, model, true);
-    let lent = recorded.iter().map(FitTask::lent).collect();
-    let follows = is_followed(&with_settled(&with_all, lent)?);
-    match follows {
-        true => {
-            let cases = with_settled(&free, recorded)?;
-            Ok(Some((free, cases)))
+impl Restarted<'_> {
+    /// The study run freely and the answer then: from what was found on, where with that a free run follows, and afresh where what was
+    /// found leaves a motion and what is found freely does not. Over the short way between two restarts little shows of most effects.
+    fn run_freely<'a>(
+        &self,
+        recorded: &dyn Fn() -> Vec<FitTask<'a>>,
+        question: &Question<'_>,
+        search: &Search<'_>,
+    ) -> Result<Option<(Study, Answer)>, StudyError> {
+        let mut free = self.study.clone();
+        free.identify.simulation = Simulation::FreeRun;
+        (free.diagnosis.search).clone_from(&self.as_told.diagnosis.search);
+        let with_found = |study: &Study, answer: &Answer| match answer.models.last() {
+            Some(model) => with_settled(&with_model(study, model, true), recorded()),
+            None => with_settled(study, recorded()),
+        };
+        let added = &self.found.diagnosis.added;
+        let is_listed = added.iter().all(|one| one.expression.is_none());
+        let follows =
+            is_listed && !added.is_empty() && is_followed(&with_found(&free, self.found)?);
+        if !follows && !leaves_a_motion(&with_found(self.study, self.found)?) {
+            return Ok(None);
         }
-        false => Ok(None),
+        let cases = with_settled(&free, recorded())?;
+        let names: Vec<String> = added.iter().map(|one| one.effect.clone()).collect();
+        let question = Question {
+            goal: match follows {
+                true => Goal::ImproveFrom(effects(&free, &names, &cases)?),
+                false => Goal::Improve,
+            },
+            cases: &cases,
+            ..question.clone()
+        };
+        let mut settings = free.diagnosis.search.clone();
+        settings.seed = search.settings.seed;
+        let search = Search {
+            settings: &settings,
+            ..*search
+        };
+        let (answer, held) = search.answer(&free, &question)?;
+        let is_better = follows || is_followed(&with_found(&free, &answer)?);
+        let free = held.unwrap_or(free);
+        Ok(is_better.then_some((free, answer)))
     }
 }
 

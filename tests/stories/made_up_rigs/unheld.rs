@@ -109,7 +109,7 @@ fn a_flywheel_with_an_unrecorded_load_lacks_dry_friction_or_nothing() {
 #[test]
 fn a_joint_with_a_held_torque_lacks_four_things_and_no_delay() {
     const NOISE: f64 = 2e-4;
-    let mut noise = Noise(26);
+    let mut noise = Noise(25);
     let mut recording = || {
         let inputs: Vec<f64> = noise.tones([0.8, 40.0], 0.24, 1500);
         let acting: Vec<f64> = inputs.iter().map(|u| u + 0.1).collect();

@@ -57,6 +57,11 @@ pub(crate) fn is_followed(cases: &[FitTask<'_>]) -> bool {
     missed(cases).is_some_and(|missed| missed.share() <= POOR)
 }
 
+/// Whether the model of `cases`, run as they are, leaves more than noise.
+pub(crate) fn leaves_a_motion(cases: &[FitTask<'_>]) -> bool {
+    missed(cases).is_some_and(|missed| missed.left > (1.0 + BEYOND_NOISE) * missed.noise)
+}
+
 /// Whether what is fitted is a motion that nothing brings back while the longest recording lasts, an angle for want of a spring, a speed of
 /// spring and damping: what a free run has missed once it misses to the end, and of all laws those come closest that bend the whole way
 /// a little.

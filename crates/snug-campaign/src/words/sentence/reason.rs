@@ -242,10 +242,7 @@ impl Display for Reason {
                 quantity,
                 has_noise,
             } => tightenings_left_out(f, *left_out, *all, quantity, *has_noise),
-            Self::Short { left_out, samples } => {
-                let them = counted(*left_out, "tightening");
-                write!(f, "{them} took no part in the diagnosis: fewer than {samples} samples are scored, too few to compare a model with.")
-            }
+            Self::Short { left_out, samples } => too_short(f, *left_out, *samples),
             Self::LearntFrom { taken, read, files } => learnt_from(f, *taken, *read, *files),
             Self::Unread { first, more } => unread(f, first, *more),
         }
@@ -343,6 +340,14 @@ fn tightenings_left_out(
     write!(
         f,
         "{left_out} of {all} tightenings took no part in the diagnosis: all must be judged by one measure, here {quantity} {measure}, and that could not be had of {these}. findings.json says why."
+    )
+}
+
+fn too_short(f: &mut Formatter<'_>, left_out: usize, samples: usize) -> fmt::Result {
+    let them = counted(left_out, "tightening");
+    write!(
+        f,
+        "{them} took no part in the diagnosis: fewer than {samples} samples are scored, too few to compare a model with."
     )
 }
 

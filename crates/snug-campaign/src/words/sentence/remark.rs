@@ -173,16 +173,7 @@ impl Display for Remark {
                 "{} of the misfit can be predicted from the other tightenings: a missing effect can explain it.",
                 whole_percent(*share)
             ),
-            Self::DoesNotRepeat(share) => {
-                let (predicted, most) = match *share < 0.005 {
-                    true => ("Nothing".to_owned(), "it"),
-                    false => (format!("Only {}", whole_percent(*share)), "most of it"),
-                };
-                write!(
-                    f,
-                    "{predicted} of the misfit can be predicted from the other tightenings: {most} is different each time, or is no simple function of time, displacement and velocity."
-                )
-            }
+            Self::DoesNotRepeat(share) => does_not_repeat(f, *share),
             Self::SpreadOut => f.write_str(SPREAD_OUT),
         }
     }
@@ -258,6 +249,17 @@ fn amplitude(
     write!(
         f,
         "{lead}: {small} below {to} rad, {large} above {from} rad."
+    )
+}
+
+fn does_not_repeat(f: &mut Formatter<'_>, share: f64) -> fmt::Result {
+    let (predicted, most) = match share < 0.005 {
+        true => ("Nothing".to_owned(), "it"),
+        false => (format!("Only {}", whole_percent(share)), "most of it"),
+    };
+    write!(
+        f,
+        "{predicted} of the misfit can be predicted from the other tightenings: {most} is different each time, or is no simple function of time, displacement and velocity."
     )
 }
 
