@@ -143,6 +143,35 @@ fn a_drive_lacks_dry_friction() {
     );
 }
 
+/// In both directions of turning friction and an offset of its torque are told apart, and nothing more is told: not where it began, which
+/// its speed shows, and no ripple.
+#[test]
+fn a_drive_turned_both_ways_lacks_dry_friction_and_an_offset() {
+    let Some(data) = snug_tests::data("HSM150 two-motor rig") else {
+        return;
+    };
+    let folder = tempfile::tempdir().unwrap();
+    for name in ["neg_0.045_1", "neg_0.04_1", "pos_0.065_1", "pos_0.06_1"] {
+        let table = drive(&data.join(format!("hsm150-two-motor/idf_{name}.mat")));
+        std::fs::write(folder.path().join(format!("{name}.csv")), table).unwrap();
+    }
+    let signals = "signal: Velocity, unit: RadianPerSecond";
+    let columns = ["torque", "velocity"];
+    let study = study(folder.path(), columns, signals, 1000.0, "Velocity");
+    let (diagnosis, _) = told(&study, &Verb::Improve);
+    let mut added: Vec<&str> = (diagnosis.added.iter())
+        .map(|one| one.effect.as_str())
+        .collect();
+    added.sort_unstable();
+    assert_eq!(
+        added,
+        ["coulomb_friction", "torque_offset"],
+        "{}",
+        diagnosis.headline
+    );
+    assert_ne!(diagnosis.verdict, Verdict::UnlistedEffect);
+}
+
 /// The same drive, read as it was recorded, has the bits that it has as a table.
 #[test]
 fn a_drive_is_read_as_it_was_recorded() {

@@ -182,7 +182,8 @@ struct Restarted<'a> {
 
 impl Restarted<'_> {
     /// The study run freely and the answer then: from what was found on, where with that a free run follows, and afresh where what was
-    /// found leaves a motion and what is found freely does not. Over the short way between two restarts little shows of most effects.
+    /// found leaves a motion. Over the short way between two restarts little shows of most effects. A free run that leaves a motion, too,
+    /// says no more than restarts do, unless those found but a law that is in no catalogue.
     fn run_freely<'a>(
         &self,
         recorded: &dyn Fn() -> Vec<FitTask<'a>>,
@@ -192,15 +193,16 @@ impl Restarted<'_> {
         let mut free = self.study.clone();
         free.identify.simulation = Simulation::FreeRun;
         (free.diagnosis.search).clone_from(&self.as_told.diagnosis.search);
-        let with_found = |study: &Study, answer: &Answer| match answer.models.last() {
-            Some(model) => with_settled(&with_model(study, model, true), recorded()),
-            None => with_settled(study, recorded()),
+        let with_found = |study: &Study, answer: &Answer, cases| match answer.models.last() {
+            Some(model) => with_settled(&with_model(study, model, true), cases),
+            None => with_settled(study, cases),
         };
         let added = &self.found.diagnosis.added;
         let is_listed = added.iter().all(|one| one.expression.is_none());
-        let follows =
-            is_listed && !added.is_empty() && is_followed(&with_found(&free, self.found)?);
-        if !follows && !leaves_a_motion(&with_found(self.study, self.found)?) {
+        let follows = is_listed
+            && !added.is_empty()
+            && is_followed(&with_found(&free, self.found, recorded())?);
+        if !follows && !leaves_a_motion(&with_found(self.study, self.found, recorded())?) {
             return Ok(None);
         }
         let cases = with_settled(&free, recorded())?;
@@ -220,7 +222,12 @@ impl Restarted<'_> {
             ..*search
         };
         let (answer, held) = search.answer(&free, &question)?;
-        let is_better = follows || is_followed(&with_found(&free, &answer)?);
+        let lent = || cases.iter().map(FitTask::lent).collect();
+        let then = match &held {
+            Some(_) => with_found(&free, &answer, held_input::held(&free, &cases)?.1)?,
+            None => with_found(&free, &answer, lent())?,
+        };
+        let is_better = is_followed(&then) && (!is_listed || !leaves_a_motion(&then));
         let free = held.unwrap_or(free);
         Ok(is_better.then_some((free, answer)))
     }

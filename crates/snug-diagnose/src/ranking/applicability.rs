@@ -7,8 +7,8 @@ use crate::pooled::fitted::Fitted;
 use crate::ranking::kin::are_kin;
 use crate::ranking::thresholds::FEW_TURNS;
 use snug_campaign::Quantity;
-use snug_identify::FitTask;
-use snug_model::{ActsOn, Effect, Kind, Law};
+use snug_identify::{FitTask, begin_in_motion};
+use snug_model::{ActsOn, BASE_PARAMETERS, Effect, Kind, Law};
 use std::f64::consts::TAU;
 
 /// The effects that may be missing beside `current`.
@@ -31,12 +31,32 @@ pub(crate) fn candidates(
     // with every turn.
     let knows_angle = case.tightening.motion.displacement_rad.is_some();
     all.retain(|effect| !(is_machine(case) && knows_angle && effect.name() == "sine_law"));
+    let rests = begins_at_rest(cases, current);
+    all.retain(|effect| !(rests && effect.sets_initial_motion()));
     all.retain(|effect| !current.effects.contains(effect));
     // Of a few long records kin of what is there may come in its place, not beside it: dry friction with a shape is one friction.
     let has_kin = |effect: &Effect| current.effects.iter().any(|&one| are_kin(one, *effect));
     all.retain(|effect| !(current.are_stretches() && has_kin(effect)));
     all.retain(|&effect| can_stand_beside(&current.effects, effect, case));
     Ok(all)
+}
+
+/// Whether a machine's speed is measured and is none at the first sample, and no spring swings that could begin elsewhere: what a start in
+/// motion would explain then is a constant force of each recording, as a spring that is none has at an angle of thousands of turns.
+fn begins_at_rest(cases: &[FitTask<'_>], current: &Fitted) -> bool {
+    let is_speed = |case: &FitTask<'_>| is_machine(case) && case.quantity() == Quantity::Velocity;
+    let swings = cases.iter().enumerate().any(|(member, case)| {
+        let named = current.all_named(member);
+        let value = |index: usize| {
+            let found = named
+                .iter()
+                .find(|(name, _)| name == BASE_PARAMETERS[index]);
+            found.map_or(case.model.parameters()[index].value, |(_, value)| *value)
+        };
+        let lasts_s = case.measured().len() as f64 * case.tightening.time_base.interval_s;
+        TAU * (value(0) / value(2)).sqrt() < lasts_s
+    });
+    cases.iter().all(is_speed) && !swings && !begin_in_motion(cases, None)
 }
 
 /// Whether a simulation can carry `effect` beside these: it has states and parameters for so many only.
