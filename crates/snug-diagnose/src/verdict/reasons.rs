@@ -72,10 +72,16 @@ impl Situation<'_> {
     }
 
     /// What was added, that first which explains most; what is small beside it only where `is_small`. What takes most of what the others
-    /// leave is not: an angle that is read 5 rad too large makes any friction a trifle.
+    /// leave, as it came in or beside all that came after, is not: an angle that is read 5 rad too large makes any friction a trifle.
     fn added(&self, is_small: bool) -> Vec<Named> {
+        let takes_most = |one: &Addition| {
+            let mut in_model = self.in_model.iter();
+            let told = in_model.find(|known| known.effect == one.effect.name());
+            let lost = told.and_then(|told| told.needed).unwrap_or(0.0);
+            one.heldout_gain.max(lost / (1.0 + lost)) >= MOST
+        };
         let small = |one: &&Addition| {
-            !self.after.is_weighted && one.share_of_first < SMALL && one.heldout_gain < MOST
+            !self.after.is_weighted && one.share_of_first < SMALL && !takes_most(one)
         };
         let mut added: Vec<&Addition> = (self.additions.iter())
             .filter(|one| small(one) == is_small)
