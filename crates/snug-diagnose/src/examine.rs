@@ -48,7 +48,8 @@ pub fn examine(
         .flatten();
     // What is missing is no question where recordings stand in units of their own or channels are not what they are said to be.
     let stand_apart = units.as_ref().is_some_and(|units| units.is_prefix);
-    let goal = match stand_apart || is_declared_wrong(cases, compared.last()) {
+    let is_declared_wrong = is_declared_wrong(cases, compared.last());
+    let goal = match stand_apart || is_declared_wrong {
         true => &Goal::Compare,
         false => &question.goal,
     };
@@ -73,6 +74,7 @@ pub fn examine(
         settings,
         path: path.without_torque_noise(counted)?,
         units,
+        is_declared_wrong,
         // What was found is told, however it ended.
         watch: watch.to_the_end(),
     }

@@ -104,6 +104,11 @@ impl<'a> FitTask<'a> {
         self.tightening.motion.get(self.quantity()).unwrap_or(&[])
     }
 
+    /// How long it lasts \[s\].
+    pub fn lasts_s(&self) -> f64 {
+        self.measured().len() as f64 * self.tightening.time_base.interval_s
+    }
+
     /// The filter that whitens the measured noise, where that is of the fitted output.
     pub fn whitening(&self) -> Option<Whitening> {
         Whitening::of(&self.tightening, self.quantity())

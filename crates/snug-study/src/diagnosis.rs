@@ -1,5 +1,7 @@
 //! A study diagnosed: tightenings to the diagnosis, its models back into the study, every rung of the ladder evaluated.
 
+mod restarted;
+
 use crate::error::StudyError;
 use crate::evaluation::rungs::Ladder;
 use crate::progress::ProgressEvent;
@@ -9,13 +11,13 @@ use crate::run::{Outcome, Task, pool, run_with};
 use crate::study::Study;
 use crate::tasks::cases::{chosen, with_settled};
 use crate::tasks::comparable::Comparable;
-use crate::tasks::free_run::{is_followed, leaves_a_motion};
 use crate::tasks::held_input;
 use crate::tasks::settling::{Settled, settle};
+use restarted::Restarted;
 use snug_campaign::words::number::significant;
 use snug_campaign::{GroupSize, GroupSizes};
 use snug_diagnose::{Answer, DiagnoseError, Goal, Pieces, Question, RungModel, Watch, examine};
-use snug_identify::{FitTask, IdentifyError, Simulation};
+use snug_identify::{FitTask, IdentifyError};
 use snug_least_squares::SolveError;
 use snug_model::{Effect, GroupValue, ParameterSettings, ValuesByGroup};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -172,67 +174,6 @@ pub(crate) fn climbed(
     Ok(climb(study, answer))
 }
 
-/// What was found with a model that is restarted from the measured motion, though something brings that back.
-struct Restarted<'a> {
-    study: &'a Study,
-    /// The study before it was settled.
-    as_told: &'a Study,
-    found: &'a Answer,
-}
-
-impl Restarted<'_> {
-    /// The study run freely and the answer then: from what was found on, where with that a free run follows, and afresh where what was
-    /// found leaves a motion. Over the short way between two restarts little shows of most effects. A free run that leaves a motion, too,
-    /// says no more than restarts do, unless those found but a law that is in no catalogue.
-    fn run_freely<'a>(
-        &self,
-        recorded: &dyn Fn() -> Vec<FitTask<'a>>,
-        question: &Question<'_>,
-        search: &Search<'_>,
-    ) -> Result<Option<(Study, Answer)>, StudyError> {
-        let mut free = self.study.clone();
-        free.identify.simulation = Simulation::FreeRun;
-        (free.diagnosis.search).clone_from(&self.as_told.diagnosis.search);
-        let with_found = |study: &Study, answer: &Answer, cases| match answer.models.last() {
-            Some(model) => with_settled(&with_model(study, model, true), cases),
-            None => with_settled(study, cases),
-        };
-        let added = &self.found.diagnosis.added;
-        let is_listed = added.iter().all(|one| one.expression.is_none());
-        let follows = is_listed
-            && !added.is_empty()
-            && is_followed(&with_found(&free, self.found, recorded())?);
-        if !follows && !leaves_a_motion(&with_found(self.study, self.found, recorded())?) {
-            return Ok(None);
-        }
-        let cases = with_settled(&free, recorded())?;
-        let names: Vec<String> = added.iter().map(|one| one.effect.clone()).collect();
-        let question = Question {
-            goal: match follows {
-                true => Goal::ImproveFrom(effects(&free, &names, &cases)?),
-                false => Goal::Improve,
-            },
-            cases: &cases,
-            ..question.clone()
-        };
-        let mut settings = free.diagnosis.search.clone();
-        settings.seed = search.settings.seed;
-        let search = Search {
-            settings: &settings,
-            ..*search
-        };
-        let (answer, held) = search.answer(&free, &question)?;
-        let lent = || cases.iter().map(FitTask::lent).collect();
-        let then = match &held {
-            Some(_) => with_found(&free, &answer, held_input::held(&free, &cases)?.1)?,
-            None => with_found(&free, &answer, lent())?,
-        };
-        let is_better = is_followed(&then) && (!is_listed || !leaves_a_motion(&then));
-        let free = held.unwrap_or(free);
-        Ok(is_better.then_some((free, answer)))
-    }
-}
-
 fn goal(study: &Study, verb: &Verb, cases: &[FitTask<'_>]) -> Result<Goal, StudyError> {
     Ok(match verb {
         Verb::Compare => Goal::Compare,
@@ -262,8 +203,7 @@ impl Search<'_> {
         if *self.verb != Verb::Improve || !held_input::is_open(study, cases) {
             return Ok((straight, None));
         }
-        let last = straight.models.last();
-        let last = last.map_or_else(|| study.clone(), |model| with_model(study, model, true));
+        let last = with_last_model(study, &straight);
         if !held_input::is_worth_it(&straight.diagnosis, &last, cases)? {
             return Ok((straight, None));
         }
@@ -366,6 +306,12 @@ fn values_by_group(sizes: &GroupSizes) -> ValuesByGroup {
         factor: sizes.factor.clone(),
         values: values.collect(),
     }
+}
+
+/// The study with the model of the last rung.
+fn with_last_model(study: &Study, answer: &Answer) -> Study {
+    let last = answer.models.last();
+    last.map_or_else(|| study.clone(), |model| with_model(study, model, true))
 }
 
 /// The study with a rung's model. What all tightenings share is held where they put it together.

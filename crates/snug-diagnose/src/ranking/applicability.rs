@@ -45,7 +45,7 @@ pub(crate) fn candidates(
 /// motion would explain then is a constant force of each recording, as a spring that is none has at an angle of thousands of turns.
 fn begins_at_rest(cases: &[FitTask<'_>], current: &Fitted) -> bool {
     let is_speed = |case: &FitTask<'_>| is_machine(case) && case.quantity() == Quantity::Velocity;
-    let swings = cases.iter().enumerate().any(|(member, case)| {
+    let swings = |(member, case): (usize, &FitTask<'_>)| {
         let named = current.all_named(member);
         let value = |index: usize| {
             let found = named
@@ -53,10 +53,11 @@ fn begins_at_rest(cases: &[FitTask<'_>], current: &Fitted) -> bool {
                 .find(|(name, _)| name == BASE_PARAMETERS[index]);
             found.map_or(case.model.parameters()[index].value, |(_, value)| *value)
         };
-        let lasts_s = case.measured().len() as f64 * case.tightening.time_base.interval_s;
-        TAU * (value(0) / value(2)).sqrt() < lasts_s
-    });
-    cases.iter().all(is_speed) && !swings && !begin_in_motion(cases, None)
+        TAU * (value(0) / value(2)).sqrt() < case.lasts_s()
+    };
+    cases.iter().all(is_speed)
+        && !begin_in_motion(cases, None)
+        && !cases.iter().enumerate().any(swings)
 }
 
 /// Whether a simulation can carry `effect` beside these: it has states and parameters for so many only.

@@ -62,6 +62,8 @@ pub(crate) struct Examination<'a> {
     pub path: SelectionPath,
     /// Recordings that stand in units of their own, so that nothing was looked for, or that move another load.
     pub units: Option<OtherUnits>,
+    /// Whether a channel is not what it is declared to be, so that nothing was looked for.
+    pub is_declared_wrong: bool,
     pub watch: Watch<'a>,
 }
 

@@ -21,8 +21,7 @@ impl Examination<'_> {
             earned::is_undriven(self.question.cases).then_some(Suspicion::Undriven),
         ];
         let wrong: Vec<Suspicion> = wrong.into_iter().flatten().collect();
-        let is_open = wrong.is_empty()
-            && !earned::is_declared_wrong(self.question.cases, &self.path.rungs[0]);
+        let is_open = wrong.is_empty() && !self.is_declared_wrong;
         let verdict = match is_open || self.path.is_interrupted() {
             true => self.verdict(
                 places.last().repeatable_share,

@@ -204,11 +204,7 @@ fn no_model(situation: &Situation<'_>) -> Option<NoModel> {
 
 /// Why.
 pub(crate) fn reasons(situation: &Situation<'_>) -> Vec<Reason> {
-    let is_exact = situation.after.is_exact;
-    let mut reasons: Vec<Reason> = (!is_exact)
-        .then(|| what_is_left(situation))
-        .into_iter()
-        .collect();
+    let mut reasons: Vec<Reason> = what_is_left(situation).into_iter().collect();
     reasons.extend(situation.suspicions.iter().cloned().map(Reason::Check));
     let additions = situation.additions.iter();
     reasons.extend(
@@ -225,8 +221,12 @@ pub(crate) fn reasons(situation: &Situation<'_>) -> Vec<Reason> {
     reasons
 }
 
-fn what_is_left(situation: &Situation<'_>) -> Reason {
-    match situation.after.is_weighted {
+/// `None` where that is rounding, of which the headline says enough.
+fn what_is_left(situation: &Situation<'_>) -> Option<Reason> {
+    if situation.after.is_exact {
+        return None;
+    }
+    Some(match situation.after.is_weighted {
         false => Reason::NoiseUnknown(left(situation.after)),
         true => Reason::Error {
             tightenings: situation.tightenings,
@@ -234,7 +234,7 @@ fn what_is_left(situation: &Situation<'_>) -> Reason {
             is_at_floor: situation.after.is_at_floor(),
             hardly_repeats: situation.verdict == Verdict::Adequate || situation.is_more_than_noise,
         },
-    }
+    })
 }
 
 fn removes(effect: Effect, heldout_gain: f64, p_family: f64, situation: &Situation<'_>) -> Reason {

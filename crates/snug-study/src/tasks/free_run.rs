@@ -59,7 +59,7 @@ pub(crate) fn is_followed(cases: &[FitTask<'_>]) -> bool {
 
 /// Whether the model of `cases`, run as they are, leaves more than noise.
 pub(crate) fn leaves_a_motion(cases: &[FitTask<'_>]) -> bool {
-    missed(cases).is_some_and(|missed| missed.left > (1.0 + BEYOND_NOISE) * missed.noise)
+    missed(cases).is_some_and(|missed| missed.left > missed.most_of_noise())
 }
 
 /// Whether what is fitted is a motion that nothing brings back while the longest recording lasts, an angle for want of a spring, a speed of
@@ -70,10 +70,8 @@ fn is_unheld(start: &SpectralStart, missed: &Missed, cases: &[FitTask<'_>]) -> b
     let longest_s = longest_s(cases);
     let creeps = damping > 2.0 * (mass * stiffness).sqrt();
     let back_s = (damping / stiffness).max((mass / stiffness).sqrt());
-    let is_sprung = match missed.shows_a_spring {
-        true => back_s <= longest_s || (swings(start, cases) && !creeps),
-        false => swings(start, cases) && !creeps,
-    };
+    let is_sprung =
+        (swings(start, cases) && !creeps) || (missed.shows_a_spring && back_s <= longest_s);
     let is_damped = missed.shows_a_damping && FALLS * mass / damping <= longest_s;
     let quantity = cases[0].quantity();
     !is_sprung
@@ -114,12 +112,17 @@ impl Missed {
         (self.left.max(0.0) / self.about_mean).sqrt()
     }
 
+    /// What noise, or rounding, may leave.
+    fn most_of_noise(&self) -> f64 {
+        ((1.0 + BEYOND_NOISE) * self.noise).max(ROUNDING * self.about_mean)
+    }
+
     /// Whether the model is to be restarted from the measured motion: where a free run misses it by far, and where it misses an angle
     /// that nothing brings back by more than noise. Not where a free run follows the motion as nearly once one effect is added: it
     /// tells effects apart that a restarted run hardly does.
     fn asks_for_restarts(&self, cases: &[FitTask<'_>], is_unheld: bool) -> bool {
         let near = match is_unheld {
-            true => ((1.0 + BEYOND_NOISE) * self.noise).max(ROUNDING * self.about_mean),
+            true => self.most_of_noise(),
             false => POOR * POOR * self.about_mean,
         };
         self.left > near && !is_followed_with_an_effect(cases, near).unwrap_or(false)

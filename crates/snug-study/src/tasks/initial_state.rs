@@ -54,10 +54,7 @@ pub(super) fn swings(start: &SpectralStart, cases: &[FitTask<'_>]) -> bool {
 
 /// How long the longest of the recordings lasts \[s\].
 pub(super) fn longest_s(cases: &[FitTask<'_>]) -> f64 {
-    cases
-        .iter()
-        .map(|case| case.measured().len() as f64 * case.tightening.time_base.interval_s)
-        .fold(0.0, f64::max)
+    cases.iter().map(FitTask::lasts_s).fold(0.0, f64::max)
 }
 
 /// Whether step by step, as no model without effects has to be, the model can be simulated from where it begins.

@@ -126,7 +126,8 @@ struct Sizes {
 }
 
 impl Sizes {
-    /// As measured where the angle was, and where no torque acts as what is known of the rig would take one; otherwise as the model moves from its `start`: an angle that was integrated drifts.
+    /// As measured where the angle was, and where no torque acts as what is known of the rig would take one; otherwise as the model moves
+    /// from its `start`: an angle that was integrated drifts.
     fn of(cases: &[FitTask<'_>], start: Option<&SpectralStart>) -> Option<Self> {
         let is_undriven = cases.iter().all(FitTask::is_undriven);
         let is_measured =

@@ -1,0 +1,69 @@
+//! What restarts found, and what a free run over the whole of each recording finds then.
+
+use super::{Search, effects, with_last_model};
+use crate::error::StudyError;
+use crate::study::Study;
+use crate::tasks::cases::with_settled;
+use crate::tasks::free_run::{is_followed, leaves_a_motion};
+use crate::tasks::held_input;
+use snug_diagnose::{Answer, Goal, Question};
+use snug_identify::{FitTask, Simulation};
+
+/// What was found with a model that is restarted from the measured motion, though something brings that back.
+pub(super) struct Restarted<'a> {
+    pub study: &'a Study,
+    /// The study before it was settled.
+    pub as_told: &'a Study,
+    pub found: &'a Answer,
+}
+
+impl Restarted<'_> {
+    /// The study run freely and the answer then: from what was found on, where with that a free run follows, and afresh where what was
+    /// found leaves a motion. Over the short way between two restarts little shows of most effects. A free run that leaves a motion, too,
+    /// says no more than restarts do, unless those found but a law that is in no catalogue.
+    pub fn run_freely<'a>(
+        &self,
+        recorded: &dyn Fn() -> Vec<FitTask<'a>>,
+        question: &Question<'_>,
+        search: &Search<'_>,
+    ) -> Result<Option<(Study, Answer)>, StudyError> {
+        let mut free = self.study.clone();
+        free.identify.simulation = Simulation::FreeRun;
+        (free.diagnosis.search).clone_from(&self.as_told.diagnosis.search);
+        let with_found = |study: &Study, answer: &Answer, cases| {
+            with_settled(&with_last_model(study, answer), cases)
+        };
+        let added = &self.found.diagnosis.added;
+        let is_listed = added.iter().all(|one| one.expression.is_none());
+        let follows = is_listed
+            && !added.is_empty()
+            && is_followed(&with_found(&free, self.found, recorded())?);
+        if !follows && !leaves_a_motion(&with_found(self.study, self.found, recorded())?) {
+            return Ok(None);
+        }
+        let cases = with_settled(&free, recorded())?;
+        let names: Vec<String> = added.iter().map(|one| one.effect.clone()).collect();
+        let question = Question {
+            goal: match follows {
+                true => Goal::ImproveFrom(effects(&free, &names, &cases)?),
+                false => Goal::Improve,
+            },
+            cases: &cases,
+            ..question.clone()
+        };
+        let mut settings = free.diagnosis.search.clone();
+        settings.seed = search.settings.seed;
+        let search = Search {
+            settings: &settings,
+            ..*search
+        };
+        let (answer, held) = search.answer(&free, &question)?;
+        let then = match &held {
+            Some(_) => with_found(&free, &answer, held_input::held(&free, &cases)?.1)?,
+            None => with_found(&free, &answer, recorded())?,
+        };
+        let is_better = is_followed(&then) && (!is_listed || !leaves_a_motion(&then));
+        let free = held.unwrap_or(free);
+        Ok(is_better.then_some((free, answer)))
+    }
+}
