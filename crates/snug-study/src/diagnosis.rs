@@ -157,7 +157,7 @@ pub(crate) fn climbed(
     let may_run_freely = settled
         .as_ref()
         .is_some_and(|settled| settled.may_run_freely);
-    if may_run_freely && *verb == Verb::Improve {
+    if may_run_freely && *verb == Verb::Improve && !answer.diagnosis.interrupted {
         let restarted = Restarted {
             study,
             as_told,

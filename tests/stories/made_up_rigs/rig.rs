@@ -1,7 +1,7 @@
 //! A rig that was made up: its recordings, what they are declared as, and noise that is the same at every run.
 
 use snug_campaign::Diagnosis;
-use snug_study::{RunSettings, Study, Verb, diagnose};
+use snug_study::{ProgressEvent, RunSettings, Study, Verb, diagnose};
 use std::f64::consts::TAU;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
@@ -43,6 +43,18 @@ impl Rig {
 
     /// The same of one that says this of its `model`.
     pub fn told_with(&self, model: &str, verb: &Verb) -> Diagnosis {
+        let never = AtomicBool::new(false);
+        self.told_until(model, verb, &|_| (), &never)
+    }
+
+    /// The same by somebody who is told how far it is, and may end it.
+    pub fn told_until(
+        &self,
+        model: &str,
+        verb: &Verb,
+        progress: &(dyn Fn(ProgressEvent<'_>) + Sync),
+        interrupted: &AtomicBool,
+    ) -> Diagnosis {
         let (folder, out) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
         for (number, recording) in self.recordings.iter().enumerate() {
             let rows = recording.iter().map(|[u, y]| format!("{u:e},{y:e}\n"));
@@ -66,10 +78,8 @@ impl Rig {
             path = folder.path(),
         );
         let study = Study::parse(&text, Path::new("rig.ron")).unwrap();
-        let quiet = |_: snug_study::ProgressEvent<'_>| ();
-        let never = AtomicBool::new(false);
         let settings = RunSettings::new(out.path());
-        let outcome = diagnose(&study, verb, &settings, &quiet, &never).unwrap();
+        let outcome = diagnose(&study, verb, &settings, progress, interrupted).unwrap();
         outcome.result.diagnosis.unwrap()
     }
 }

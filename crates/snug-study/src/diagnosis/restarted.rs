@@ -64,6 +64,7 @@ impl Restarted<'_> {
         };
         let is_better = is_followed(&then) && (!is_listed || !leaves_a_motion(&then));
         let free = held.unwrap_or(free);
-        Ok(is_better.then_some((free, answer)))
+        // Ended on the way, it is not known whether what restarts found is all: the answer says that it was ended.
+        Ok((is_better || answer.diagnosis.interrupted).then_some((free, answer)))
     }
 }
