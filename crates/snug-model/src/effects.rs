@@ -38,6 +38,7 @@ pub mod stribeck_friction;
 pub mod torque_delay;
 pub mod torque_dependent_stiffness;
 pub mod torque_lag;
+pub mod torque_limit;
 pub mod torque_offset;
 pub mod torque_ripple;
 pub mod voluntary_push;
@@ -66,6 +67,7 @@ macro_rules! catalogue {
                 torque_ripple::TorqueRipple,
                 second_mode::SecondMode,
                 gravity_torque::GravityTorque,
+                torque_limit::TorqueLimit,
                 stretch_reflex::StretchReflex,
                 voluntary_push::VoluntaryPush,
                 co_contraction::CoContraction,
