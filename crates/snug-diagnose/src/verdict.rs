@@ -10,6 +10,7 @@ pub(crate) mod floor;
 mod in_some_groups;
 pub(crate) mod ladder;
 pub(crate) mod preparation;
+mod pushed_away;
 mod ranking_told;
 pub(crate) mod reasons;
 pub(crate) mod thresholds;

@@ -10,7 +10,7 @@ use crate::pooled::fitted::Fitted;
 use crate::pooled::long_record;
 use crate::pooled::model::PooledModel;
 use crate::pooled::sharing::Groups;
-use crate::pooled::sizes::is_told_from_nothing;
+use crate::pooled::sizes::{BesideNothing, beside_nothing};
 use crate::ranking::by_group::{by_group, explains_more, promised};
 use crate::ranking::first_ranking::first_ranking;
 use crate::ranking::max_t::Family;
@@ -21,11 +21,13 @@ use crate::ranking::score_test::{Control, Scored, Scorer};
 use crate::ranking::sensitivity::Column;
 use crate::ranking::shows::where_it_shows;
 use crate::ranking::thresholds::{
-    BEST, BEST_BY_GROUP, BEST_OF_LONG, CONTROL_FLIPS, MOST_OF_ALL, SHAPES_TRIED, STRICTER,
+    BEST, BEST_BY_GROUP, BEST_OF_LONG, CONTROL_FLIPS, MOST_OF_ALL, PLAINLY_MISSED, SHAPES_TRIED,
+    STRICTER,
 };
 use crate::ranking::where_it_shows::best_where_it_shows;
 use crate::settings::DiagnoseSettings;
 use rayon::prelude::*;
+use snug_identify::FitTask;
 use snug_model::{Effect, Law};
 
 /// A candidate after its refit.
@@ -61,14 +63,15 @@ impl Candidate {
             false => followed(cases, &self.fitted, clusters)?,
         };
         self.gains = gains(heldout, &self.fitted);
-        self.is_told_from_nothing = is_told_from_nothing(&cases, &self.fitted, self.effect);
+        self.is_told_from_nothing =
+            is_told(&cases, &self.fitted, self.effect, heldout, &self.gains);
         Ok(())
     }
 
     /// Takes sizes by group in the place of one for all; it was chosen among so many.
     fn becomes(&mut self, fitted: Fitted, cases: &Cases<'_>, heldout: &[f64], forms: usize) {
         self.gains = gains(heldout, &fitted);
-        self.is_told_from_nothing = is_told_from_nothing(cases, &fitted, self.effect);
+        self.is_told_from_nothing = is_told(cases, &fitted, self.effect, heldout, &self.gains);
         self.fitted = fitted;
         let of_groups = self.fitted.chance_of_groups(self.effect).unwrap_or(1.0);
         let chances = [self.p_of_gain(forms), of_groups * forms as f64];
@@ -206,13 +209,40 @@ fn judged(
     p_family: f64,
 ) -> Candidate {
     let own = columns.iter().filter(|column| column.effect == effect);
+    let gains = gains(heldout, &fitted);
     Candidate {
         effect,
         score: own.map(Column::statistic).fold(0.0, f64::max),
         p_family,
-        is_told_from_nothing: is_told_from_nothing(&cases, &fitted, effect),
-        gains: gains(heldout, &fitted),
+        is_told_from_nothing: is_told(&cases, &fitted, effect, heldout, &gains),
+        gains,
         fitted,
+    }
+}
+
+/// Whether an effect has sizes and no shape: what it takes, it takes by its size alone.
+pub(crate) fn is_all_size(effect: Effect) -> bool {
+    let mut parameters = effect.description().parameters.iter();
+    parameters.all(|one| one.vanishes_at.is_some()) && !is_unlisted(effect)
+}
+
+/// Whether an effect's size is told from nothing: by its interval, or, of few long records and of an effect without a shape, by what
+/// stretches that took no part leave without it, where a bound of the others forbids what the interval holds.
+fn is_told(
+    cases: &[FitTask<'_>],
+    fitted: &Fitted,
+    effect: Effect,
+    heldout: &[f64],
+    gains: &[f64],
+) -> bool {
+    let (without, gain): (f64, f64) = (heldout.iter().sum(), gains.iter().sum());
+    match beside_nothing(cases, fitted, effect) {
+        BesideNothing::Told => true,
+        BesideNothing::Held => {
+            let is_open = fitted.are_stretches() && !fitted.is_weighted;
+            is_open && is_all_size(effect) && without > PLAINLY_MISSED * (without - gain)
+        }
+        BesideNothing::Unknown => false,
     }
 }
 

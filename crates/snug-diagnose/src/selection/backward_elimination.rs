@@ -6,6 +6,8 @@ use crate::pooled::fitted::Fitted;
 use crate::pooled::sizes::{BesideNothing, beside_nothing};
 use crate::ranking::kin::is_simpler;
 use crate::ranking::paired_gain::{clearness, gains};
+use crate::ranking::rank::is_all_size;
+use crate::ranking::thresholds::PLAINLY_MISSED;
 use crate::selection::model_selection::ModelSelection;
 use crate::selection::path::{SelectionPath, leaves_more};
 use crate::selection::thresholds::EQUAL;
@@ -41,7 +43,8 @@ pub(crate) fn try_removals(
 }
 
 /// Takes out what may be nothing beside the others, the interval of its size says: it stood in for what has come in since. Where of
-/// several each may be nothing, they stand in for each other, and the one without which least is lost goes first.
+/// several each may be nothing, they stand in for each other, and the one without which least is lost goes first. What has no shape and is
+/// missed plainly is not nothing, whatever its interval says.
 pub(crate) fn take_out_what_may_be_nothing(
     selection: &ModelSelection<'_>,
     path: &mut SelectionPath,
@@ -57,10 +60,12 @@ pub(crate) fn take_out_what_may_be_nothing(
             let Some(without) = without(selection, &full, effect)? else {
                 continue;
             };
+            let is_missed =
+                is_all_size(effect) && without.squares() > PLAINLY_MISSED * full.squares();
             let known = least
                 .as_ref()
                 .map_or(f64::INFINITY, |(_, one)| one.squares());
-            if without.squares() < known {
+            if !is_missed && without.squares() < known {
                 least = Some((effect, without));
             }
         }

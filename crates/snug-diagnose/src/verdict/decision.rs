@@ -1,8 +1,10 @@
 //! Which verdict the data allow, and what to check where no model fits.
 
 use crate::library::is_unlisted;
+use crate::pooled::fitted::Fitted;
 use crate::pooled::thresholds::AT_FLOOR;
 use crate::question::Goal;
+use crate::selection::thresholds::MOST;
 use crate::verdict::answer::{Examination, Places};
 use crate::verdict::thresholds::{BESIDE_EFFECTS, MOSTLY_EXPLAINED, REPEATS, WHITE};
 use crate::verdict::{earned, floor};
@@ -100,13 +102,17 @@ impl Examination<'_> {
             };
         }
         if let Some(chosen) = self.path.chosen {
-            return match is_unlisted(self.path.ranking.candidates[chosen].effect) {
-                true => Verdict::UnlistedEffect,
+            return match is_unlisted(candidates[chosen].effect) {
+                true if describes(&candidates[chosen].fitted, last) => Verdict::UnlistedEffect,
+                true => Verdict::Undecided,
                 false => Verdict::MissingEffect,
             };
         }
         if added_unlisted {
-            return Verdict::UnlistedEffect;
+            return match describes(last, &self.path.rungs[0]) {
+                true => Verdict::UnlistedEffect,
+                false => Verdict::Undecided,
+            };
         }
         // What takes several effects and still leaves more than noise is something else, in pieces.
         if self.path.additions.len() > 1 && last.is_beyond_noise() {
@@ -146,6 +152,12 @@ impl Examination<'_> {
         };
         leaves_much && self.path.chosen.is_none() && self.path.is_promising(self.settings).is_none()
     }
+}
+
+/// Whether a model with a law that is in no catalogue says what the one `before` lacks: where nobody knows the noise, a law that leaves most
+/// of the error describes nothing, it only comes closest.
+fn describes(with: &Fitted, before: &Fitted) -> bool {
+    with.is_weighted || with.squares() <= MOST * before.squares()
 }
 
 /// What is `wrong` with the recordings or the fit, and what else is suspected. With the wrong sign or column no fit means anything, and

@@ -7,6 +7,7 @@ use crate::ranking::rank::Candidate;
 use crate::selection::path::SelectionPath;
 use crate::selection::thresholds::MOST;
 use crate::settings::DiagnoseSettings;
+use crate::verdict::pushed_away::{may_push_away, pushed_away};
 use crate::verdict::thresholds::{
     FAR_BETTER, FEW_SAMPLES, LEAST_EXPLAINED, MOST_IN_FEW, MOSTLY_EXPLAINED, SHORTFALL, WHITE,
 };
@@ -202,10 +203,13 @@ impl<'a> Changed<'a> {
 }
 
 /// Whether a channel is not what it is declared to be: `own`, the study's own model, explains too little, and m, c, k alone would explain
-/// enough of another derivative of the angle, or most with the input's other sign or the columns swapped. What effects make of that is
-/// no rig.
+/// enough of another derivative of the angle, or most with the input's other sign or the columns swapped; or the rig pushes itself away
+/// and the fit may not. What effects make of that is no rig.
 pub(crate) fn is_declared_wrong(cases: &[FitTask<'_>], own: &Fitted) -> bool {
     if is_a_model(share(cases, own)) {
+        return false;
+    }
+    if pushed_away(cases).is_some() {
         return false;
     }
     let changed = Changed::of(cases);
@@ -237,6 +241,13 @@ pub(crate) fn suspicions(
     explained: Explained,
     left_over: Option<Suspicion>,
 ) -> Vec<Suspicion> {
+    if let Some(pushes) = pushed_away(cases) {
+        // Where the fit was free to have such a stiffness, it is no answer to why it does not.
+        return match may_push_away(cases) {
+            true => vec![left_over.unwrap_or(Suspicion::NoOscillator)],
+            false => vec![Suspicion::PushesAway(pushes)],
+        };
+    }
     let elsewhere = from_the_spectra(cases).unwrap_or(0.0);
     let is_elsewhere = elsewhere >= LEAST_EXPLAINED.max(explained.share + SHORTFALL);
     let changed = Changed::of(cases);

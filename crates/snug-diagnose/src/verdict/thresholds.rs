@@ -35,6 +35,9 @@ pub(crate) const FAR_BETTER: f64 = 0.2;
 /// failed \[–\]: where an effect is missing from both, they may well part (the base model of a motor with friction: 0.26 promised, less
 /// than nothing kept). Chosen.
 pub(crate) const PLAIN_PROMISE: f64 = 0.95;
+/// Times as much of that power as a regression leaves, that one without a negative stiffness must leave, before a rig is said to push itself
+/// away \[–\]: where friction or an offset is missing from both, the stiffness may come out a little below 0. Chosen.
+pub(crate) const NEEDS_IT: f64 = 4.0;
 /// Factor between two files' masses, dampings and stiffnesses that is one of units, or of another load \[–\]: people differ tenfold.
 /// Chosen.
 pub(crate) const NO_RIG_DIFFERS: f64 = 100.0;

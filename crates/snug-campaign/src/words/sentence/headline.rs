@@ -213,6 +213,8 @@ pub enum NoModel {
         /// What would be explained then.
         share: f64,
     },
+    /// The rig pushes itself away from where it rests.
+    PushesAway,
     /// No model was found that deserves the question.
     NotFitted(Explained),
     /// Most effects could not be tried beside a model that explains so much.
@@ -239,6 +241,9 @@ impl Display for NoModel {
                     false => "The input seems to have the other sign",
                 },
                 at_most_all(*share)
+            ),
+            Self::PushesAway => f.write_str(
+                "The rig pushes itself away from where it rests, and no stiffness of 0 or more follows it. What is missing cannot be asked before the study lets it be below.",
             ),
             Self::NotFitted(explained) => write!(
                 f,

@@ -29,6 +29,8 @@ pub enum Suspicion {
         /// Share explained then.
         share: f64,
     },
+    /// The rig pushes itself away from where it rests.
+    PushesAway(PushesAway),
     /// Most effects cannot be tried on the rig.
     HardlyTried {
         /// How many were.
@@ -107,17 +109,43 @@ impl Display for FailedFit {
             true => at_most_all(self.kept),
             false => "nothing".to_owned(),
         };
-        let sizes: Vec<String> = (self.sizes.iter())
-            .map(|(name, value)| format!("{name} {}", significant(*value, 3)))
-            .collect();
         write!(
             f,
             "A plain regression of acceleration on {} explains {}, the simulated fit {kept}: the fit failed, and its numbers are no physics. Start it from the regression's (`model.parameters`): {}.",
             joined(&on),
             at_most_all(self.promised),
-            sizes.join(", ")
+            sized(&self.sizes)
         )
     }
+}
+
+/// What a plain regression of the equation of motion says of a rig that pushes itself away from where it rests.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PushesAway {
+    /// Share of the measured acceleration's power that it explains \[–\].
+    pub promised: f64,
+    /// Mass, damping and stiffness as the regression puts them.
+    pub sizes: Vec<(String, f64)>,
+    /// Time in which it falls away to e times as far, undamped \[s\].
+    pub falls_in_s: f64,
+}
+
+impl Display for PushesAway {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "Check whether a controller holds the rig where it would not stay, as it does an upright pendulum or an armature near a magnet: a plain regression of acceleration on torque, speed and angle explains {} with a stiffness below 0 ({}). If so, let it be below in the study, begin there (`model.parameters`), and restart the model before it falls away: `identify: (constraints: [], simulation: Restarted(every_s: {:.1e}))`.",
+            at_most_all(self.promised),
+            sized(&self.sizes),
+            self.falls_in_s
+        )
+    }
+}
+
+fn sized(sizes: &[(String, f64)]) -> String {
+    let sizes = sizes.iter();
+    let told = sizes.map(|(name, value)| format!("{name} {}", significant(*value, 3)));
+    told.collect::<Vec<_>>().join(", ")
 }
 
 impl Display for Suspicion {
@@ -156,6 +184,7 @@ impl Display for Suspicion {
                 "Check the kind of the output: were what is declared as {declared} the {other}, mass, damping and stiffness alone would explain {}.",
                 at_most_all(*share)
             ),
+            Self::PushesAway(pushes) => pushes.fmt(f),
             Self::HardlyTried { tried, of } => write!(
                 f,
                 "Check the sampling rate: {tried} of {of} candidates could be tried, since with the others the rig cannot be simulated from one sample to the next. Sample faster, or state the unit of the time column or the rate if it is another; a rig without inertia has none of the effects that need it."

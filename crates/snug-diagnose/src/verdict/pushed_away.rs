@@ -1,0 +1,117 @@
+//! A rig that pushes itself away from where it rests, as an upright pendulum or an armature near a magnet does: it stays only because a
+//! controller holds it, and no stiffness of 0 or more follows it.
+//!
+//! A controller answers the motion, so that input and output go against each other, as with an input of the wrong sign. The equation of
+//! motion tells the two apart: of a wrong sign the inertia would be negative, of such a rig the stiffness is.
+
+use crate::pooled::equation::PlainEquation;
+use crate::verdict::thresholds::{MOSTLY_EXPLAINED, NEEDS_IT};
+use snug_campaign::words::suspicion::PushesAway;
+use snug_identify::{ConstraintKind, FitTask};
+use snug_model::BASE_PARAMETERS;
+use std::borrow::Cow;
+
+/// What a plain regression says of a rig that pushes itself away; `None` of any other, and where it explains too little.
+pub(crate) fn pushed_away(cases: &[FitTask<'_>]) -> Option<PushesAway> {
+    let free = constrained(cases, &[]);
+    let free = PlainEquation::of(&free)?.equation.fit(&[])?;
+    let [mass, _, stiffness] = free.base;
+    if stiffness >= 0.0 || free.explained < MOSTLY_EXPLAINED {
+        return None;
+    }
+    let held = constrained(cases, &[ConstraintKind::Positive]);
+    let held = PlainEquation::of(&held).and_then(|plain| plain.equation.fit(&[]));
+    let kept = held.map_or(0.0, |held| held.explained);
+    let needs_it = 1.0 - kept > NEEDS_IT * (1.0 - free.explained);
+    let names = BASE_PARAMETERS.iter().map(|name| (*name).to_owned());
+    needs_it.then(|| PushesAway {
+        promised: free.explained,
+        sizes: names.zip(free.base).collect(),
+        falls_in_s: (mass / -stiffness).sqrt(),
+    })
+}
+
+/// Whether a fit of these recordings could have a stiffness below 0.
+pub(crate) fn may_push_away(cases: &[FitTask<'_>]) -> bool {
+    cases.iter().all(|case| {
+        let constraints = &case.settings.constraints;
+        !constraints.contains(&ConstraintKind::Positive)
+            && !constraints.contains(&ConstraintKind::Stable)
+    })
+}
+
+fn constrained<'a>(cases: &'a [FitTask<'_>], to: &[ConstraintKind]) -> Vec<FitTask<'a>> {
+    let constrained = cases.iter().map(|case| {
+        let mut case = case.lent();
+        let mut settings = case.settings.clone().into_owned();
+        settings.constraints = to.to_vec();
+        case.settings = Cow::Owned(settings);
+        case
+    });
+    constrained.collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use snug_campaign::{Intersample, Quantity, Rig, Tightening};
+    use snug_identify::IdentifySettings;
+    use snug_model::{Input, Model};
+
+    const RIG: Rig = Rig {
+        lever_arm_m: 1.0,
+        known_inertia_kg_m2: 0.0,
+    };
+    const INTERVAL_S: f64 = 1e-3;
+
+    /// Two sines, and the torque that moves this inertia, damping and stiffness so.
+    fn moved(base: [f64; 3], torque_unit: f64) -> FitTask<'static> {
+        let (mut torque_nm, mut angle_rad) = (Vec::new(), Vec::new());
+        for sample in 0..6000 {
+            let (x, y) = (
+                5.0 * f64::from(sample) * INTERVAL_S,
+                11.0 * f64::from(sample) * INTERVAL_S,
+            );
+            let angle = x.sin() + 0.5 * y.sin();
+            let velocity = 5.0 * x.cos() + 5.5 * y.cos();
+            let acceleration = -25.0 * x.sin() - 60.5 * y.sin();
+            let torque = base[0] * acceleration + base[1] * velocity + base[2] * angle;
+            torque_nm.push(torque_unit * torque);
+            angle_rad.push(angle);
+        }
+        let input = Input::new(&torque_nm, INTERVAL_S, Intersample::Linear);
+        let tightening = Tightening::from_torque(RIG, INTERVAL_S, torque_nm);
+        let scale = snug_model::Scale::Rig {
+            torque_nm: 10.0,
+            angle_rad: 1.0,
+            time_s: 0.1,
+        };
+        FitTask {
+            tightening: Cow::Owned(tightening.with(Quantity::Displacement, angle_rad)),
+            input: Cow::Owned(input),
+            model: Cow::Owned(Model::scaled(RIG, &[], scale).expect("the rig is one")),
+            settings: Cow::Owned(IdentifySettings {
+                fitted_output: Quantity::Displacement,
+                constraints: vec![ConstraintKind::Positive],
+                ..IdentifySettings::default()
+            }),
+        }
+    }
+
+    #[test]
+    fn an_upright_pendulum_pushes_itself_away() {
+        let found = pushed_away(&[moved([0.4, 1.9, -30.0], 1.0)]).expect("it does");
+        for ((_, found), made) in found.sizes.iter().zip([0.4, 1.9, -30.0]) {
+            assert!((found / made - 1.0).abs() < 0.01, "{found} for {made}");
+        }
+        let expected = (0.4_f64 / 30.0).sqrt();
+        assert!((found.falls_in_s / expected - 1.0).abs() < 0.01);
+    }
+
+    #[test]
+    fn a_spring_does_not_nor_one_whose_torque_has_the_other_sign() {
+        assert_eq!(pushed_away(&[moved([0.4, 1.9, 30.0], 1.0)]), None);
+        assert_eq!(pushed_away(&[moved([0.4, 1.9, 30.0], -1.0)]), None);
+        assert_eq!(pushed_away(&[moved([0.4, 1.9, 0.0], 1.0)]), None);
+    }
+}
