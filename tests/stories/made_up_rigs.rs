@@ -1,5 +1,7 @@
 //! Rigs that were made up here, by small steps of the midpoint rule, of which an engineer would say at once what they lack.
 
+mod drives;
+mod ended;
 mod free_motion;
 mod rig;
 mod unheld;
@@ -100,21 +102,27 @@ fn a_screw_s_ripple_comes_first_of_eight_recordings() {
     assert!((wavelength - 0.006).abs() < 3e-5, "{wavelength}");
 }
 
-/// A pendulum that swings to 80°, turned by a torque that a controller holds from sample to sample: taken as running straight between them
-/// it leaves four times the noise, and nothing stands in for that. With it held the rig is known to its noise.
-#[test]
-fn a_pendulum_driven_by_a_held_torque_is_known_to_its_noise() {
-    const NOISE: f64 = 1.75e-3;
+/// The noise of a pendulum's encoder [rad].
+const OF_THE_PENDULUM: f64 = 1.75e-3;
+
+/// A pendulum that swings to 80°, turned by a torque that a controller holds from sample to sample.
+fn pendulum() -> Rig {
     let mut noise = Noise(7);
     let mut recording = || -> Vec<[f64; 2]> {
         let levels: Vec<f64> = (0..12).map(|_| 12.0 * noise.even() - 6.0).collect();
         let inputs: Vec<f64> = (0..1500).map(|k| levels[k / 130]).collect();
         let rate = |[x, v]: [f64; 2], u: f64| [v, (u - 0.025 * v - 8.0 * x.sin()) / 0.012];
         let angles = moved(&inputs, 20, rate).map(|[x, _]| x);
-        noise.with(&inputs, angles, NOISE)
+        noise.with(&inputs, angles, OF_THE_PENDULUM)
     };
-    let rig = Rig::that_turns((0..3).map(|_| recording()).collect());
-    let diagnosis = rig.told(&Verb::Improve);
+    Rig::that_turns((0..3).map(|_| recording()).collect())
+}
+
+/// Taken as running straight between samples it leaves four times the noise, and nothing stands in for that. With it held the rig is known
+/// to its noise.
+#[test]
+fn a_pendulum_driven_by_a_held_torque_is_known_to_its_noise() {
+    let diagnosis = pendulum().told(&Verb::Improve);
     let names = names(&diagnosis);
     assert_eq!(names, ["gravity_torque"], "{}", diagnosis.headline);
     let weight = &diagnosis.added[0].parameters[0];
@@ -122,7 +130,7 @@ fn a_pendulum_driven_by_a_held_torque_is_known_to_its_noise() {
     assert!((weight.value + 8.0).abs() < 0.02, "{weight:?}");
     assert!(low <= -8.0 && -8.0 <= high, "{weight:?}");
     let left = diagnosis.ladder.last().unwrap().rms_fitted_output;
-    assert!(left < 1.05 * NOISE, "{left}");
+    assert!(left < 1.05 * OF_THE_PENDULUM, "{left}");
     let headline = diagnosis.headline.to_string();
     assert!(!headline.contains("still a motion"), "{headline}");
 }
@@ -380,4 +388,14 @@ fn what_one_recording_reads_at_rest_is_no_motion_in_the_other() {
     );
     let offset = &diagnosis.added[0].parameters[0];
     assert!((offset.value - 2.0).abs() < 0.01, "{offset:?}");
+}
+
+/// A folder that holds a recording three times: a copy is no evidence, and is said to be one.
+#[test]
+fn a_recording_and_its_copies_are_one_recording() {
+    let recording = pendulum().recordings.swap_remove(0);
+    let rig = Rig::that_turns(vec![recording; 3]);
+    let diagnosis = rig.told(&Verb::Compare);
+    assert_eq!(diagnosis.tightenings, 1);
+    assert!(says(&diagnosis, "same samples"), "{:?}", diagnosis.reasons);
 }

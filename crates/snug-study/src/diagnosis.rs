@@ -15,6 +15,7 @@ use crate::tasks::held_input;
 use crate::tasks::settling::{Settled, settle};
 use restarted::Restarted;
 use snug_campaign::words::number::significant;
+use snug_campaign::words::reason::Reason;
 use snug_campaign::{GroupSize, GroupSizes};
 use snug_diagnose::{Answer, DiagnoseError, Goal, Pieces, Question, RungModel, Watch, examine};
 use snug_identify::{FitTask, IdentifyError};
@@ -200,7 +201,8 @@ impl Search<'_> {
     ) -> Result<(Answer, Option<Study>), StudyError> {
         let straight = self.examined(question)?;
         let cases = question.cases;
-        if *self.verb != Verb::Improve || !held_input::is_open(study, cases) {
+        let goes_on = *self.verb == Verb::Improve && !straight.diagnosis.interrupted;
+        if !goes_on || !held_input::is_open(study, cases) {
             return Ok((straight, None));
         }
         let last = with_last_model(study, &straight);
@@ -229,6 +231,17 @@ impl Search<'_> {
             {
                 held.diagnosis.reasons.push(reason);
                 return Ok((held, Some(held_study)));
+            }
+            if held.diagnosis.interrupted {
+                let mut diagnosis = straight.diagnosis.ended();
+                diagnosis.reasons.push(Reason::HeldUndecided);
+                return Ok((
+                    Answer {
+                        diagnosis,
+                        ..straight
+                    },
+                    None,
+                ));
             }
         }
         Ok((straight, None))

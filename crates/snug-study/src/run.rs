@@ -19,11 +19,13 @@ use crate::run::settings::RunSettings;
 use crate::statistics;
 use crate::study::Study;
 use crate::tasks::cases::chosen;
+use crate::tasks::copies::Measured;
 use crate::tasks::settling::{leaves_open, settle};
 use rayon::prelude::*;
 use snug_campaign::words::reason::Reason;
 use snug_campaign::{
-    CampaignResult, Estimate, Finding, Rejection, Severity, TighteningId, TighteningResult, Traces,
+    CampaignResult, Estimate, Finding, Recording, Rejection, Severity, TighteningId,
+    TighteningResult, Traces,
 };
 use snug_ingest::Listing;
 use snug_record::Recorder;
@@ -87,6 +89,7 @@ pub(crate) struct Collected {
     pub here: Vec<(TighteningId, Vec<Rejection>)>,
     there: Vec<(TighteningId, Vec<Rejection>)>,
     rungs: Vec<RungShare>,
+    measured: Measured<String>,
 }
 
 /// Runs a study: ingest → preprocess → identify → statistics → report and MCAP.
@@ -334,6 +337,20 @@ fn warn_of_files(findings: &[Finding]) {
     }
 }
 
+/// Says of a recording that its samples were there before.
+fn copied(recording: &Recording, original: &str) -> Finding {
+    Finding {
+        severity: Severity::Note,
+        code: "copy".to_owned(),
+        file: recording.file.clone(),
+        tightening: None,
+        channel: None,
+        message: format!(
+            "the same samples as {original} to the last bit: tables and tests count them twice, a diagnosis once"
+        ),
+    }
+}
+
 /// Says of files that they were not evaluated because the run was stopped.
 fn not_reached(files: &[PathBuf]) -> Vec<Finding> {
     let finding = |path: &PathBuf| Finding {
@@ -360,9 +377,14 @@ impl Collected {
 
     /// Records one file's results and keeps what the tables and the report need of them.
     fn take(&mut self, file: FileEvaluation, output: &mut Output) -> Result<(), StudyError> {
+        let mut copies = Vec::new();
         for recording in &file.recordings {
             output.record(|recorder| recorder.measurement(recording))?;
+            let (torque_nm, motion) = (&recording.torque_nm, &recording.motion);
+            let original = self.measured.before(&recording.file, torque_nm, motion);
+            copies.extend(original.map(|original| copied(recording, &original)));
         }
+        self.note(copies, output)?;
         self.here.extend(outcomes(&file.evaluated));
         self.there.extend(file.other_preset.unwrap_or_default());
         self.rungs.resize_with(file.rungs.len(), RungShare::default);

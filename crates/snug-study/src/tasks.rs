@@ -2,6 +2,7 @@
 
 pub(crate) mod cases;
 pub(crate) mod comparable;
+pub(crate) mod copies;
 pub(crate) mod free_run;
 pub(crate) mod held_input;
 mod initial_state;

@@ -15,7 +15,8 @@ use crate::effect::corrected::CorrectedEffect;
 use crate::effect::detectability::Detectability;
 use crate::effect::ranked::RankedEffect;
 use crate::effect::unlisted::UnlistedTerm;
-use crate::words::sentence::headline::Headline;
+use crate::words::effect_name::Named;
+use crate::words::sentence::headline::{Fall, Headline, Left};
 use crate::words::sentence::reason::Reason;
 use crate::words::sentence::stopped::Stopped;
 use serde::Serialize;
@@ -81,5 +82,33 @@ impl Diagnosis {
         let ranked = self.ranking.iter().chain(earlier);
         let mut known = added.chain(ranked.map(|one| (&one.effect, &one.expression)));
         known.find(|(name, _)| *name == effect)?.1.as_ref()
+    }
+
+    /// The same as it is told where whoever asked ended what would have decided between it and another.
+    pub fn ended(self) -> Self {
+        let left = |rung: Option<&Rung>| Left {
+            error: rung.map_or(f64::NAN, |rung| {
+                rung.error_over_noise.unwrap_or(rung.rms_fitted_output)
+            }),
+            is_over_noise: rung.is_some_and(|rung| rung.error_over_noise.is_some()),
+        };
+        let named = |one: &AddedEffect| Named {
+            effect: one.effect.clone(),
+            expression: one.expression.clone(),
+            says: None,
+            twins: Vec::new(),
+        };
+        Self {
+            verdict: Verdict::Undecided,
+            headline: Headline::Stopped {
+                added: self.added.iter().map(named).collect(),
+                fall: Fall {
+                    before: left(self.ladder.first()),
+                    after: left(self.ladder.last()),
+                },
+            },
+            interrupted: true,
+            ..self
+        }
     }
 }

@@ -139,6 +139,8 @@ pub enum Reason {
         /// Whether the delay that is found without it is about half a sampling interval.
         is_half_an_interval: bool,
     },
+    /// Whether the input is held was still being tried when the search was ended.
+    HeldUndecided,
     /// Tightenings that could not be judged by the common measure.
     LeftOut {
         /// How many.
@@ -157,6 +159,15 @@ pub enum Reason {
         /// Samples that it takes.
         samples: usize,
     },
+    /// Tightenings that are there more than once.
+    Copies {
+        /// How many.
+        left_out: usize,
+        /// The first of them.
+        first: String,
+        /// What that is a copy of.
+        of: String,
+    },
     /// Effects were learnt from some tightenings only.
     LearntFrom {
         /// Tightenings used.
@@ -174,6 +185,9 @@ pub enum Reason {
         more: usize,
     },
 }
+
+/// Said where a search with a held input was ended.
+const HELD_UNDECIDED: &str = "It was ended while the same was tried with an input that is held from sample to sample: part of what was found may be half a sampling interval (`model.intersample` in the study says which input it is).";
 
 written_as_said!(Reason);
 
@@ -213,11 +227,7 @@ impl Display for Reason {
             }
             Self::Whose { effect, parameter } => whose(f, effect, parameter),
             Self::Size(parameters) => write!(f, "Its size: {}.", sizes(parameters)),
-            Self::CannotTell(twins) => write!(
-                f,
-                "These data cannot tell it from {}; they are named together.",
-                joined(&spoken(twins))
-            ),
+            Self::CannotTell(twins) => cannot_tell(f, twins),
             Self::Drifts { trend, parameters } => drifts(f, trend, parameters),
             Self::TakenOut { corrected, check } => taken_out(f, corrected, *check),
             Self::NotSimulated(effects) => write!(
@@ -236,6 +246,7 @@ impl Display for Reason {
                 spared,
                 is_half_an_interval,
             } => held(f, spared, *is_half_an_interval),
+            Self::HeldUndecided => f.write_str(HELD_UNDECIDED),
             Self::LeftOut {
                 left_out,
                 all,
@@ -243,10 +254,19 @@ impl Display for Reason {
                 has_noise,
             } => tightenings_left_out(f, *left_out, *all, quantity, *has_noise),
             Self::Short { left_out, samples } => too_short(f, *left_out, *samples),
+            Self::Copies { left_out, first, of } => copies(f, *left_out, first, of),
             Self::LearntFrom { taken, read, files } => learnt_from(f, *taken, *read, *files),
             Self::Unread { first, more } => unread(f, first, *more),
         }
     }
+}
+
+fn cannot_tell(f: &mut Formatter<'_>, twins: &[Named]) -> fmt::Result {
+    let twins = joined(&spoken(twins));
+    write!(
+        f,
+        "These data cannot tell it from {twins}; they are named together."
+    )
 }
 
 fn spoken(effects: &[Named]) -> Vec<String> {
@@ -348,6 +368,17 @@ fn too_short(f: &mut Formatter<'_>, left_out: usize, samples: usize) -> fmt::Res
     write!(
         f,
         "{them} took no part in the diagnosis: fewer than {samples} samples are scored, too few to compare a model with."
+    )
+}
+
+fn copies(f: &mut Formatter<'_>, left_out: usize, first: &str, of: &str) -> fmt::Result {
+    let (them, hold) = match left_out {
+        1 => ("1 tightening".to_owned(), "it holds"),
+        many => (counted(many, "tightening"), "they hold"),
+    };
+    write!(
+        f,
+        "{them} took no part in the diagnosis: {hold} the same samples as another to the last bit ({first} those of {of}), and a copy is no new evidence."
     )
 }
 

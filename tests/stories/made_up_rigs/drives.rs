@@ -1,0 +1,135 @@
+//! Rigs of which an engineer would name the drive, or that a controller holds them where they would not stay.
+
+use super::rig::{Noise, Rig, moved};
+use super::{names, says};
+use snug_campaign::words::headline::Headline;
+use snug_campaign::words::reason::Reason;
+use snug_campaign::{Diagnosis, Verdict};
+use snug_study::Verb;
+
+/// The noise of the encoder [rad].
+const NOISE: f64 = 2e-4;
+
+/// An axis on a spring, of whose commanded torque only what is `given` acts.
+fn commanded(tone_nm: f64, given: fn(f64) -> f64) -> Diagnosis {
+    let mut noise = Noise(27);
+    let mut recording = || {
+        let inputs = noise.tones([0.5, 40.0], tone_nm, 2500);
+        let rate = |[x, v]: [f64; 2], u: f64| [v, (given(u) - 0.15 * v - 30.0 * x) / 0.02];
+        let angles = moved(&inputs, 10, rate).map(|[x, _]| x);
+        noise.with(&inputs, angles, NOISE)
+    };
+    Rig::that_turns((0..2).map(|_| recording()).collect()).told(&Verb::Improve)
+}
+
+/// Nothing but this effect, of this size within a hundredth, and only noise left.
+#[track_caller]
+fn lacks(diagnosis: &Diagnosis, effect: &str, size: f64) {
+    let headline = &diagnosis.headline;
+    assert_eq!(names(diagnosis), [effect], "{headline}");
+    let found = diagnosis.added[0].parameters[0].value;
+    assert!((found / size - 1.0).abs() < 0.01, "{found}");
+    let left = diagnosis.ladder.last().unwrap().rms_fitted_output;
+    assert!(left < 1.1 * NOISE, "{left}: {headline}");
+}
+
+#[test]
+fn an_amplifier_at_its_limit_is_no_spring_and_no_unknown_law() {
+    let diagnosis = commanded(0.9, |u| u.clamp(-3.0, 3.0));
+    lacks(&diagnosis, "torque_limit", 3.0);
+}
+
+/// A drive that does not answer to little is in no catalogue: no law is said to act, and no longer record would make it one.
+#[test]
+fn a_dead_band_is_not_put_down_to_too_little_data() {
+    let diagnosis = commanded(0.5, |u| u - u.clamp(-0.4, 0.4));
+    assert_eq!(
+        diagnosis.verdict,
+        Verdict::Undecided,
+        "{}",
+        diagnosis.headline
+    );
+    let Headline::MoreThanNoise { explained, .. } = &diagnosis.headline else {
+        panic!("{}", diagnosis.headline)
+    };
+    let leaves_a_motion = explained.is_some_and(|all| all.leaves_a_motion());
+    assert!(leaves_a_motion, "{}", diagnosis.headline);
+    let asks_for_more = |reason: &Reason| matches!(reason, Reason::WouldDecide { .. });
+    let mut reasons = diagnosis.reasons.iter();
+    assert!(!reasons.any(asks_for_more), "{}", diagnosis.headline);
+}
+
+/// Samples every millisecond of what pushes itself away by `away` \[1/s²\] and is led along `goals` by a controller with these gains, with
+/// what that exerts.
+fn held(
+    goals: Vec<f64>,
+    mass: f64,
+    gains: [f64; 2],
+    away: impl Fn(f64, f64) -> f64,
+) -> Vec<[f64; 2]> {
+    const STEPS: u32 = 20;
+    let (mut x, mut v) = (0.0, 0.0);
+    let h = 1e-3 / f64::from(STEPS);
+    let sample = |goal: f64| {
+        let seen = [-gains[0] * (x - goal) - gains[1] * v, x];
+        for _ in 0..STEPS {
+            let rate = |x: f64, v: f64| seen[0] / mass + away(x, v);
+            let (half_x, half_v) = (x + 0.5 * h * v, v + 0.5 * h * rate(x, v));
+            v += h * rate(half_x, half_v);
+            x += h * half_v;
+        }
+        seen
+    };
+    goals.into_iter().map(sample).collect()
+}
+
+fn with_noise(noise: &mut Noise, recording: Vec<[f64; 2]>, size: f64) -> Vec<[f64; 2]> {
+    let noisy = recording.into_iter();
+    noisy.map(|[u, x]| [u, x + size * noise.draw()]).collect()
+}
+
+/// An armature near a magnet: input and output go against each other, as with a wrong sign, and it is none.
+#[test]
+fn what_pushes_itself_away_has_no_wrong_sign() {
+    let mut noise = Noise(28);
+    let mut recording = || {
+        let goals = noise.levels([-1e-4, 1e-4], 60, 2500);
+        let clean = held(goals, 2.0, [3.2e5, 800.0], |x, v| 7.5e4 * x - 2.5 * v);
+        with_noise(&mut noise, clean, 1e-7)
+    };
+    let rig = Rig::that_slides((0..2).map(|_| recording()).collect());
+    let diagnosis = rig.told(&Verb::Diagnose);
+    let headline = diagnosis.headline.to_string();
+    assert_eq!(diagnosis.verdict, Verdict::NotFitted, "{headline}");
+    assert!(headline.contains("pushes itself away"), "{headline}");
+    assert!(
+        says(&diagnosis, "constraints: []"),
+        "{:?}",
+        diagnosis.reasons
+    );
+}
+
+/// A pendulum that stands upright: its weight may be anything by its interval beside a stiffness that may not be below 0, and is needed.
+#[test]
+fn a_pendulum_that_is_held_upright_lacks_its_weight_and_dry_friction() {
+    let mut noise = Noise(31);
+    let mut recording = || {
+        let away = |x: f64, v: f64| (9.0 * x.sin() - 0.02 * v - 0.3 * (v / 0.05).tanh()) / 0.005;
+        let goals = noise.levels([-0.4, 0.4], 150, 2500);
+        let clean = held(goals, 0.005, [30.0, 0.6], away);
+        with_noise(&mut noise, clean, 1e-4)
+    };
+    let rig = Rig::that_turns((0..2).map(|_| recording()).collect());
+    let diagnosis = rig.told_with("intersample: ZeroOrder", &Verb::Improve);
+    let headline = &diagnosis.headline;
+    let mut first = names(&diagnosis);
+    first.truncate(2);
+    first.sort_unstable();
+    assert_eq!(first, ["coulomb_friction", "gravity_torque"], "{headline}");
+    assert_ne!(diagnosis.verdict, Verdict::UnlistedEffect, "{headline}");
+    for (effect, made) in [("coulomb_friction", 0.3), ("gravity_torque", 9.0)] {
+        let mut added = diagnosis.added.iter();
+        let size = &added.find(|one| one.effect == effect).unwrap().parameters[0];
+        assert!((size.value / made - 1.0).abs() < 0.1, "{size:?}");
+    }
+}
