@@ -19,6 +19,11 @@ pub enum PreprocessError {
     /// The `thesis` preset was asked for on segments without a pulse window.
     #[error("preset `Thesis` needs `window: Pulse(…)`; `Whole` has no window to cut")]
     ThesisWithoutWindow,
+    /// The `thesis` preset was asked for on a part of every window.
+    #[error(
+        "preset `Thesis` takes whole windows, as the original program does; leave `stretch` out"
+    )]
+    ThesisWithStretch,
 }
 
 /// Checks that `minimum` ≤ `value` ≤ `maximum`; not-a-number is never in range.

@@ -25,5 +25,6 @@ pub use settings::onset::OnsetSettings;
 pub use settings::quality::QualitySettings;
 pub use settings::quiet::QuietSettings;
 pub use settings::rig::{KnownInertia, RigSettings};
+pub use settings::stretch::Stretch;
 pub use settings::{PreprocessSettings, Preset, Window};
 pub use thesis::checks::ThesisChecks;

@@ -64,7 +64,12 @@ pub fn preprocess(
         });
         result.findings.extend(remarks.into_findings());
         match prepared {
-            Ok(prepared) => result.tightenings.push(prepared),
+            Ok(mut prepared) => {
+                if let Some(stretch) = settings.stretch {
+                    stretch.end(&mut prepared);
+                }
+                result.tightenings.push(prepared);
+            }
             Err(finding) => result.findings.push(finding),
         }
     }

@@ -4,6 +4,7 @@ pub(crate) mod onset;
 pub(crate) mod quality;
 pub(crate) mod quiet;
 pub(crate) mod rig;
+pub(crate) mod stretch;
 
 use crate::error::{PreprocessError, in_range};
 use crate::settings::rig::RigSettings;
@@ -11,6 +12,7 @@ use onset::OnsetSettings;
 use quality::QualitySettings;
 use quiet::QuietSettings;
 use serde::{Deserialize, Serialize};
+use stretch::Stretch;
 
 /// Which way recordings become tightenings.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
@@ -75,6 +77,9 @@ pub struct PreprocessSettings {
     pub preset: Preset,
     /// Stretch to keep; default `Pulse(start_s: 1.48, length_s: 0.3)`.
     pub window: Window,
+    /// The part of every window that counts; default all of it. Not with preset `Thesis`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stretch: Option<Stretch>,
     /// The rig's constants.
     pub rig: RigSettings,
     /// How the quiet part is used (preset `Snug`).
@@ -100,6 +105,13 @@ impl PreprocessSettings {
                 return Err(PreprocessError::ThesisWithoutWindow);
             }
             Window::Whole => {}
+        }
+        match self.stretch {
+            Some(_) if self.preset == Preset::Thesis => {
+                return Err(PreprocessError::ThesisWithStretch);
+            }
+            Some(stretch) => stretch.check()?,
+            None => {}
         }
         self.rig.check()?;
         self.quiet.check()?;

@@ -25,9 +25,9 @@ pub use run::{Outcome, run};
 pub use settings::diagnosis::DiagnosisSettings;
 pub use settings::selection::SelectionSettings;
 pub use settings::validation::ValidationSettings;
-pub use snug_preprocess::Preset;
+pub use snug_preprocess::{Preset, Stretch};
 pub use study::Study;
-pub use study::rewriting::{rewrite_effects, write_with_effects};
+pub use study::rewriting::{rewrite_effects, with_stretch, write_with_effects};
 pub use tasks::cases::FilesRead;
 #[doc(hidden)]
 pub use tasks::cases::cases;

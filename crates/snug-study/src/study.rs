@@ -15,6 +15,7 @@ use snug_ingest::Source;
 use snug_model::{Model, ModelError, ModelSettings, ParameterSettings};
 use snug_preprocess::{PreprocessSettings, Preset};
 use snug_record::RecordSettings;
+use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
 use crate::settings::selection::SelectionSettings;
@@ -176,6 +177,17 @@ impl Study {
             shares.map(|(level, share)| (level.name, share)).collect()
         };
         self.model.model_of_group(tightening.rig, &group)
+    }
+
+    /// The settings by which one tightening is identified: before the stretch that counts nothing is scored.
+    pub(crate) fn identify_settings(&self, tightening: &Tightening) -> Cow<'_, IdentifySettings> {
+        let Some(stretch) = self.preprocess.stretch else {
+            return Cow::Borrowed(&self.identify);
+        };
+        let before = stretch.samples_before(tightening.time_base.interval_s);
+        let mut settings = self.identify.clone();
+        settings.unscored_samples = settings.unscored_samples.max(before);
+        Cow::Owned(settings)
     }
 
     /// The parameters that differ between groups of tightenings, and what groups these.

@@ -134,7 +134,8 @@ fn as_note(finding: Finding) -> Finding {
 
 /// The same study under the other preset, where that makes sense.
 pub fn other(study: &Study) -> Option<Study> {
-    if study.preprocess.window == Window::Whole {
+    let preprocess = &study.preprocess;
+    if preprocess.window == Window::Whole || preprocess.stretch.is_some() {
         return None;
     }
     let mut other = study.clone();

@@ -52,7 +52,7 @@ pub fn fitted_keeping(
                 tightening: Cow::Borrowed(&one.tightening),
                 input: Cow::Owned(input(study, one)),
                 model: Cow::Owned(study.model_for(&one.tightening)?),
-                settings: Cow::Borrowed(&study.identify),
+                settings: study.identify_settings(&one.tightening),
             })
         })
         .collect::<Result<Vec<FitTask<'_>>, StudyError>>()?;
@@ -85,7 +85,7 @@ fn identified(
         input,
         prepared,
         estimate,
-        (study.identify.unscored_samples, kept),
+        (task.unscored(), kept),
         |estimate, measures| {
             let values: Vec<f64> = estimate.parameters.iter().map(|p| p.value).collect();
             let mut rejections = preparation_rejections(prepared, model, input, &values);

@@ -5,6 +5,7 @@ use crate::study::Study;
 use crate::study::{options, text_of};
 use snug_files::Host;
 use snug_model::CustomEffectSettings;
+use snug_preprocess::Stretch;
 use std::path::Path;
 
 /// Writes `effects` into the file's model, and declares those laws among `custom` that the file does not declare yet.
@@ -38,6 +39,42 @@ pub fn write_with_effects(
     let new = rewritten(text, path, effects, custom)?.unwrap_or_else(|| text.to_owned());
     snug_files::write_whole(&Host, path, new.as_bytes())?;
     Ok(new)
+}
+
+/// The text of a study that counts this stretch of every window; else the text as it is, comments too, or written anew with every default
+/// where it cannot be followed.
+///
+/// # Errors
+/// [`StudyError::Syntax`] and [`StudyError::Serialize`].
+pub fn with_stretch(text: &str, path: &Path, stretch: Stretch) -> Result<String, StudyError> {
+    let mut wanted = Study::parse(text, path)?;
+    if wanted.preprocess.stretch == Some(stretch) {
+        return Ok(text.to_owned());
+    }
+    wanted.preprocess.stretch = Some(stretch);
+    let Stretch { from_s, to_s } = stretch;
+    let entry = format!("stretch: (from_s: {from_s:?}, to_s: {to_s:?})");
+    match put_in(text, "preprocess", &entry) {
+        Some(new) if Study::parse(&new, path).is_ok_and(|study| study == wanted) => Ok(new),
+        _ => wanted.to_ron(),
+    }
+}
+
+/// The text with this entry put in at the head of a section, which is put in, too, where there is none.
+fn put_in(text: &str, section: &str, entry: &str) -> Option<String> {
+    let Some(at) = text.find(&format!("{section}:")) else {
+        let (before, after) = text.split_at(text.rfind(')')?);
+        let before = before.trim_end();
+        let comma = match before.ends_with([',', '(']) {
+            true => "",
+            false => ",",
+        };
+        return Some(format!(
+            "{before}{comma}\n    {section}: ({entry}),\n{after}"
+        ));
+    };
+    let open = at + text[at..].find('(')? + 1;
+    Some(format!("{}{entry}, {}", &text[..open], &text[open..]))
 }
 
 /// The text with these effects; nothing where they are its own.
@@ -75,22 +112,9 @@ fn rewritten(
 fn with_effects(text: &str, effects: &[String]) -> Option<String> {
     let quoted: Vec<String> = effects.iter().map(|name| format!("{name:?}")).collect();
     let list = format!("effects: [{}]", quoted.join(", "));
-    let Some(model) = text.find("model:") else {
-        let end = text.rfind(')')?;
-        let (before, after) = text.split_at(end);
-        let comma = if before.trim_end().ends_with([',', '(']) {
-            ""
-        } else {
-            ","
-        };
-        return Some(format!(
-            "{}{comma}\n    model: ({list}),\n{after}",
-            before.trim_end()
-        ));
-    };
-    let open = model + text[model..].find('(')? + 1;
-    let Some(old) = text[open..].find("effects:").map(|at| open + at) else {
-        return Some(format!("{}{list}, {}", &text[..open], &text[open..]));
+    let model = text.find("model:");
+    let Some(old) = model.and_then(|model| Some(model + text[model..].find("effects:")?)) else {
+        return put_in(text, "model", &list);
     };
     let end = old + text[old..].find(']')? + 1;
     Some(format!("{}{list}{}", &text[..old], &text[end..]))
@@ -176,6 +200,29 @@ mod tests {
             rewritten("// mine\n(seed: 3)", &["backlash"]),
             "// mine\n(seed: 3,\n    model: (effects: [\"backlash\"]),\n)"
         );
+    }
+
+    #[test]
+    fn a_stretch_is_put_in_and_comments_stay() {
+        let stretch = Stretch {
+            from_s: 0.02,
+            to_s: 0.12,
+        };
+        let path = Path::new("rig.ron");
+        let put = |text: &str| with_stretch(text, path, stretch).unwrap();
+        let entry = "stretch: (from_s: 0.02, to_s: 0.12)";
+        let whole = put("// mine\n(preprocess: (window: Whole))");
+        assert_eq!(
+            whole,
+            format!("// mine\n(preprocess: ({entry}, window: Whole))")
+        );
+        assert_eq!(put(&whole), whole);
+        let added = put("(seed: 3)");
+        assert_eq!(added, format!("(seed: 3,\n    preprocess: ({entry}),\n)"));
+        let other = put("(preprocess: (stretch: (from_s: 1.0, to_s: 2.0)))");
+        let study = Study::parse(&other, path).unwrap();
+        assert_eq!(study.preprocess.stretch, Some(stretch));
+        assert!(with_stretch("(seed 3)", path, stretch).is_err());
     }
 
     #[test]

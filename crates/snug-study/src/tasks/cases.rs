@@ -217,7 +217,7 @@ pub(crate) fn case_of(
     let settings = IdentifySettings {
         fitted_output: quantity,
         constraints: study.identify.constraints.clone(),
-        unscored_samples: study.identify.unscored_samples,
+        unscored_samples: study.identify_settings(&tightening).unscored_samples,
         ..IdentifySettings::default()
     };
     let case = FitTask {
