@@ -33,4 +33,5 @@ pub use pooled::together::{Together, fit_together};
 pub use question::{Goal, Question};
 pub use ranking::free_run::is_followed_with_an_effect;
 pub use settings::DiagnoseSettings;
+pub use snug_identify::derived::Derived;
 pub use verdict::answer::{Answer, RungModel};

@@ -12,7 +12,7 @@ use snug_campaign::words::vocabulary::Vocabulary;
 use snug_diagnose::LiveFit;
 use snug_model::{Description, Effect, Law};
 use snug_report::viewer::{Compared, Simulated};
-use snug_study::{FilesRead, Prepared, Study, prepare};
+use snug_study::{FilesRead, Prepared, Stretch, Study, prepare};
 use std::sync::atomic::AtomicBool;
 use std::sync::{Arc, OnceLock};
 
@@ -30,6 +30,8 @@ pub(crate) struct Campaign {
     pub worst_first: Vec<usize>,
     /// Tightenings that have a condition in common, to be looked at alone.
     pub groups: Vec<Group>,
+    /// Which stretch of every window is fitted alone, in words; empty where all of it is.
+    pub stretch: String,
     /// The title of the study, or the data's name.
     pub title: String,
     /// How many of them would be selected under the model to begin with; worked out when it is first asked.
@@ -69,6 +71,7 @@ impl Campaign {
             switches,
             worst_first,
             groups: groups(live),
+            stretch: study.preprocess.stretch.map_or_else(String::new, in_words),
             title: study.title(),
             prepared,
         })
@@ -158,4 +161,14 @@ impl Campaign {
             step_nm: Some(self.prepared.live.step_nm(member)),
         }
     }
+}
+
+/// A stretch that is fitted alone.
+fn in_words(Stretch { from_s, to_s }: Stretch) -> String {
+    let number = |value: f64| significant(value, DIGITS);
+    format!(
+        ", from {} to {} s of every window alone",
+        number(from_s),
+        number(to_s)
+    )
 }

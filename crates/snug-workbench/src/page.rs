@@ -20,10 +20,10 @@ fn around(title: &str, content: &Markup, script: &[&str]) -> Markup {
     document(&format!("{title} – Snug workbench"), OWN_STYLE, &body)
 }
 
-/// While tightenings are read, or where they cannot be.
-pub(crate) fn reading(sentence: &str) -> Markup {
+/// While tightenings are read, or where they cannot be; `root` is what its addresses begin with.
+pub(crate) fn reading(sentence: &str, root: &str) -> Markup {
     let content = html! {
-        main.waiting {
+        main.waiting data-root=(root) {
             p.kind { "Snug workbench" }
             h1 { "Reading the tightenings" }
             p.lead data-sentence="" aria-live="polite" { (sentence) }
@@ -33,17 +33,17 @@ pub(crate) fn reading(sentence: &str) -> Markup {
 }
 
 /// The workbench on tightenings that are read.
-pub(crate) fn working(campaign: &Campaign) -> Markup {
+pub(crate) fn working(campaign: &Campaign, root: &str) -> Markup {
     let count = campaign.prepared.live.tasks().len();
     let content = html! {
         a.skip href="#catalogue" { "Skip to the effects" }
         header.bench-head {
             p.kind { "Snug workbench" }
             h1 { (campaign.title) }
-            p.note { (counted(count, "tightening")) " from " (counted(campaign.prepared.files, "file")) ", fitted together" }
+            p.note { (counted(count, "tightening")) " from " (counted(campaign.prepared.files, "file")) ", fitted together" (campaign.stretch) }
         }
         p.fault role="alert" data-fault="" hidden {}
-        main.bench {
+        main.bench data-root=(root) {
             (present(campaign))
             (catalogue(campaign))
             (centre(campaign))
@@ -166,7 +166,9 @@ fn closer(campaign: &Campaign) -> Markup {
                 }
             }
             button.quiet type="button" data-brush="" disabled { "rank by the stretch shown" }
+            button.quiet type="button" data-alone="" disabled title="what comes before it is simulated and not scored, what comes after it is left off" { "fit the stretch shown alone" }
             button.quiet type="button" data-everything="" hidden { "back to everything" }
+            button.quiet type="button" data-whole="" hidden { "fit whole windows again" }
         }
         p.note data-closer="" aria-live="polite" {}
     }

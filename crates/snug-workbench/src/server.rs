@@ -1,5 +1,6 @@
 //! The server: on this machine alone, until it is told to end.
 
+pub(crate) mod benches;
 pub(crate) mod guard;
 pub(crate) mod routes;
 

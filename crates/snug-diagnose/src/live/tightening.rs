@@ -9,6 +9,7 @@ use crate::pooled::parameter_place::effect_of;
 use crate::pooled::sizes::held;
 use crate::verdict::tightening_fits::held_models;
 use snug_campaign::{Estimate, Interval, ParameterEstimate};
+use snug_identify::derived::{self, Derived};
 use snug_identify::{FitTask, identify, identify_all, in_batches};
 use snug_model::{BASE_PARAMETERS, Model};
 
@@ -18,6 +19,11 @@ pub struct LiveTightening {
     /// Mass, damping and stiffness with 95 % intervals, each in its unit; the effects' sizes held where all tightenings put them, known
     /// as well as they are.
     pub base: Vec<ParameterEstimate>,
+    /// At how many Hz mass, damping and stiffness ring, with a 95 % interval; `None` where they do not. With the damping ratio it is their
+    /// pair of poles.
+    pub rings_at_hz: Option<Derived>,
+    /// Their damping ratio \[–\]; `None` without a spring.
+    pub damping_ratio: Option<Derived>,
     /// The compared output as simulated, in its SI unit, a value for each sample of the window.
     pub output: Vec<f64>,
     /// The same, in its SI unit, had the torque stepped from nothing to [its largest](LiveCases::step_nm) at the window's start; `None`
@@ -75,9 +81,14 @@ impl LiveCases {
                 }
             })
             .collect();
+        let rig = case.model.rig();
+        let rings_at_hz = derived::damped_frequency(rig, &estimate);
+        let damping_ratio = derived::damping(rig, &estimate);
         estimate.parameters.truncate(BASE_PARAMETERS.len());
         Ok(LiveTightening {
             base: estimate.parameters,
+            rings_at_hz,
+            damping_ratio,
             step: step_response(case, &model, &values),
             output,
             numbers,

@@ -47,21 +47,22 @@ const DRAGGED: &str = "(async () => {
 const DRAGS: usize = 20;
 
 /// The table of a campaign that is so many times the mystery.
-pub async fn of_clicks(program: &Path, copies: usize) {
+pub async fn of_clicks(program: &Path, times: usize) {
     let folder = TempDir::new().unwrap();
+    let study = study_of(folder.path(), times);
     let begun = Instant::now();
-    let server = Server::begin(0, &study_of(folder.path(), copies));
+    let server = Server::begin(0, &study);
     let browser = Headless::launch(program.to_owned()).await;
     let tab = browser.open(&server.address(), 1400, "light").await;
     tab.until("document.querySelector('[data-error]')?.textContent > '1'")
         .await;
     println!(
         "{} tightenings: first error on screen after {:.1} s, browser started",
-        24 * copies,
+        24 * times,
         begun.elapsed().as_secs_f64()
     );
     println!("  click                  first [ms]  last [ms]  then a drag [ms]  longest");
-    for effect in of_which(&tab, copies).await {
+    for effect in of_which(&tab, times).await {
         is_quiet(&tab).await;
         let [first, last] = clicked(&tab, &format!("[data-effect={effect}] .switch")).await;
         is_quiet(&tab).await;
@@ -81,10 +82,10 @@ pub async fn of_clicks(program: &Path, copies: usize) {
 }
 
 /// Every effect of a campaign that is fitted at once, else some.
-async fn of_which(tab: &Tab, copies: usize) -> Vec<String> {
+async fn of_which(tab: &Tab, times: usize) -> Vec<String> {
     let all =
         "[...document.querySelectorAll('[data-switches] > li')].map(one => one.dataset.effect)";
-    match copies {
+    match times {
         1 => serde_json::from_value(tab.value(all).await).unwrap(),
         _ => EFFECTS.map(str::to_owned).to_vec(),
     }

@@ -1,25 +1,23 @@
-//! The mystery many times over: the same tightenings, made by more people.
+//! The mystery at another size: the same rig and hidden effect, more people.
 
 use crate::server::study_in;
+use snug_synthetic::fixtures::{MYSTERY_SEED, mystery_plan};
+use snug_synthetic::{CampaignPlan, MatStyle, simulate};
 use std::path::{Path, PathBuf};
 
-/// A study in `folder` on so many copies of the mystery.
-pub fn study_of(folder: &Path, copies: usize) -> PathBuf {
+/// A study in `folder` on the mystery, or on one that is so many times as large.
+pub fn study_of(folder: &Path, times: usize) -> PathBuf {
     let study = study_in(folder);
-    if copies == 1 {
+    if times == 1 {
         return study;
     }
-    let mystery = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fixtures/mystery");
+    let plan = CampaignPlan {
+        files: CampaignPlan::of_size(6 * times, 4).files,
+        ..mystery_plan()
+    };
     let data = folder.join("data");
-    std::fs::create_dir(&data).unwrap();
-    for file in std::fs::read_dir(mystery).unwrap() {
-        let file = file.unwrap();
-        let name = file.file_name().into_string().unwrap();
-        for copy in 0..copies {
-            let (person, rest) = name.split_at(3);
-            std::fs::copy(file.path(), data.join(format!("{person}{copy}{rest}"))).unwrap();
-        }
-    }
+    let campaign = simulate(&plan, MYSTERY_SEED).unwrap();
+    campaign.write(&data, MatStyle::default()).unwrap();
     std::fs::write(&study, format!("(source: (path: {data:?}))")).unwrap();
     study
 }

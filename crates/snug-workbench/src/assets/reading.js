@@ -1,7 +1,7 @@
 // Waits for the tightenings, then shows the workbench at the same address.
 'use strict';
 const sentence = document.querySelector('[data-sentence]');
-const told = new EventSource('/api/reading');
+const told = new EventSource(document.querySelector('[data-root]').dataset.root + '/api/reading');
 told.onmessage = message => {
   const event = JSON.parse(message.data);
   if (event.kind === 'ready') { told.close(); location.reload(); return; }

@@ -7,6 +7,8 @@ const element = (tag, text, name) => {
   if (name) made.className = name;
   return made;
 };
+// What addresses of this page's workbench begin with.
+const { root } = document.querySelector('[data-root]').dataset;
 const address = () => new URLSearchParams(location.search);
 const state = {
   effects: (address().get('effects') || '').split(',').filter(Boolean),
@@ -52,7 +54,7 @@ const GONE = 'The workbench does not answer. Is it still running? Nothing is los
 
 const ask = async (path, body) => {
   try {
-    const answer = await fetch(path, body && { method: 'POST', headers: { 'content-type': 'application/json' }, body: JSON.stringify({ session, ...body }) });
+    const answer = await fetch(root + path, body && { method: 'POST', headers: { 'content-type': 'application/json' }, body: JSON.stringify({ session, ...body }) });
     if (answer.ok) return answer.status === 202 ? {} : await answer.json();
     const text = await answer.text();
     try { fault(JSON.parse(text).sentence); } catch { fault(text); }
@@ -235,7 +237,7 @@ const force = async () => {
   try {
     const query = new URLSearchParams({ effects: state.effects.join(',') });
     if (state.before) query.set('before', state.before.join(','));
-    const answer = await fetch('/api/force?' + query);
+    const answer = await fetch(root + '/api/force?' + query);
     if (number !== forced) return;
     if (answer.ok) { one('force').innerHTML = await answer.text(); choosableCells(); }
     else forcedBy = '';
@@ -356,6 +358,7 @@ const draw = answer => {
   const [curves, step] = viewers, isSame = state.shown === state.tightening;
   const brushed = state.stretch && state.shown === undefined ? state.stretch.map(at => at * state.perSecond) : null;
   take(curves, answer, isSame ? curves.view : brushed);
+  zoomed();
   if (answer.step) take(step, answer.step, isSame ? step.view : null);
   step.root.hidden = !answer.step;
   state.shown = state.tightening;
@@ -384,7 +387,13 @@ const lookCloser = change => {
   remember();
   ask('/api/change', { kind: 'closer', ...closer() });
 };
-const zoomed = () => { one('brush').disabled = !viewers[0].view; };
+const zoomed = () => { one('brush').disabled = one('alone').disabled = !viewers[0].view; };
+const shownStretch = () => viewers[0].view.map(at => at / state.perSecond);
+// Another workbench, with the model and the tightening of this one.
+const moveTo = other => {
+  const query = new URLSearchParams({ effects: state.effects.join(','), tightening: state.tightening });
+  location.assign(`${other || '/'}?${query.toString().replaceAll('%2C', ',')}`);
+};
 
 items().forEach(item => item.querySelector('.switch').addEventListener('click', () => {
   const name = item.dataset.effect, has = state.effects.includes(name);
@@ -410,8 +419,14 @@ items().forEach(item => item.querySelector('[data-signature]').addEventListener(
   look();
 }));
 one('group').addEventListener('change', event => lookCloser({ group: event.target.value }));
-one('brush').addEventListener('click', () => lookCloser({ stretch: viewers[0].view.map(at => at / state.perSecond), cell: '' }));
+one('brush').addEventListener('click', () => lookCloser({ stretch: shownStretch(), cell: '' }));
 one('everything').addEventListener('click', () => lookCloser({ group: '', stretch: null, cell: '' }));
+one('alone').addEventListener('click', () => {
+  const [from, to] = shownStretch().map(at => Number(Math.max(0, at).toPrecision(6)));
+  moveTo(`/stretch/${from}/${to}`);
+});
+one('whole').hidden = !root;
+one('whole').addEventListener('click', () => moveTo(''));
 viewers[0].root.addEventListener('zoomed', zoomed);
 one('as-fitted').addEventListener('click', () => { letGo(); look(); });
 one('from-here').addEventListener('click', () => {
@@ -433,7 +448,7 @@ one('results').addEventListener('click', async () => {
   show('links', '');
   for (const link of answer?.links ?? []) {
     const anchor = element('a', link.split('/').pop());
-    Object.assign(anchor, { href: link, target: '_blank' });
+    Object.assign(anchor, { href: root + link, target: '_blank' });
     if (link.endsWith('.mcap')) anchor.download = 'recording.mcap';
     one('links').append(anchor, ' ');
   }
@@ -449,7 +464,7 @@ one('save').addEventListener('click', async () => {
 const listen = () => {
   const query = new URLSearchParams({ session, ...closer() });
   if (state.given || state.effects.length) query.set('effects', state.effects.join(','));
-  const events = new EventSource('/api/events?' + query);
+  const events = new EventSource(root + '/api/events?' + query);
   events.onmessage = message => {
     const event = JSON.parse(message.data);
     hear[event.kind]?.(event);

@@ -3,7 +3,7 @@
 use crate::bench::{Bench, locked};
 use crate::changes::EffectSet;
 use crate::error::WorkbenchError;
-use snug_study::{Study, write_with_effects};
+use snug_study::{Study, with_stretch, write_with_effects};
 use std::path::{Path, PathBuf};
 
 /// Writes the study with these effects; where it stands.
@@ -19,7 +19,13 @@ pub(crate) fn save(bench: &Bench, effects: &EffectSet) -> Result<PathBuf, Workbe
     };
     let text = match bench.study_file().filter(is_on_its_data) {
         // Its comments stay, and its data lie where they lay.
-        Some(file) => std::fs::read_to_string(file).map_err(failed)?,
+        Some(file) => {
+            let text = std::fs::read_to_string(file).map_err(failed)?;
+            match bench.study().preprocess.stretch {
+                Some(stretch) => with_stretch(&text, file, stretch)?,
+                None => text,
+            }
+        }
         // It was given other data, or there is none.
         None => on_absolute_data(bench.study()).map_err(failed)?.to_ron()?,
     };

@@ -8,7 +8,7 @@ use crate::changes::EffectSet;
 use crate::error::WorkbenchError;
 use crate::page;
 use crate::session::Session;
-use axum::extract::{Json, Path, Query, State};
+use axum::extract::{Json, Path, Query};
 use axum::http::{StatusCode, header};
 use axum::response::sse::{Event, KeepAlive, Sse};
 use axum::response::{Html, IntoResponse, Response};
@@ -23,10 +23,20 @@ use std::sync::atomic::AtomicBool;
 use tokio_stream::StreamExt;
 use tokio_stream::wrappers::{BroadcastStream, WatchStream};
 
+use crate::server::benches::{At, Benches, OF_A_STRETCH};
 use crate::server::guard::{Guard, guarded};
 
 /// All of it, behind the guard.
 pub(crate) fn router(bench: Arc<Bench>, guard: Guard) -> Router {
+    Router::new()
+        .merge(pages())
+        .nest(OF_A_STRETCH, pages())
+        .with_state(Arc::new(Benches::on(bench)))
+        .layer(middleware::from_fn_with_state(guard, guarded))
+}
+
+/// What there is on whole windows, and once more on every stretch.
+fn pages() -> Router<Arc<Benches>> {
     Router::new()
         .route("/", get(start))
         .route("/api/reading", get(reading))
@@ -37,8 +47,6 @@ pub(crate) fn router(bench: Arc<Bench>, guard: Guard) -> Router {
         .route("/api/save", post(save_study))
         .route("/api/results", post(make_results))
         .route("/results/{number}/{name}", get(result_file))
-        .with_state(bench)
-        .layer(middleware::from_fn_with_state(guard, guarded))
 }
 
 impl IntoResponse for WorkbenchError {
@@ -59,15 +67,15 @@ impl IntoResponse for WorkbenchError {
     }
 }
 
-async fn start(State(bench): State<Arc<Bench>>) -> Html<String> {
+async fn start(At { bench, root }: At) -> Html<String> {
     let reading = bench.reading().borrow().clone();
     Html(match reading {
         Reading::Done(campaign) => {
-            let page = page::working(&campaign).into_string();
+            let page = page::working(&campaign, &root).into_string();
             snug_report::markup(&page, campaign.prepared.vocabulary)
         }
         Reading::UnderWay(sentence) | Reading::Failed(sentence) => {
-            page::reading(&sentence).into_string()
+            page::reading(&sentence, &root).into_string()
         }
     })
 }
@@ -77,7 +85,7 @@ fn event(value: &Value) -> Result<Event, Infallible> {
     Ok(Event::default().data(value.to_string()))
 }
 
-async fn reading(State(bench): State<Arc<Bench>>) -> impl IntoResponse {
+async fn reading(At { bench, .. }: At) -> impl IntoResponse {
     let told = WatchStream::new(bench.reading()).map(|reading| {
         event(&match reading {
             Reading::UnderWay(sentence) => json!({ "kind": "reading", "sentence": sentence }),
@@ -103,7 +111,7 @@ struct Attendance {
 }
 
 async fn events(
-    State(bench): State<Arc<Bench>>,
+    At { bench, .. }: At,
     Query(page): Query<Attendance>,
 ) -> Result<Response, WorkbenchError> {
     let effects = EffectSet::from_address(&page.effects);
@@ -153,7 +161,7 @@ struct Wished {
 }
 
 async fn change(
-    State(bench): State<Arc<Bench>>,
+    At { bench, .. }: At,
     Json(wished): Json<Wished>,
 ) -> Result<StatusCode, WorkbenchError> {
     let wish: Box<dyn FnOnce(&mut Session) + Send> = match wished.wish {
@@ -203,7 +211,7 @@ async fn aside<T: Send + 'static>(
 }
 
 async fn tightening(
-    State(bench): State<Arc<Bench>>,
+    At { bench, .. }: At,
     Query(look): Query<Look>,
 ) -> Result<Json<Value>, WorkbenchError> {
     aside(move || bench.look(&look).map(Json)).await
@@ -225,7 +233,7 @@ struct Between {
 }
 
 async fn what_is_left(
-    State(bench): State<Arc<Bench>>,
+    At { bench, .. }: At,
     Query(between): Query<Between>,
 ) -> Result<Html<String>, WorkbenchError> {
     aside(move || {
@@ -249,7 +257,7 @@ async fn what_is_left(
 }
 
 async fn make_results(
-    State(bench): State<Arc<Bench>>,
+    At { bench, .. }: At,
     Json(which): Json<Which>,
 ) -> Result<Json<Value>, WorkbenchError> {
     let effects = EffectSet::from_address(&which.effects);
@@ -260,9 +268,16 @@ async fn make_results(
     Ok(Json(json!({ "links": links })))
 }
 
+/// A file of results, by the number of those.
+#[derive(Deserialize)]
+struct ResultFile {
+    number: usize,
+    name: String,
+}
+
 async fn result_file(
-    State(bench): State<Arc<Bench>>,
-    Path((number, name)): Path<(usize, String)>,
+    At { bench, .. }: At,
+    Path(ResultFile { number, name }): Path<ResultFile>,
 ) -> Result<Response, WorkbenchError> {
     aside(move || {
         let (path, kind) = bench.result_file(number, &name)?;
@@ -273,7 +288,7 @@ async fn result_file(
 }
 
 async fn save_study(
-    State(bench): State<Arc<Bench>>,
+    At { bench, .. }: At,
     Json(kept): Json<Which>,
 ) -> Result<Json<Value>, WorkbenchError> {
     let effects = EffectSet::from_address(&kept.effects);

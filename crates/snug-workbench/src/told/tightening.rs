@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use snug_campaign::words::effect_name::{effect_name, unit_text};
 use snug_campaign::words::number::rounded;
 use snug_campaign::{Interval, ParameterEstimate};
-use snug_diagnose::{ByHand, HandNumber, LiveFit, LiveTightening};
+use snug_diagnose::{ByHand, Derived, HandNumber, LiveFit, LiveTightening};
 use snug_model::{Effect, Law};
 
 /// One tightening in words: heading, and m, c, k under the model before, under the present one and under a rival; the numbers that
@@ -32,13 +32,21 @@ pub(crate) fn tightening(
         .flatten()
         .map(|(_, seen)| seen)
         .collect();
-    let facts: Vec<Value> = (now.1.base.iter().enumerate())
-        .map(|(row, parameter)| {
-            let amounts = columns.iter().map(|seen| amount(campaign, &seen.base[row]));
-            let name = std::iter::once(base_name(campaign, parameter).into());
-            name.chain(amounts).collect()
+    let row = |name: &str, amount: &dyn Fn(&LiveTightening) -> Value| -> Value {
+        let amounts = columns.iter().map(|seen| amount(seen));
+        std::iter::once(name.into()).chain(amounts).collect()
+    };
+    let base = now.1.base.iter().enumerate();
+    let mut facts: Vec<Value> = base
+        .map(|(place, parameter)| {
+            let name = base_name(campaign, parameter);
+            row(&name, &|seen| amount(campaign, &seen.base[place]))
         })
         .collect();
+    facts.push(row("rings at", &|seen| pole(seen.rings_at_hz, "Hz")));
+    facts.push(row("damping ratio ζ", &|seen| {
+        pole(seen.damping_ratio, "")
+    }));
     let error = |fit: &LiveFit| campaign.shown(fit.errors()[member]);
     let interval_s = campaign.prepared.live.tasks()[member]
         .tightening
@@ -61,6 +69,16 @@ pub(crate) fn tightening(
         "numbers": now.1.numbers.iter().map(|number| by_hand_number(campaign, number)).collect::<Vec<_>>(),
         "by_hand": by_hand.map(|by_hand| campaign.shown(by_hand.error)),
     })
+}
+
+/// A number of the pair of poles, and its interval.
+fn pole(derived: Option<Derived>, unit: &str) -> Value {
+    let Some(Derived { value, interval }) = derived else {
+        return json!(["–", ""]);
+    };
+    let shown = rounded(value, interval);
+    let interval = shown.interval.unwrap_or_else(|| "no interval".into());
+    json!([format!("{} {unit}", shown.value).trim_end(), interval])
 }
 
 /// Every size of a model's effects, in words.

@@ -4,3 +4,4 @@
 mod browser;
 mod mystery;
 mod strangers;
+mod stretch;

@@ -1,0 +1,53 @@
+//! A stretch of time that is dragged over is fitted alone, saved as a study, and left again.
+
+use crate::browser::{Headless, installed};
+use crate::server::{Server, study_in};
+use snug_study::{RunSettings, Study, run};
+use std::sync::atomic::AtomicBool;
+use tempfile::TempDir;
+
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn a_stretch_is_fitted_alone_and_saved() {
+    let Some(program) = installed() else { return };
+    let folder = TempDir::new().unwrap();
+    let server = Server::begin(0, &study_in(folder.path()));
+    let browser = Headless::launch(program).await;
+    let tab = browser.open(&server.address(), 1400, "light").await;
+    tab.is_ready("1.541").await;
+    tab.drag(0.1, 0.5).await;
+    tab.click("[data-alone]").await;
+    tab.until("document.querySelector('header').textContent.includes('s of every window alone')")
+        .await;
+    tab.until("document.querySelector('[data-error]')?.textContent > '1'")
+        .await;
+    let whole = "document.querySelector('[data-error]').textContent === '1.541'";
+    assert_eq!(tab.value(whole).await, false);
+    tab.click("[data-effect=stretch_reflex] .switch").await;
+    tab.until(
+        "document.querySelector('[data-says]').textContent === 'Nothing but the noise is left.'",
+    )
+    .await;
+    tab.click("[data-save]").await;
+    tab.until("document.querySelector('[data-saved]').textContent.startsWith('Saved as ')")
+        .await;
+    tab.click("[data-whole]").await;
+    tab.until("document.querySelector('[data-error]')?.textContent === '1.007'")
+        .await;
+    tab.was_well(server.port);
+    browser.close().await;
+    server.end();
+
+    // The same as a command: nothing after the stretch is there, and nothing before it is scored.
+    let study = Study::read(&folder.path().join("mystery.workbench.ron")).unwrap();
+    let stretch = study.preprocess.stretch.unwrap();
+    assert!(0.0 < stretch.from_s && stretch.from_s < stretch.to_s && stretch.to_s < 0.3);
+    let out = TempDir::new().unwrap();
+    let never = AtomicBool::new(false);
+    let outcome = run(&study, &RunSettings::new(out.path()), &|_| (), &never).unwrap();
+    let errors: Vec<f64> = (outcome.result.tightenings.iter())
+        .filter_map(|one| one.measures.error_over_noise)
+        .collect();
+    assert_eq!(errors.len(), 24);
+    let mean = errors.iter().sum::<f64>() / 24.0;
+    assert!((mean - 1.0).abs() < 0.05, "{errors:?}");
+}
