@@ -90,7 +90,7 @@ pub(crate) const LITTLE: f64 = 1e-3;
 /// Times that those who were left behind are fetched: with them the shared sizes move, and others may see the way. Chosen.
 pub(crate) const MOST_ROUNDS: usize = 3;
 /// Turns, from the smallest angle to the largest, up to which a weight on an arm is told by its angle \[–\]: over more it is a ripple of
-/// one turn, and gearing as likely as gravity; of a wheel that coasts for 60 turns it stood in for what air and bearing do. Chosen.
+/// one turn, and gearing as likely as gravity; of a wheel that coasts to a stop it stood in for what air and bearing do. Chosen.
 pub(crate) const FEW_TURNS: f64 = 5.0;
 /// Samples to either side over which balances of torques are averaged to read off wavelengths: the shortest does not average
 /// out what comes fast, the longest takes most noise off a second derivative. Chosen.

@@ -203,8 +203,8 @@ impl<'a> Changed<'a> {
 }
 
 /// Whether a channel is not what it is declared to be: `own`, the study's own model, explains too little, and m, c, k alone would explain
-/// enough of another derivative of the angle, or most with the input's other sign or the columns swapped; or the rig pushes itself away
-/// and the fit may not. What effects make of that is no rig.
+/// enough of another derivative of the angle, or most with the input's other sign or the columns swapped. What effects make of that is no rig. Of
+/// a rig that pushes itself away gravity may be what is missing.
 pub(crate) fn is_declared_wrong(cases: &[FitTask<'_>], own: &Fitted) -> bool {
     if is_a_model(share(cases, own)) {
         return false;

@@ -22,7 +22,11 @@ impl Stretch {
         (self.from_s / interval_s).round() as usize
     }
 
-    pub(crate) fn check(self) -> Result<(), PreprocessError> {
+    /// Checks both ends.
+    ///
+    /// # Errors
+    /// [`PreprocessError::SettingOutOfRange`] for one that is not allowed.
+    pub fn check(self) -> Result<(), PreprocessError> {
         let Self { from_s, to_s } = self;
         in_range("stretch.from_s", from_s, 0.0, 1e9, "0 or more (seconds)")?;
         let least_s = from_s.next_up();

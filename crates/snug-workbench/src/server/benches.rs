@@ -73,19 +73,15 @@ impl FromRequestParts<Arc<Benches>> for At {
             return Ok(of_whole());
         };
         let (from_s, to_s) = (from.parse().ok(), to.parse().ok());
-        match (from_s, to_s) {
-            (Some(begin), Some(end))
-                if (0.0..f64::MAX).contains(&begin) && end > begin && f64::is_finite(end) =>
-            {
-                Ok(Self {
-                    bench: benches.of(Stretch {
-                        from_s: begin,
-                        to_s: end,
-                    }),
-                    root: format!("/stretch/{from}/{to}"),
-                })
-            }
-            _ => Err(WorkbenchError::NoStretch { from_s, to_s }),
+        let stretch = from_s
+            .zip(to_s)
+            .map(|(from_s, to_s)| Stretch { from_s, to_s });
+        match stretch.filter(|stretch| stretch.check().is_ok()) {
+            Some(stretch) => Ok(Self {
+                bench: benches.of(stretch),
+                root: format!("/stretch/{from}/{to}"),
+            }),
+            None => Err(WorkbenchError::NoStretch { from_s, to_s }),
         }
     }
 }

@@ -372,9 +372,10 @@ fn too_short(f: &mut Formatter<'_>, left_out: usize, samples: usize) -> fmt::Res
 }
 
 fn copies(f: &mut Formatter<'_>, left_out: usize, first: &str, of: &str) -> fmt::Result {
-    let (them, hold) = match left_out {
-        1 => ("1 tightening".to_owned(), "it holds"),
-        many => (counted(many, "tightening"), "they hold"),
+    let them = counted(left_out, "tightening");
+    let hold = match left_out {
+        1 => "it holds",
+        _ => "they hold",
     };
     write!(
         f,
