@@ -10,12 +10,10 @@ use thiserror::Error;
 #[non_exhaustive]
 pub enum DiagnoseError {
     /// No tightening can be compared with a simulation.
-    #[error("none of the {tightenings} tightenings can be compared with the model: {reason}")]
+    #[error("no tightening can be compared with the model: {reason}")]
     NothingToCompare {
-        /// Tightenings that were offered.
-        tightenings: usize,
         /// Why not.
-        reason: &'static str,
+        reason: String,
     },
     /// So few samples count that a model's own parameters could follow them.
     #[error("{samples} samples lie there, more than {own} are needed to tell anything")]

@@ -16,9 +16,7 @@ pub enum IdentifyError {
         quantity: Quantity,
     },
     /// Fewer samples are scored than parameters are free.
-    #[error(
-        "{residuals} scored samples (after unscored_samples) cannot determine {parameters} parameters"
-    )]
+    #[error("{residuals} samples count, too few to determine {parameters} parameters")]
     TooShort {
         /// Scored samples.
         residuals: usize,

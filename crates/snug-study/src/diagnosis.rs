@@ -61,9 +61,8 @@ fn nothing_to_compare(
     ) {
         // The outcome says of the first why it could not be used.
         (0, _) | (_, Some(_)) => Ok(outcome),
-        (tightenings, None) => Err(DiagnoseError::NothingToCompare {
-            tightenings,
-            reason: "each is faulty, kept for validation or too short; findings.json says which are faulty",
+        (_, None) => Err(DiagnoseError::NothingToCompare {
+            reason: "each is faulty, kept for validation or too short; findings.json says which are faulty".into(),
         }
         .into()),
     }

@@ -13,7 +13,7 @@ use snug_campaign::{Factor, Intersample, Quantity, Rig, Tightening};
 use snug_identify::{ConstraintKind, IdentifyError, IdentifySettings};
 use snug_ingest::Source;
 use snug_model::{Model, ModelError, ModelSettings, ParameterSettings};
-use snug_preprocess::{PreprocessSettings, Preset};
+use snug_preprocess::{PreprocessSettings, Preset, Stretch};
 use snug_record::RecordSettings;
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
@@ -188,6 +188,19 @@ impl Study {
         let mut settings = self.identify.clone();
         settings.unscored_samples = settings.unscored_samples.max(before);
         Cow::Owned(settings)
+    }
+
+    /// Which setting leaves samples of every window out of account, in a clause; `None` where all count.
+    pub(crate) fn what_counts(&self) -> Option<String> {
+        match (self.preprocess.stretch, self.identify.unscored_samples) {
+            (Some(Stretch { from_s, to_s }), _) => Some(format!(
+                "only what is from {from_s} to {to_s} s in a window counts (preprocess.stretch)"
+            )),
+            (None, 0) => None,
+            (None, first) => Some(format!(
+                "the first {first} samples of a window do not count (identify.unscored_samples)"
+            )),
+        }
     }
 
     /// The parameters that differ between groups of tightenings, and what groups these.

@@ -131,6 +131,12 @@ impl Bench {
         self.reading.subscribe()
     }
 
+    /// Whether a page waits for the tightenings or shows them.
+    pub(crate) fn has_listeners(&self) -> bool {
+        self.reading.receiver_count() > 0
+            || locked(&self.sessions).values().any(Session::has_listeners)
+    }
+
     /// What is worked on.
     pub(crate) fn campaign(&self) -> Result<Arc<Campaign>, WorkbenchError> {
         match &*self.reading.borrow() {

@@ -67,6 +67,14 @@ pub enum WorkbenchError {
         /// Where it was to end \[s\].
         to_s: Option<f64>,
     },
+    /// More stretches at a time than there is memory for.
+    #[error(
+        "{most} stretches of time are shown in other pages already, each with tightenings of its own in memory; close one of these pages first"
+    )]
+    ManyStretches {
+        /// As many as there may be.
+        most: usize,
+    },
     /// A cell of the map of the missing force that is none.
     #[error(
         "cell = {given:?} is no cell of the map: four finite numbers are needed, lower and upper edge of the grip's displacement in m and of its velocity in m/s, with commas between them"

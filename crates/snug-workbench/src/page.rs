@@ -3,8 +3,8 @@
 use crate::campaign::Campaign;
 use maud::{Markup, PreEscaped, html};
 use serde_json::{Value, json};
-use snug_campaign::words::counted;
 use snug_campaign::words::effect_name::{effect_name, raised};
+use snug_campaign::words::{capitalised, counted};
 use snug_model::Effect;
 use snug_report::viewer::{SCRIPT, document, viewer};
 
@@ -20,7 +20,20 @@ fn around(title: &str, content: &Markup, script: &[&str]) -> Markup {
     document(&format!("{title} – Snug workbench"), OWN_STYLE, &body)
 }
 
-/// While tightenings are read, or where they cannot be; `root` is what its addresses begin with.
+/// Where tightenings cannot be worked on; of a stretch of every window, with the address of `whole` ones.
+pub(crate) fn failed(sentence: &str, whole: Option<&str>) -> Markup {
+    let content = html! {
+        main.waiting {
+            p.kind { "Snug workbench" }
+            h1 { "There is nothing to work on" }
+            p.lead role="alert" { (capitalised(sentence)) }
+            @if let Some(address) = whole { p { a href=(address) { "To whole windows" } } }
+        }
+    };
+    around("Nothing to work on", &content, &[])
+}
+
+/// While tightenings are read; `root` is what its addresses begin with.
 pub(crate) fn reading(sentence: &str, root: &str) -> Markup {
     let content = html! {
         main.waiting data-root=(root) {

@@ -66,8 +66,7 @@ impl<'a> Cases<'a> {
     ) -> Result<Self, DiagnoseError> {
         if all.is_empty() {
             return Err(DiagnoseError::NothingToCompare {
-                tightenings: 0,
-                reason,
+                reason: reason.to_owned(),
             });
         }
         for case in all {

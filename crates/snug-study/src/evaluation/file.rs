@@ -8,8 +8,9 @@ use crate::evaluation::validation::mean_estimate;
 use crate::study::Study;
 use snug_campaign::{Estimate, Finding, Recording, Rejection, Severity, TighteningId};
 use snug_files::Disk;
-use snug_identify::in_batches;
+use snug_identify::{IdentifyError, in_batches};
 use snug_preprocess::{Prepared, Preprocessed, Preset, Window, preprocess};
+use std::iter;
 use std::path::Path;
 
 /// What became of one file.
@@ -180,7 +181,11 @@ fn evaluate(
         match outcome {
             Ok(done) => evaluated.push(done),
             Err(error) => {
-                findings.push(not_identified(&one.tightening.id, &error.to_string()));
+                let is_short = matches!(error, IdentifyError::TooShort { .. });
+                let counts = is_short.then(|| study.what_counts()).flatten();
+                let why = iter::once(error.to_string()).chain(counts);
+                let why: Vec<String> = why.collect();
+                findings.push(not_identified(&one.tightening.id, &why.join("; ")));
             }
         }
     }

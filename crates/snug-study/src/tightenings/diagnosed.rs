@@ -55,7 +55,7 @@ pub fn diagnose_prepared(
 ) -> Result<PreparedDiagnosis, StudyError> {
     study.check()?;
     let comparable = comparable(cases_of(study, prepared)?);
-    let compared = common(&comparable.cases, prepared.len())?;
+    let compared = common(&comparable.cases)?;
     let pool = pool(threads)?;
     let (last, ladder) =
         pool.install(|| climbed(study, comparable, verb, progress, interrupted))?;
@@ -84,10 +84,7 @@ pub fn diagnose_prepared(
 /// # Errors
 /// [`StudyError`] where none can be.
 pub fn compared_by(study: &Study, prepared: &[Prepared]) -> Result<Compared, StudyError> {
-    common(
-        &comparable(cases_of(study, prepared)?).cases,
-        prepared.len(),
-    )
+    common(&comparable(cases_of(study, prepared)?).cases)
 }
 
 fn cases_of(study: &Study, prepared: &[Prepared]) -> Result<Vec<FitTask<'static>>, StudyError> {
@@ -95,13 +92,12 @@ fn cases_of(study: &Study, prepared: &[Prepared]) -> Result<Vec<FitTask<'static>
     Ok((cases.collect::<Result<Vec<_>, _>>()?.into_iter().flatten()).collect())
 }
 
-/// What comparable cases, which came of so many tightenings, have in common.
-fn common(cases: &[FitTask<'_>], tightenings: usize) -> Result<Compared, StudyError> {
+/// What comparable cases have in common.
+fn common(cases: &[FitTask<'_>]) -> Result<Compared, StudyError> {
     match cases.first() {
         Some(first) => Ok(compared(first)),
         None => Err(DiagnoseError::NothingToCompare {
-            tightenings,
-            reason: "each is faulty or too short; the findings of the dataset say why",
+            reason: "each is faulty or too short; the findings of the dataset say why".into(),
         }
         .into()),
     }
@@ -152,12 +148,8 @@ pub fn shared_parameters(
     prepared: &Prepared,
 ) -> Result<Vec<SharedParameter>, StudyError> {
     let Ok(case) = case_of(study, prepared)? else {
-        let reason = "it is faulty or too short";
-        return Err(DiagnoseError::NothingToCompare {
-            tightenings: 1,
-            reason,
-        }
-        .into());
+        let reason = "it is faulty or too short".into();
+        return Err(DiagnoseError::NothingToCompare { reason }.into());
     };
     let effects = effects(study, &study.model.effects, std::slice::from_ref(&case))?;
     Ok(snug_diagnose::shared_parameters(&case, &effects)?)

@@ -8,6 +8,7 @@ use crate::study::Study;
 use crate::tasks::cases::{FilesRead, chosen, with_settled};
 use crate::tasks::settling::{Settled, settle};
 use snug_campaign::SignalUnits;
+use snug_campaign::words::capitalised;
 use snug_campaign::words::vocabulary::Vocabulary;
 use snug_diagnose::{DiagnoseError, Goal, LiveCases, LiveFit, Question};
 use snug_files::Host;
@@ -42,11 +43,20 @@ pub fn prepare(study: &Study, tell: &(dyn Fn(FilesRead) + Sync)) -> Result<Prepa
     let most = study.diagnosis.most_tightenings;
     let (comparable, _) = chosen(study, &Host, &files, most, tell)?;
     if comparable.cases.is_empty() {
-        return Err(DiagnoseError::NothingToCompare {
-            tightenings: 0,
-            reason: "each is faulty, kept for validation or too short; `run` on the same data says why",
-        }
-        .into());
+        let known: Vec<String> = (comparable.reasons.iter().map(ToString::to_string))
+            .chain(
+                study
+                    .what_counts()
+                    .map(|counts| format!("{}.", capitalised(&counts))),
+            )
+            .collect();
+        let reason = match known.is_empty() {
+            true => {
+                "each is faulty or kept for validation; `run` on the same data says which".into()
+            }
+            false => known.join(" "),
+        };
+        return Err(DiagnoseError::NothingToCompare { reason }.into());
     }
     let cases = comparable.cases;
     let (study, cases, reasons) = match settle(study, &cases) {

@@ -6,18 +6,19 @@ use crate::kept::locked;
 use axum::extract::{FromRequestParts, RawPathParams};
 use axum::http::request::Parts;
 use snug_study::Stretch;
-use std::collections::VecDeque;
 use std::sync::{Arc, Mutex};
 
 /// Where the pages of a stretch are, by where it begins and ends \[s\].
 pub(crate) const OF_A_STRETCH: &str = "/stretch/{from_s}/{to_s}";
-/// Stretches that are worked on at a time, each with tightenings of its own in memory; of more, the oldest is forgotten. Chosen.
-const MOST: usize = 3;
+/// Stretches that are worked on at a time, each with tightenings of its own in memory. Of more, one that no page shows is forgotten, the
+/// one that was asked for longest ago; where pages show all, one more is refused. Chosen.
+const MOST: usize = 6;
 
 /// Every workbench of this server.
 pub(crate) struct Benches {
     whole: Arc<Bench>,
-    parts: Mutex<VecDeque<(Stretch, Arc<Bench>)>>,
+    /// The one that was asked for last at the end.
+    parts: Mutex<Vec<(Stretch, Arc<Bench>)>>,
 }
 
 impl Benches {
@@ -29,10 +30,15 @@ impl Benches {
     }
 
     /// The one on a stretch alone, which begins to read where nobody asked for it before.
-    fn of(&self, stretch: Stretch) -> Arc<Bench> {
+    fn of(&self, stretch: Stretch) -> Result<Arc<Bench>, WorkbenchError> {
         let mut parts = locked(&self.parts);
-        if let Some((_, known)) = parts.iter().find(|(known, _)| *known == stretch) {
-            return Arc::clone(known);
+        if let Some(place) = parts.iter().position(|(known, _)| *known == stretch) {
+            parts[place..].rotate_left(1);
+            return Ok(Arc::clone(&parts[parts.len() - 1].1));
+        }
+        if parts.len() >= MOST {
+            let idle = parts.iter().position(|(_, bench)| !bench.has_listeners());
+            parts.remove(idle.ok_or(WorkbenchError::ManyStretches { most: MOST })?);
         }
         let mut study = self.whole.study().clone();
         study.preprocess.stretch = Some(stretch);
@@ -40,11 +46,8 @@ impl Benches {
         let bench = Bench::new(study, file);
         let reader = Arc::clone(&bench);
         std::thread::spawn(move || reader.read());
-        if parts.len() >= MOST {
-            parts.pop_front();
-        }
-        parts.push_back((stretch, Arc::clone(&bench)));
-        bench
+        parts.push((stretch, Arc::clone(&bench)));
+        Ok(bench)
     }
 }
 
@@ -78,7 +81,7 @@ impl FromRequestParts<Arc<Benches>> for At {
             .map(|(from_s, to_s)| Stretch { from_s, to_s });
         match stretch.filter(|stretch| stretch.check().is_ok()) {
             Some(stretch) => Ok(Self {
-                bench: benches.of(stretch),
+                bench: benches.of(stretch)?,
                 root: format!("/stretch/{from}/{to}"),
             }),
             None => Err(WorkbenchError::NoStretch { from_s, to_s }),

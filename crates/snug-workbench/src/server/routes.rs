@@ -8,7 +8,7 @@ use crate::changes::EffectSet;
 use crate::error::WorkbenchError;
 use crate::page;
 use crate::session::Session;
-use axum::extract::{Json, Path, Query};
+use axum::extract::{Json, Path, Query, RawQuery};
 use axum::http::{StatusCode, header};
 use axum::response::sse::{Event, KeepAlive, Sse};
 use axum::response::{Html, IntoResponse, Response};
@@ -49,10 +49,10 @@ fn pages() -> Router<Arc<Benches>> {
         .route("/results/{number}/{name}", get(result_file))
 }
 
-impl IntoResponse for WorkbenchError {
-    fn into_response(self) -> Response {
-        let status = match &self {
-            Self::StillReading => StatusCode::SERVICE_UNAVAILABLE,
+impl WorkbenchError {
+    fn status(&self) -> StatusCode {
+        match self {
+            Self::StillReading | Self::ManyStretches { .. } => StatusCode::SERVICE_UNAVAILABLE,
             Self::NotFitted | Self::NoTightening { .. } | Self::NoResults => StatusCode::NOT_FOUND,
             Self::NoGroup { .. }
             | Self::NoStretch { .. }
@@ -61,23 +61,38 @@ impl IntoResponse for WorkbenchError {
             | Self::NoNumbers { .. } => StatusCode::BAD_REQUEST,
             Self::Study(error) if error.is_bad_argument() => StatusCode::BAD_REQUEST,
             _ => StatusCode::INTERNAL_SERVER_ERROR,
-        };
-        let body = json!({ "sentence": self.to_string() });
-        (status, Json(body)).into_response()
+        }
     }
 }
 
-async fn start(At { bench, root }: At) -> Html<String> {
+impl IntoResponse for WorkbenchError {
+    fn into_response(self) -> Response {
+        let body = json!({ "sentence": self.to_string() });
+        (self.status(), Json(body)).into_response()
+    }
+}
+
+async fn start(at: Result<At, WorkbenchError>, RawQuery(shown): RawQuery) -> Response {
+    let whole = format!("/?{}", shown.unwrap_or_default());
+    let At { bench, root } = match at {
+        Ok(at) => at,
+        Err(error) => {
+            let page = page::failed(&error.to_string(), Some(&whole));
+            return (error.status(), Html(page.into_string())).into_response();
+        }
+    };
     let reading = bench.reading().borrow().clone();
-    Html(match reading {
+    let page = match reading {
         Reading::Done(campaign) => {
             let page = page::working(&campaign, &root).into_string();
             snug_report::markup(&page, campaign.prepared.vocabulary)
         }
-        Reading::UnderWay(sentence) | Reading::Failed(sentence) => {
-            page::reading(&sentence, &root).into_string()
+        Reading::UnderWay(sentence) => page::reading(&sentence, &root).into_string(),
+        Reading::Failed(sentence) => {
+            page::failed(&sentence, Some(&*whole).filter(|_| !root.is_empty())).into_string()
         }
-    })
+    };
+    Html(page).into_response()
 }
 
 /// An event as the browser takes it.

@@ -2,6 +2,7 @@
 
 use crate::browser::{Events, get, post, workbench};
 use serde_json::{Value, json};
+use std::time::{Duration, Instant};
 
 const PART: &str = "/stretch/0.05/0.2";
 
@@ -47,6 +48,55 @@ fn a_stretch_is_fitted_beside_whole_windows() {
     // Whole windows stay what they are.
     let mut whole = Events::listen(port, "/api/events?session=two&effects=");
     assert_eq!(whole.until("fitted").pop().unwrap()["shown"], "1.541");
+}
+
+/// A stretch that a page shows is never forgotten for another; where there is no room, the page says so, until another page is closed.
+#[test]
+fn more_stretches_than_there_is_room_for_wait_for_a_page_to_be_closed() {
+    let port = workbench();
+    let part = |number: usize| format!("/stretch/0.0{number}/0.2");
+    let ready = |number: usize| {
+        let mut reading = Events::listen(port, &format!("{}/api/reading", part(number)));
+        reading.until("ready");
+        reading
+    };
+    let mut shown: Vec<Events> = (1..=6).map(ready).collect();
+    for number in 1..=6 {
+        let (status, _) = get(port, &format!("{}/api/tightening?number=3", part(number)));
+        assert_eq!(status, 200);
+    }
+    let (status, page) = get(port, &format!("{}?effects=stretch_reflex", part(7)));
+    assert_eq!(status, 503);
+    assert!(page.contains("close one of these pages first"), "{page}");
+    assert!(page.contains("href=\"/?effects=stretch_reflex\""), "{page}");
+    shown.remove(2);
+    let patience = Instant::now();
+    while get(port, &part(7)).0 != 200 {
+        assert!(patience.elapsed() < Duration::from_secs(60));
+        std::thread::sleep(Duration::from_millis(100));
+    }
+    ready(7);
+    // Those that are still shown need not be read again.
+    for number in [1, 2, 4, 5, 6] {
+        let (status, _) = get(port, &format!("{}/api/tightening?number=3", part(number)));
+        assert_eq!(status, 200);
+    }
+}
+
+#[test]
+fn a_stretch_beyond_every_window_says_so_and_leads_back() {
+    let port = workbench();
+    let address = "/stretch/5/6?effects=stretch_reflex";
+    Events::listen(port, "/stretch/5/6/api/reading").until("failed");
+    let (status, page) = get(port, address);
+    assert_eq!(status, 200);
+    for told in [
+        "24 tightenings took no part",
+        "Only what is from 5 to 6 s in a window counts (preprocess.stretch)",
+        "href=\"/?effects=stretch_reflex\"",
+    ] {
+        assert!(page.contains(told), "{page}");
+    }
 }
 
 #[test]

@@ -314,8 +314,7 @@ fn who_ends_a_selection_keeps_what_it_reached_and_other_errors_are_told() {
     assert!(ended.is_interrupted());
     assert_eq!((ended.rungs.len(), ended.ranking.candidates.len()), (1, 1));
     let failed = path(300.0, 0.01, 50.0).until_interrupted(Err(DiagnoseError::NothingToCompare {
-        tightenings: 0,
-        reason: "there is none",
+        reason: "there is none".into(),
     }));
     assert!(matches!(
         failed,
