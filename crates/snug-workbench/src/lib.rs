@@ -15,4 +15,4 @@ mod told;
 pub use bench::Bench;
 pub use error::WorkbenchError;
 pub use opening::{Notice, Opening, open};
-pub use server::{Doors, serve};
+pub use server::{Doors, runtime, serve};

@@ -2,7 +2,7 @@
 
 use crate::bench::Bench;
 use crate::error::WorkbenchError;
-use crate::server::{Doors, serve};
+use crate::server::{Doors, runtime, serve};
 use snug_study::Study;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -46,8 +46,7 @@ pub enum Notice {
 /// # Errors
 /// [`WorkbenchError::Runtime`], [`WorkbenchError::PortTaken`], [`WorkbenchError::Port`] and [`WorkbenchError::Server`].
 pub fn open(opening: Opening, tell: &dyn Fn(Notice)) -> Result<(), WorkbenchError> {
-    let runtime = tokio::runtime::Runtime::new();
-    let runtime = runtime.map_err(|source| WorkbenchError::Runtime { source })?;
+    let runtime = runtime()?;
     let ended = runtime.block_on(attend(opening, tell));
     // A fit that is under way is nobody's any more.
     runtime.shutdown_background();

@@ -1,7 +1,7 @@
 //! A workbench on the mystery that ships with Snug, which can be ended and begun again at the same port.
 
 use snug_study::Study;
-use snug_workbench::{Bench, Doors, serve};
+use snug_workbench::{Bench, Doors, runtime, serve};
 use std::path::Path;
 use std::sync::Arc;
 use tokio::runtime::Runtime;
@@ -19,7 +19,7 @@ impl Server {
         let bench = Bench::new(study, Some(study_file.to_owned()));
         let reader = Arc::clone(&bench);
         std::thread::spawn(move || reader.read());
-        let runtime = Runtime::new().unwrap();
+        let runtime = runtime().unwrap();
         let (port_of, bound) = std::sync::mpsc::channel();
         runtime.spawn(async move {
             let doors = Doors::open(port).await.unwrap();

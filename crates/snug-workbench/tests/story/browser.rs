@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 use snug_study::Study;
-use snug_workbench::{Bench, Doors, serve};
+use snug_workbench::{Bench, Doors, runtime, serve};
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
 use std::path::Path;
@@ -19,7 +19,7 @@ pub fn workbench() -> u16 {
     let reader = Arc::clone(&bench);
     let (port_of, port) = std::sync::mpsc::channel();
     std::thread::spawn(move || {
-        let runtime = tokio::runtime::Runtime::new().unwrap();
+        let runtime = runtime().unwrap();
         runtime.block_on(async {
             let doors = Doors::open(0).await.unwrap();
             port_of.send(doors.port()).unwrap();
