@@ -1,13 +1,14 @@
 //! Window `Whole`: a segment as it was measured, for rigs without a quiet part.
 
 use crate::prepared::Prepared;
+use crate::quality::wrapped::{Wrapped, unwrap};
 use crate::segment::channel::Channel;
 use crate::segment::context::Context;
 use crate::segment::integration::complete;
 use crate::segment::peak_torque::peak_torque_nm;
 use crate::segment::remarks::Remarks;
 use crate::segment::signals::Signals;
-use snug_campaign::{Finding, Segment};
+use snug_campaign::{Finding, Quantity, Segment};
 
 /// Takes every sample; nothing is zeroed, and the noise floor is left to the fit's residual.
 pub(crate) fn prepare(
@@ -28,6 +29,9 @@ pub(crate) fn prepare(
             format!("the input is {first} Nm throughout; only initial motion can excite the rig");
         remarks.note("constant_channel", Some(Channel::Torque), message);
     }
+    if let Some(angle_rad) = &mut signals.motion.displacement_rad {
+        tell_wrapped(unwrap(angle_rad), remarks);
+    }
     complete(&mut signals.motion, context.interval_s);
     let peak = peak_torque_nm(&signals.torque_nm);
     Ok(Prepared {
@@ -36,4 +40,32 @@ pub(crate) fn prepare(
         zero_sample: None,
         data_quality_rejects: false,
     })
+}
+
+/// Says that an angle begins anew again and again.
+fn tell_wrapped(wrapped: Option<Wrapped>, remarks: &mut Remarks) {
+    let Some(Wrapped {
+        times,
+        period_rad,
+        is_turn,
+    }) = wrapped
+    else {
+        return;
+    };
+    let channel = Some(Channel::Motion(Quantity::Displacement));
+    match is_turn {
+        true => {
+            let message = format!(
+                "the angle begins anew after every turn, {times} times; its turns are put together"
+            );
+            remarks.repaired("wrapped_angle", channel, message);
+        }
+        false => {
+            let message = format!(
+                "the angle jumps {times} times by about {period_rad:.4} rad and goes on from there, as a counter does that runs over; it is taken \
+                 as it is"
+            );
+            remarks.note("wrapped_angle", channel, message);
+        }
+    }
 }

@@ -6,3 +6,4 @@ pub(crate) mod polarity;
 pub(crate) mod saturation;
 pub(crate) mod spikes;
 pub(crate) mod stuck;
+pub(crate) mod wrapped;
