@@ -3,7 +3,7 @@
 
 use snug_least_squares::{
     Constraints, DenseResidual, EvaluationError, PooledResidual, PooledSettings, Residual,
-    Settings, Trial, solve, solve_pooled, solve_pooled_followed,
+    ResidualNoise, Settings, Trial, solve, solve_pooled, solve_pooled_followed,
 };
 use std::ops::ControlFlow;
 
@@ -135,7 +135,9 @@ impl Residual for Stacked {
     }
 }
 
+/// The same optimum; and where no bound holds a shared parameter, the same standard errors of these.
 fn agree(shared_set: Constraints, own_set: impl Fn() -> Constraints, stacked_set: Constraints) {
+    let are_shared_free = shared_set == Constraints::new(2);
     let starts = vec![vec![0.8, 0.1]; MEMBERS];
     let own_sets: Vec<Constraints> = (0..MEMBERS).map(|_| own_set()).collect();
     let settings = PooledSettings {
@@ -164,6 +166,22 @@ fn agree(shared_set: Constraints, own_set: impl Fn() -> Constraints, stacked_set
     }
     assert!((pooled.cost() / stacked.cost - 1.0).abs() < 1e-9);
     assert!(pooled.converged);
+    if !are_shared_free {
+        return;
+    }
+    let [bb, bd, _, dd] = pooled.curvature()[..] else {
+        panic!("two shared parameters")
+    };
+    let determinant = bb * dd - bd * bd;
+    let of_all = stacked.covariance(ResidualNoise::Unit).standard_errors;
+    for (variance, place) in [(dd / determinant, 0), (bb / determinant, 1)] {
+        let expected = of_all[2 * MEMBERS + place].unwrap();
+        assert!(
+            (variance.sqrt() / expected - 1.0).abs() < 1e-6,
+            "{} {expected}",
+            variance.sqrt()
+        );
+    }
 }
 
 #[test]
@@ -191,6 +209,21 @@ fn on_bounds_of_shared_and_own_parameters_it_is_the_stacked_optimum() {
         stacked.bound(2 * i + 1, -0.3, 10.0, "c");
     }
     agree(shared, own, stacked);
+}
+
+/// A member's parameter that presses on its bound imitates nothing: what all share is known better for it.
+#[test]
+fn on_bounds_of_own_parameters_shared_ones_are_as_certain_as_stacked() {
+    let own = || {
+        let mut own = Constraints::new(2);
+        own.bound(1, -0.3, 10.0, "c");
+        own
+    };
+    let mut stacked = Constraints::new(2 * MEMBERS + 2);
+    for i in 0..MEMBERS {
+        stacked.bound(2 * i + 1, -0.3, 10.0, "c");
+    }
+    agree(Constraints::new(2), own, stacked);
 }
 
 /// Members 0 and 1 share one d, the others another; all share b.

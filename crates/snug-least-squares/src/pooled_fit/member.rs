@@ -136,25 +136,23 @@ impl Member {
         }
     }
 
-    pub fn profile(&self) -> Profile {
-        let (n, p) = (self.own.len(), self.shared.len());
-        let size = n + p;
-        // The last p rows of the factor: R_αα.
-        let column = |index: usize| &self.here.factor[(n + index) * size + n..][..p];
-        told(self, column, &self.here.reachable[n..])
-    }
-}
-
-/// Cost, gradient and curvature over the shared parameters, of a member's triangular columns over them and what they reach.
-fn told<'c>(member: &Member, column: impl Fn(usize) -> &'c [f64], reachable: &[f64]) -> Profile {
-    let p = member.shared.len();
-    Profile {
-        cost: member.here.cost,
-        shared: member.shared.clone(),
-        curvature: (0..p * p)
-            .map(|at| dot(column(at % p), column(at / p)))
-            .collect(),
-        gradient: (0..p).map(|j| dot(column(j), reachable)).collect(),
+    /// What it says of the parameters that it shares where it stands, its own free to follow: along an inequality of `set` that they
+    /// press on, never through it.
+    pub fn profile(&mut self, set: &Constraints, work: &mut Work) -> Profile {
+        let p = self.shared.len();
+        let places = self.shared.last().map_or(0, |last| last + 1);
+        self.follow(&vec![0.0; places], LEAST_DAMPING, set, work);
+        self.eliminate(LEAST_DAMPING, set);
+        let Rest { rows, right } = &self.rest;
+        let column = |index: usize| &rows[index * p..][..p];
+        Profile {
+            cost: self.here.cost,
+            shared: self.shared.clone(),
+            curvature: (0..p * p)
+                .map(|at| dot(column(at % p), column(at / p)))
+                .collect(),
+            gradient: (0..p).map(|j| dot(column(j), right)).collect(),
+        }
     }
 }
 
@@ -166,11 +164,7 @@ pub fn profile_of(here: Linearization, own: &[f64], set: &Constraints) -> Profil
     let p = here.reachable.len() - own.len();
     let mut member = Member::new(own.to_vec(), (0..p).collect());
     member.here = here;
-    let shift = vec![0.0; p];
-    member.follow(&shift, LEAST_DAMPING, set, &mut Work::default());
-    member.eliminate(LEAST_DAMPING, set);
-    let Rest { rows, right } = &member.rest;
-    told(&member, |index| &rows[index * p..][..p], right)
+    member.profile(set, &mut Work::default())
 }
 
 /// The least-squares problem in α alone, every β_i following: what all leave to it, stacked and triangularised; first those

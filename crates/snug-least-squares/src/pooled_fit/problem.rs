@@ -76,7 +76,8 @@ pub struct Profile {
     pub cost: f64,
     /// Which p of the shared parameters it depends on, ascending.
     pub shared: Vec<usize>,
-    /// Projected curvature S_i = Z̃ᵀZ̃ of these, p × p, column-major, where Z̃ is ∂r_i/∂α without what ∂r_i/∂β_i can imitate.
+    /// Projected curvature S_i = Z̃ᵀZ̃ of these, p × p, column-major, where Z̃ is ∂r_i/∂α without what ∂r_i/∂β_i can imitate in the
+    /// directions that the inequalities β_i presses on leave.
     pub curvature: Vec<f64>,
     /// Projected gradient Z̃ᵀr_i of these, p; its sum over members vanishes at a free optimum.
     pub gradient: Vec<f64>,

@@ -246,10 +246,13 @@ impl<'a> PooledSolver<'a> {
         self.damping.value < POOLED_MOST_DAMPING
     }
 
-    fn finish(self, converged: bool) -> PooledFit {
-        let profiles = self.members.iter().map(Member::profile);
+    fn finish(mut self, converged: bool) -> PooledFit {
+        let work = &mut self.work;
+        let profiles = (self.members.iter_mut().zip(self.own_sets))
+            .map(|(member, set)| member.profile(set, work))
+            .collect();
         PooledFit {
-            profiles: profiles.collect(),
+            profiles,
             own: self.members.iter().map(|m| m.own.clone()).collect(),
             shared: self.shared,
             converged,
