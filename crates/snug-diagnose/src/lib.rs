@@ -27,6 +27,7 @@ pub use live::focus::{CloserLook, Counted, Focus};
 pub use live::held_out::HeldOut;
 pub use live::tightening::LiveTightening;
 pub use locate::{Seen, compare, drifts, locate};
+pub use pooled::groups::nothing::Nothing;
 pub use pooled::shared_block::{SharedBlock, SharedParameter, shared_blocks, shared_parameters};
 pub use pooled::thresholds::{FALSE_DISCOVERIES, ROUNDING};
 pub use pooled::together::{Together, fit_together};

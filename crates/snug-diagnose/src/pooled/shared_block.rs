@@ -6,10 +6,12 @@
 
 use crate::data::cases::{Cases, Tally};
 use crate::error::DiagnoseError;
+use crate::pooled::groups::nothing::Nothing;
 use crate::pooled::model::PooledModel;
+use crate::pooled::parameter_place::effect_of;
 use snug_identify::{FitTask, identify_all};
 use snug_least_squares::{Linearization, PooledResidual, Trial, profile_of};
-use snug_model::{Effect, Model};
+use snug_model::{Effect, Law, Model};
 
 /// What one tightening says of the shared sizes; p of them, in the order of [`shared_parameters`]. Squared residuals have no unit, or the
 /// output's squared where the noise is not known; derivatives are by each size in the unit that its name says.
@@ -38,6 +40,8 @@ pub struct SharedParameter {
     pub minimum: f64,
     /// The most it may be.
     pub maximum: f64,
+    /// Where there is nothing of it.
+    pub nothing: Nothing,
 }
 
 /// The sizes that tightenings share in the model with these effects.
@@ -52,11 +56,18 @@ pub fn shared_parameters(
     let one = [case.lent()];
     let pooled = PooledModel::new(Cases::new(&one, &tally).each_its_own(), effects)?;
     let parameters = pooled.models[0].parameters();
-    let described = pooled.common.iter().map(|&index| SharedParameter {
-        name: parameters[index].name.clone(),
-        start: parameters[index].value,
-        minimum: parameters[index].minimum,
-        maximum: parameters[index].maximum,
+    let described = pooled.common.iter().map(|&index| {
+        let parameter = &parameters[index];
+        let spec = effect_of(effects, index)
+            .map(|(effect, offset)| effect.description().parameters[offset]);
+        let limits = (parameter.minimum, parameter.maximum);
+        SharedParameter {
+            name: parameter.name.clone(),
+            start: parameter.value,
+            minimum: parameter.minimum,
+            maximum: parameter.maximum,
+            nothing: Nothing::of(spec.and_then(|spec| spec.vanishes_at), limits),
+        }
     });
     Ok(described.collect())
 }

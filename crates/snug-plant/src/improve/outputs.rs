@@ -8,8 +8,8 @@ use crate::storage::parquet_file;
 use crate::storage::store::Store;
 use arrow::array::{ArrayRef, BooleanArray, Float64Array, RecordBatch, StringArray, UInt32Array};
 use arrow::datatypes::{DataType, Field};
-use snug_campaign::{EffectParameter, Factor, GroupSize, Interval};
-use snug_diagnose::FALSE_DISCOVERIES;
+use snug_campaign::{EffectParameter, Factor, GroupSize};
+use snug_diagnose::{FALSE_DISCOVERIES, SharedParameter};
 use snug_model::{GroupValue, ParameterSettings};
 use snug_statistics::descriptive::{mean, standard_deviation};
 use snug_statistics::distributions::student_t_two_sided;
@@ -60,7 +60,7 @@ pub(super) async fn written(
             for parameter in parameters {
                 let mut names = rung.shared.iter();
                 if let Some(place) = names.position(|one| one.name == parameter.name) {
-                    take(parameter, fit, place, smallest_gain);
+                    take(parameter, fit, place, (&rung.shared[place], smallest_gain));
                 }
             }
             hold(&mut last, rung, fit);
@@ -104,57 +104,78 @@ fn with_plant(verdict: &str, asked: &Asked) -> Result<Vec<u8>, PlantError> {
     Ok(serde_json::to_vec_pretty(&verdict)?)
 }
 
-fn interval(value: f64, error: Option<f64>, fit: &PooledOverAll) -> Option<Interval> {
-    let reach = fit.quantile * error?;
-    Some(Interval {
-        low: value - reach,
-        high: value + reach,
-    })
+/// The ends of a size's interval, as far as it has any.
+fn interval(
+    value: f64,
+    error: Option<f64>,
+    of: &SharedParameter,
+    fit: &PooledOverAll,
+) -> (Option<f64>, Option<f64>) {
+    let Some(error) = error else {
+        return (None, None);
+    };
+    let limits = (of.minimum, of.maximum);
+    let (low, high) = (of.nothing).interval_within(value, fit.quantile * error, limits);
+    (Some(low), high)
+}
+
+/// A size of a group, or of all where that has none of its own.
+fn value(fit: &PooledOverAll, place: usize, name: Option<&String>) -> f64 {
+    let own = name.and_then(|name| fit.held.groups.get(name));
+    own.unwrap_or(&fit.held.all)[place]
 }
 
 /// The groups that have an effect: told from nothing with so few false discoveries over the groups, and enough to matter. Of very many
 /// rows what nobody could feel is told from nothing, too.
-fn present(fit: &PooledOverAll, place: usize, smallest_gain: f64) -> Vec<String> {
+fn present(
+    fit: &PooledOverAll,
+    place: usize,
+    (of, smallest_gain): (&SharedParameter, f64),
+) -> Vec<String> {
     let chance = |group: &GroupErrors| {
-        let own = group
-            .name
-            .as_ref()
-            .and_then(|name| fit.held.groups.get(name));
-        let value = own.unwrap_or(&fit.held.all)[place];
+        let away = of.nothing.distance(value(fit, place, group.name.as_ref()));
         let freedom = (group.members - 1.0).max(1.0);
-        group.errors[place].map_or(1.0, |error| student_t_two_sided(value / error, freedom))
+        group.errors[place].map_or(1.0, |error| student_t_two_sided(away / error, freedom))
+    };
+    let may_be_nothing = |group: &GroupErrors| {
+        let value = value(fit, place, group.name.as_ref());
+        let (_, high) = interval(value, group.errors[place], of, fit);
+        of.nothing.is_reached(high)
     };
     let chances: Vec<f64> = fit.groups.iter().map(chance).collect();
     let adjusted = benjamini_hochberg(&chances).unwrap_or_default();
     (fit.groups.iter().zip(adjusted))
         .filter(|(group, p)| *p <= FALSE_DISCOVERIES && group.shares[place] >= smallest_gain)
+        .filter(|(group, _)| !may_be_nothing(group))
         .filter_map(|(group, _)| group.name.clone())
         .collect()
 }
 
 /// A parameter as all rows put it.
-fn take(parameter: &mut EffectParameter, fit: &PooledOverAll, place: usize, smallest_gain: f64) {
-    let value = |name: &Option<String>| {
-        let own = name.as_ref().and_then(|name| fit.held.groups.get(name));
-        own.unwrap_or(&fit.held.all)[place]
-    };
+fn take(
+    parameter: &mut EffectParameter,
+    fit: &PooledOverAll,
+    place: usize,
+    (of, smallest_gain): (&SharedParameter, f64),
+) {
     if let (true, Some(sizes)) = (fit.held.sharing.differs[place], &mut parameter.by_group) {
         let told = fit.groups.iter().filter_map(|group| {
-            let (value, error) = (value(&group.name), group.errors[place]);
-            let interval = interval(value, error, fit);
+            let value = value(fit, place, group.name.as_ref());
+            let error = group.errors[place];
+            let (low, high) = interval(value, error, of, fit);
             Some(GroupSize {
                 group: group.name.clone()?,
                 tightenings: group.members as usize,
                 value,
                 standard_error: error,
                 shrunk: value,
-                low: interval.map(|one| one.low),
-                high: interval.map(|one| one.high),
+                low,
+                high,
                 present: false,
             })
         });
         sizes.groups = told.collect();
-        let present = present(fit, place, smallest_gain);
+        let present = present(fit, place, (of, smallest_gain));
         for group in &mut sizes.groups {
             group.present = present.contains(&group.group);
         }
@@ -167,12 +188,10 @@ fn take(parameter: &mut EffectParameter, fit: &PooledOverAll, place: usize, smal
     let Some(group) = fit.groups.first() else {
         return;
     };
-    let (value, error) = (value(&group.name), group.errors[place]);
-    let interval = interval(value, error, fit);
+    let (value, error) = (value(fit, place, group.name.as_ref()), group.errors[place]);
     parameter.value = value;
     parameter.standard_error = error;
-    parameter.low = interval.map(|one| one.low.max(parameter.minimum));
-    parameter.high = interval.map(|one| one.high.min(parameter.maximum));
+    (parameter.low, parameter.high) = interval(value, error, of, fit);
 }
 
 /// Holds the sizes in the study as all rows put them.
@@ -302,7 +321,8 @@ struct Size {
     value: f64,
     error: Option<f64>,
     share: f64,
-    interval: Option<Interval>,
+    low: Option<f64>,
+    high: Option<f64>,
 }
 
 /// The sizes that rows share, a row a size, or a size and a group, of every rung.
@@ -365,13 +385,13 @@ fn sizes(rungs: &[Rung]) -> Result<Vec<u8>, PlantError> {
                 "low",
                 Float64,
                 "lower end of the 95 % interval",
-                numbers(each().map(|one| one.interval.map(|one| one.low))),
+                numbers(each().map(|one| one.low)),
             ),
             (
                 "high",
                 Float64,
-                "upper end of the 95 % interval",
-                numbers(each().map(|one| one.interval.map(|one| one.high))),
+                "upper end of the 95 % interval; null where it may be without end, as a mass that hardly moves",
+                numbers(each().map(|one| one.high)),
             ),
         ],
     )
@@ -384,11 +404,8 @@ fn size_rows(rungs: &[Rung]) -> Vec<Size> {
         for (place, shared) in rung.shared.iter().enumerate() {
             let differs = fit.held.sharing.differs[place];
             for group in fit.groups.iter().take(if differs { usize::MAX } else { 1 }) {
-                let own = group
-                    .name
-                    .as_ref()
-                    .and_then(|name| fit.held.groups.get(name));
-                let value = own.unwrap_or(&fit.held.all)[place];
+                let value = value(fit, place, group.name.as_ref());
+                let (low, high) = interval(value, group.errors[place], shared, fit);
                 let factor = fit.held.sharing.factor.as_ref().filter(|_| differs);
                 all.push(Size {
                     rung: number,
@@ -406,7 +423,8 @@ fn size_rows(rungs: &[Rung]) -> Vec<Size> {
                     value,
                     error: group.errors[place],
                     share: group.shares[place],
-                    interval: interval(value, group.errors[place], fit),
+                    low,
+                    high,
                 });
             }
         }

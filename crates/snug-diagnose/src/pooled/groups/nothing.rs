@@ -2,7 +2,7 @@
 
 /// The size at which an effect is not there.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Nothing {
+pub enum Nothing {
     /// A size within what it may be, or the end nearest to it.
     At(f64),
     /// The larger, the less there is of it, without end, as of a mass that hardly moves: 1/size is 0 there, and what has a standard
@@ -39,6 +39,26 @@ impl Nothing {
         }
     }
 
+    /// The same within what a size may be; what may reach as far as it may go may be nothing where that is beyond all.
+    pub fn interval_within(
+        self,
+        size: f64,
+        reach: f64,
+        (least, most): (f64, f64),
+    ) -> (f64, Option<f64>) {
+        let (low, high) = self.interval(size, reach);
+        let high = match self {
+            Self::Beyond => high.filter(|high| *high < most),
+            Self::At(_) => high.map(|high| high.min(most)),
+        };
+        (low.max(least), high)
+    }
+
+    /// Whether a size with an interval up to `high` may be nothing because that is beyond all.
+    pub fn is_reached(self, high: Option<f64>) -> bool {
+        self == Self::Beyond && high.is_none()
+    }
+
     /// Whether a size may lie on one side of it only.
     pub fn is_an_end_of(self, (least, most): (f64, f64)) -> bool {
         match self {
@@ -72,5 +92,12 @@ mod tests {
         assert!((low - 3.2).abs() < 1e-12);
         assert!((high.unwrap_or(0.0) - 16.0 / 3.0).abs() < 1e-12);
         assert_eq!(mass.interval(4.0, 8.0), (4.0 / 3.0, None));
+        assert!(mass.is_reached(None) && !mass.is_reached(high));
+        assert_eq!(mass.interval_within(4.0, 1.0, (3.5, 5.0)), (3.5, None));
+        let friction = Nothing::At(0.0);
+        assert_eq!(
+            friction.interval_within(4.0, 1.0, (3.5, 4.5)),
+            (3.5, Some(4.5))
+        );
     }
 }

@@ -125,15 +125,9 @@ impl OfGroups {
         let Some(errors) = &self.errors else {
             return (None, None);
         };
-        let (least, most) = self.limits;
         let reach = self.quantile * errors[group];
-        let (low, high) = self.nothing.interval(self.values[group], reach);
-        let high = match self.nothing {
-            // What may reach as far as it may go may be nothing.
-            Nothing::Beyond => high.filter(|high| *high < most),
-            Nothing::At(_) => high.map(|high| high.min(most)),
-        };
-        (Some(low.max(least)), high)
+        let (low, high) = (self.nothing).interval_within(self.values[group], reach, self.limits);
+        (Some(low), high)
     }
 
     /// Which groups have it: further from nothing than chance, by the false-discovery rate over groups, and where it is the less the larger,
@@ -158,8 +152,7 @@ impl OfGroups {
         };
         let all: Vec<f64> = self.values.iter().enumerate().map(p).collect();
         let adjusted = benjamini_hochberg(&all).unwrap_or(all);
-        let may_be_without_end =
-            |group: usize| self.nothing == Nothing::Beyond && self.interval(group).1.is_none();
+        let may_be_without_end = |group: usize| self.nothing.is_reached(self.interval(group).1);
         (adjusted.into_iter().enumerate())
             .map(|(group, p)| p <= FALSE_DISCOVERIES && !may_be_without_end(group))
             .collect()
