@@ -6,7 +6,7 @@ use crate::library::{declaration, in_words};
 use crate::pooled::fitted::Fitted;
 use crate::ranking::rank::Candidate;
 use crate::selection::path::{Addition, Attempt, Stop, least_share};
-use crate::selection::thresholds::{MOST, SMALL};
+use crate::selection::thresholds::{NEARLY_ALL, SMALL};
 use crate::settings::DiagnoseSettings;
 use snug_campaign::words::effect_name::Named;
 use snug_campaign::words::explained::Explained;
@@ -71,17 +71,18 @@ impl Situation<'_> {
         self.stopped == Some(Stop::Interrupted)
     }
 
-    /// What was added, that first which explains most; what is small beside it only where `is_small`. What takes most of what the others
-    /// leave, as it came in or beside all that came after, is not: an angle that is read 5 rad too large makes any friction a trifle.
+    /// What was added, that first which explains most; what is small beside it only where `is_small`. What takes nearly all of what the
+    /// others leave, as it came in or beside all that came after, is not: an angle that is read 5 rad too large makes any friction a
+    /// trifle.
     fn added(&self, is_small: bool) -> Vec<Named> {
-        let takes_most = |one: &Addition| {
+        let takes_nearly_all = |one: &Addition| {
             let mut in_model = self.in_model.iter();
             let told = in_model.find(|known| known.effect == one.effect.name());
             let lost = told.and_then(|told| told.needed).unwrap_or(0.0);
-            one.heldout_gain.max(lost / (1.0 + lost)) >= MOST
+            one.heldout_gain.max(lost / (1.0 + lost)) >= NEARLY_ALL
         };
         let small = |one: &&Addition| {
-            !self.after.is_weighted && one.share_of_first < SMALL && !takes_most(one)
+            !self.after.is_weighted && one.share_of_first < SMALL && !takes_nearly_all(one)
         };
         let mut added: Vec<&Addition> = (self.additions.iter())
             .filter(|one| small(one) == is_small)
