@@ -27,4 +27,4 @@ pub use residual::smoothing::{HALF_WIDTHS, smooth};
 pub use residual::tightening::TighteningResidual;
 pub use residual::whitening::Whitening;
 pub use settings::IdentifySettings;
-pub use task::{FitTask, begin_in_motion};
+pub use task::{FitTask, begin_elsewhere, begin_in_motion};

@@ -4,7 +4,7 @@ mod contradiction;
 pub(crate) mod decimated;
 mod in_motion;
 
-pub use in_motion::begin_in_motion;
+pub use in_motion::{begin_elsewhere, begin_in_motion};
 
 use crate::error::IdentifyError;
 use crate::residual::restarts::motions_at;

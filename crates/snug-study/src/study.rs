@@ -7,6 +7,7 @@ use crate::settings::diagnosis::DiagnosisSettings;
 use crate::settings::validation::ValidationSettings;
 use crate::syntax;
 use crate::syntax::position::Position;
+use crate::tasks::initial_state;
 use ron::extensions::Extensions;
 use serde::{Deserialize, Serialize};
 use snug_campaign::{Factor, Intersample, Quantity, Rig, Tightening};
@@ -176,7 +177,9 @@ impl Study {
             let shares = factor.shares(tightening).unwrap_or_default().into_iter();
             shares.map(|(level, share)| (level.name, share)).collect()
         };
-        self.model.model_of_group(tightening.rig, &group)
+        let mut model = self.model.model_of_group(tightening.rig, &group)?;
+        initial_state::as_measured(&mut model, tightening, &self.model);
+        Ok(model)
     }
 
     /// The settings by which one tightening is identified: before the stretch that counts nothing is scored.

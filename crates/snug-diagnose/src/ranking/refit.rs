@@ -8,7 +8,7 @@ use crate::pooled::equation::{with_base, with_shapes_of};
 use crate::pooled::fitted::Fitted;
 use crate::pooled::long_record;
 use crate::pooled::model::{PooledModel, Start, pick};
-use crate::pooled::parameter_place::first_parameter;
+use crate::pooled::parameter_place::{effect_of, first_parameter};
 use crate::pooled::thresholds::A_FEW_STEPS;
 use crate::ranking::first_ranking::Promise;
 use crate::ranking::resonances;
@@ -227,9 +227,19 @@ fn as_promised(
     }
 }
 
-/// The place to which a regression of the equation of motion puts the numbers of the current model with one effect more.
+/// The place to which a regression of the equation of motion puts the numbers of the current model with one effect more. How each recording
+/// begins, of which a regression knows nothing, begins as usual: the current model may have bent it to what it lacks.
 pub(crate) fn as_regressed(pooled: &PooledModel<'_>, current: &Fitted, promise: &Promise) -> Start {
-    let start = with_effect(pooled, current, promise.effect, &promise.own);
+    let mut start = with_effect(pooled, current, promise.effect, &promise.own);
+    let usual = pooled.usual_start();
+    for (column, &index) in pooled.own.iter().enumerate() {
+        let effect = effect_of(&pooled.effects, index).map(|(effect, _)| effect);
+        if effect == Some(Effect::InitialMotion) {
+            for (to, usual) in start.own.iter_mut().zip(&usual.own) {
+                to[column] = usual[column];
+            }
+        }
+    }
     simulable(pooled, with_base(pooled, &start, &promise.base))
 }
 

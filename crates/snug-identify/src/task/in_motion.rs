@@ -1,4 +1,4 @@
-//! Whether recordings begin in motion.
+//! Whether recordings begin in motion, or away from where the sensor reads nothing.
 
 use crate::task::FitTask;
 use snug_campaign::Quantity;
@@ -37,6 +37,22 @@ pub fn begin_in_motion(
         .collect();
     let offset = at_rest.iter().sum::<f64>() / at_rest.len().max(1) as f64;
     all.iter().any(|(_, one)| one.is_beyond(offset))
+}
+
+/// Angle at the first sample, over its root mean square about the mean, from which a recording begins elsewhere \[–\]. Chosen.
+const ELSEWHERE: f64 = 0.02;
+
+/// Whether any of the recordings of an angle begins where the sensor reads more than noise and a little of the way that it goes.
+pub fn begin_elsewhere(recordings: &[FitTask<'_>]) -> bool {
+    recordings.iter().any(|task| {
+        let angle = task.measured();
+        let mean = angle.iter().sum::<f64>() / angle.len().max(1) as f64;
+        let about_mean: Vec<f64> = angle.iter().map(|angle| angle - mean).collect();
+        let noise = BEYOND_NOISE * white_noise_level(angle);
+        let least = (ELSEWHERE * root_mean_square(&about_mean)).max(noise);
+        let is_angle = task.quantity() == Quantity::Displacement;
+        is_angle && angle.first().is_some_and(|first| first.abs() > least)
+    })
 }
 
 /// How a recording of a speed begins.
@@ -162,6 +178,32 @@ mod tests {
             "nobody knows how it would slow down"
         );
         assert!(begins(20, |_| 3.0, BASE), "it has hardly had time to");
+    }
+
+    #[test]
+    fn an_angle_begins_elsewhere_where_the_sensor_reads_more_than_a_little() {
+        let begins_at = |first: f64| {
+            let rig = Rig {
+                lever_arm_m: 1.0,
+                known_inertia_kg_m2: 0.0,
+            };
+            let angle = (0..2000).map(|k| first + (0.01 * f64::from(k)).sin());
+            let torque_nm = vec![1.0; 2000];
+            FitTask::from_arrays(
+                rig,
+                1e-3,
+                torque_nm,
+                Quantity::Displacement,
+                angle.collect(),
+            )
+            .expect("its parts agree")
+        };
+        assert!(begin_elsewhere(&[begins_at(0.0), begins_at(-0.1)]));
+        assert!(!begin_elsewhere(&[begins_at(0.0), begins_at(0.01)]));
+        assert!(
+            !begin_elsewhere(&[recording(1, 3.0, |_| 3.0)]),
+            "a speed is no angle"
+        );
     }
 
     #[test]

@@ -130,7 +130,7 @@ pub enum Reason {
         /// Time between restarts \[s\].
         every_s: f64,
     },
-    /// Recordings begin in motion, so that the motion of each at its first sample is fitted with it.
+    /// Recordings begin in motion or elsewhere, so that the motion of each at its first sample is fitted with it.
     BeginsMoving,
     /// The input is taken as held from sample to sample, since less is missing then.
     Held {
@@ -241,7 +241,7 @@ impl Display for Reason {
                 more,
             } => would_decide(f, effect, *p_family, *more),
             Self::Restarted { why, every_s } => restarted(f, *why, *every_s),
-            Self::BeginsMoving => f.write_str("Recordings begin in motion: how each moves at its first sample is fitted with mass, damping and stiffness (`initial_motion` in `model.effects`)."),
+            Self::BeginsMoving => f.write_str("Recordings begin in motion, or where their sensor does not read 0: how each begins is fitted with mass, damping and stiffness (`initial_motion` in `model.effects`)."),
             Self::Held {
                 spared,
                 is_half_an_interval,
