@@ -16,6 +16,7 @@ mod task;
 
 pub use batch::{SIDE_BY_SIDE, in_batches};
 pub use constraint_kind::{ConstraintKind, convex_set};
+pub use equation_error::equation::over_time::Change;
 pub use equation_error::equation::{Acting, EquationFit, MotionEquation, Term};
 pub use equation_error::modulation::{Modulation, integral};
 pub use error::IdentifyError;

@@ -2,6 +2,7 @@
 
 mod said;
 
+pub mod changes;
 pub mod explained;
 pub mod headline;
 pub mod reason;

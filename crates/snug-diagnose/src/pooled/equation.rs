@@ -7,7 +7,7 @@ use crate::pooled::fitted::Fitted;
 use crate::pooled::model::{PooledModel, Start};
 use crate::pooled::parameter_place::first_parameter;
 use crate::pooled::thresholds::{FALLS_SHORT, ONE_WITH_FRICTION, PROMISES};
-use snug_identify::{EquationFit, FitTask, MotionEquation};
+use snug_identify::{EquationFit, FitTask, MotionEquation, Term};
 use snug_model::{BASE_PARAMETERS, Effect, Law, Model};
 
 /// The equation, and the effects of a plain regression as they act on the rig.
@@ -39,12 +39,26 @@ impl<'a> PlainEquation<'a> {
 
     /// The regression with dry friction and an offset beside the effects of a model, so far as it does not have them.
     pub fn plainly(&self, effects: &[Effect], at: &[Vec<f64>]) -> Option<EquationFit> {
-        let terms = self.equation.terms(effects, at)?;
+        let terms = self.with_plain_terms(effects, at)?.into_iter();
+        let terms: Vec<Term> = terms.map(|(_, term)| term).collect();
+        self.equation.fit(&terms)
+    }
+
+    /// What each of these effects adds as they act with these values of all parameters, and what dry friction and an offset of size 1 do.
+    pub fn with_plain_terms(
+        &self,
+        effects: &[Effect],
+        at: &[Vec<f64>],
+    ) -> Option<Vec<(Effect, Term)>> {
+        let terms = effects
+            .iter()
+            .copied()
+            .zip(self.equation.terms(effects, at)?);
         let known = |effect: &Effect| effects.iter().any(|one| one.name() == effect.name());
         let further = self.plain.iter().filter(|effect| !known(effect));
-        let further = further.filter_map(|&effect| self.equation.term(effect, &[1.0]));
-        let terms: Vec<_> = terms.into_iter().flatten().chain(further).collect();
-        self.equation.fit(&terms)
+        let further = further.map(|&effect| (effect, self.equation.term(effect, &[1.0])));
+        let there = |(effect, term): (Effect, Option<Term>)| Some((effect, term?));
+        Some(terms.chain(further).filter_map(there).collect())
     }
 }
 

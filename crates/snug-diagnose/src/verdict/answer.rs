@@ -12,6 +12,7 @@ use crate::question::Question;
 use crate::ranking::rank::Ranking;
 use crate::selection::path::{Addition, SelectionPath, twins};
 use crate::settings::DiagnoseSettings;
+use crate::verdict::changes::changes;
 use crate::verdict::comparisons::compare_sizes;
 use crate::verdict::earned::{self, leaves_a_motion};
 use crate::verdict::experiment::separating_experiment;
@@ -105,6 +106,10 @@ impl Examination<'_> {
             is_more_than_noise: verdict == Verdict::Undecided
                 && (self.is_more_than_noise(places.explained.as_ref())
                     || leaves_a_motion(&self.path, self.settings, places.explained.as_ref())),
+            changes: match self.path.is_interrupted() {
+                true => None,
+                false => changes(self.cases, last),
+            },
             suspicions: &suspicions,
             ..self.situation(verdict, &ranking, &corrected)
         };
@@ -211,6 +216,7 @@ impl Examination<'_> {
             rig: Held::of(self.question.cases),
             settings: self.settings,
             explained: None,
+            changes: None,
             suspicions: &[],
             is_more_than_noise: false,
             promising: path.is_promising(self.settings).map(|one| one.effect),

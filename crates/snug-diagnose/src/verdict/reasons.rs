@@ -8,6 +8,7 @@ use crate::ranking::rank::Candidate;
 use crate::selection::path::{Addition, Attempt, Stop, least_share};
 use crate::selection::thresholds::{NEARLY_ALL, SMALL};
 use crate::settings::DiagnoseSettings;
+use snug_campaign::words::changes::Changes;
 use snug_campaign::words::effect_name::Named;
 use snug_campaign::words::explained::Explained;
 use snug_campaign::words::headline::{Fall, Headline, Left, NoModel};
@@ -47,6 +48,8 @@ pub(crate) struct Situation<'a> {
     pub settings: &'a DiagnoseSettings,
     /// How much the last model explains, where no noise says what is enough.
     pub explained: Option<Explained>,
+    /// What changes along the recordings.
+    pub changes: Option<Changes>,
     /// What to check where no model fits.
     pub suspicions: &'a [Suspicion],
     /// Whether the verdict is open because more is left than noise, though it hardly repeats and nothing explains it.
@@ -207,6 +210,7 @@ fn no_model(situation: &Situation<'_>) -> Option<NoModel> {
 /// Why.
 pub(crate) fn reasons(situation: &Situation<'_>) -> Vec<Reason> {
     let mut reasons: Vec<Reason> = what_is_left(situation).into_iter().collect();
+    reasons.extend(situation.changes.clone().map(Reason::Changes));
     reasons.extend(situation.suspicions.iter().cloned().map(Reason::Check));
     let additions = situation.additions.iter();
     reasons.extend(

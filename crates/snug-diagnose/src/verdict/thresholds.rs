@@ -38,6 +38,9 @@ pub(crate) const PLAIN_PROMISE: f64 = 0.95;
 /// Times as much of that power as a regression leaves, that one without a negative stiffness must leave, before a rig is said to push itself
 /// away \[–\]: where friction or an offset is missing from both, the stiffness may come out a little below 0. Chosen.
 pub(crate) const NEEDS_IT: f64 = 4.0;
+/// Least change from beginning to end of the recordings, over the larger of both, that is told as one \[–\]. Chosen: what a bearing that warms
+/// up loses in a minute.
+pub(crate) const CHANGES: f64 = 0.1;
 /// Factor between two files' masses, dampings and stiffnesses that is one of units, or of another load \[–\]: people differ tenfold.
 /// Chosen.
 pub(crate) const NO_RIG_DIFFERS: f64 = 100.0;

@@ -8,6 +8,8 @@
 //! model. The left-hand side holds most of the noise; what of it is in ω and θ is looked after by instruments. The normal
 //! equations of the recordings are added up.
 
+pub mod over_time;
+
 use crate::constraint_kind::ConstraintKind;
 use crate::equation_error::record::AveragedRecord;
 use crate::equation_error::regression::{Column, Regression};

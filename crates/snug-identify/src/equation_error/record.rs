@@ -123,6 +123,14 @@ impl AveragedRecord {
         means.iter().all(|mean| mean.is_finite()).then_some(means)
     }
 
+    /// Where in the recording each place is, from −1 at the first to 1 at the last.
+    pub fn times(&self) -> impl Iterator<Item = f64> {
+        let first = self.places.first().copied().unwrap_or_default();
+        let span = self.places.last().map_or(0, |last| last - first).max(1);
+        let time = move |&place: &usize| 2.0 * (place - first) as f64 / span as f64 - 1.0;
+        self.places.iter().map(time)
+    }
+
     /// Number of places.
     pub fn len(&self) -> usize {
         self.places.len()

@@ -8,6 +8,7 @@ use crate::words::effect_name::Named;
 use crate::words::effect_name::effect_name;
 use crate::words::grammar::{capitalised, counted, joined};
 use crate::words::number::whole_percent;
+use crate::words::sentence::changes::Changes;
 use crate::words::sentence::headline::Left;
 use crate::words::sentence::said::written_as_said;
 use crate::words::sentence::suspicion::Suspicion;
@@ -105,6 +106,8 @@ pub enum Reason {
         /// Changes per tightening.
         parameters: Vec<EffectParameter>,
     },
+    /// The rig changes while it is measured.
+    Changes(Changes),
     /// Preparation took something out.
     TakenOut {
         /// What.
@@ -229,6 +232,7 @@ impl Display for Reason {
             Self::Size(parameters) => write!(f, "Its size: {}.", sizes(parameters)),
             Self::CannotTell(twins) => cannot_tell(f, twins),
             Self::Drifts { trend, parameters } => drifts(f, trend, parameters),
+            Self::Changes(changes) => changes.fmt(f),
             Self::TakenOut { corrected, check } => taken_out(f, corrected, *check),
             Self::NotSimulated(effects) => write!(
                 f,

@@ -31,6 +31,8 @@ struct Made {
     noise: f64,
     quantity: Quantity,
     base: [f64; 3],
+    /// What is added to I, C, K and the friction at the end of a recording and taken off at its beginning, over what they are.
+    change: [f64; 4],
 }
 
 impl Default for Made {
@@ -41,6 +43,7 @@ impl Default for Made {
             noise: 0.0,
             quantity: Quantity::Velocity,
             base: BASE,
+            change: [0.0; 4],
         }
     }
 }
@@ -48,17 +51,20 @@ impl Default for Made {
 impl Made {
     /// A sum of two sines, from 0, torque and motion in units of `units`, time in those of `time`.
     fn task(&self, seed: f64, units: [f64; 2], time: f64) -> FitTask<'static> {
-        let ([torque_unit, motion_unit], [i, c, k]) = (units, self.base);
+        let [torque_unit, motion_unit] = units;
         let (mut torque_nm, mut measured) = (Vec::new(), Vec::new());
         for sample in 0..SAMPLES {
             let t = sample as f64 * INTERVAL_S;
             let (a, b) = (5.0 + 0.3 * seed, 11.0 - 0.2 * seed);
+            let along = 2.0 * sample as f64 / SAMPLES as f64 - 1.0;
+            let now = self.change.map(|change| 1.0 + change * along);
+            let [i, c, k] = [0, 1, 2].map(|index| self.base[index] * now[index]);
             let (x, y) = (a * t + seed, b * t);
             let start = (seed.sin(), a * seed.cos(), 0.5);
             let angle = x.sin() + 0.5 * y.sin() - start.0;
             let velocity = a * x.cos() + 0.5 * b * y.cos();
             let acceleration = -a * a * x.sin() - 0.5 * b * b * y.sin();
-            let friction = self.friction_nm * (velocity / TURN).tanh();
+            let friction = now[3] * self.friction_nm * (velocity / TURN).tanh();
             let torque = i * acceleration + c * velocity + k * angle + friction + self.offset_nm;
             let (value, size) = match self.quantity {
                 Quantity::Displacement => (angle, 0.8),
@@ -317,4 +323,47 @@ fn a_regression_takes_milliseconds() {
     let begun = std::time::Instant::now();
     fit(&tasks, Effect::PLAIN);
     assert!(begun.elapsed().as_secs_f64() < 1.0);
+}
+
+/// Mass, damping, stiffness or friction that grows by half of its mean from beginning to end, each found for what it is; friction turns over
+/// within few samples, and is told less well.
+#[test]
+fn what_changes_along_the_recordings_is_found() {
+    let [i, c, k] = BASE;
+    for (index, size, tolerance) in [(0, i, 0.03), (1, c, 0.03), (2, k, 0.03), (3, 3.0, 0.08)] {
+        let mut change = [0.0; 4];
+        change[index] = 0.25;
+        let made = Made {
+            friction_nm: 3.0,
+            change,
+            ..Made::default()
+        };
+        let tasks = made.tasks();
+        let equation = MotionEquation::of(&tasks, Effect::PLAIN).unwrap();
+        let terms = Effect::PLAIN.iter();
+        let terms: Option<Vec<Term>> = terms.map(|&one| equation.term(one, &[1.0])).collect();
+        let found = equation.change(&terms.unwrap()).unwrap();
+        assert_eq!(found.index, index);
+        near(
+            &[found.from, found.to],
+            &[0.75 * size, 1.25 * size],
+            tolerance,
+        );
+        assert!(found.taken > 0.85, "{found:?}");
+    }
+}
+
+/// Under a torque that grows, friction is a smaller part of it at the end, and nothing is said.
+#[test]
+fn what_is_driven_harder_at_the_end_says_nothing() {
+    let made = Made::default();
+    let mut task = made.task(1.0, [1.0; 2], 1.0);
+    let count = SAMPLES as f64;
+    let torque_nm = &mut task.tightening.to_mut().torque_nm;
+    for (sample, torque_nm) in torque_nm.iter_mut().enumerate() {
+        *torque_nm *= 0.2 + sample as f64 / count;
+    }
+    let tasks = [task];
+    let equation = MotionEquation::averaged(&tasks, 64).unwrap();
+    assert_eq!(equation.change(&[]), None);
 }

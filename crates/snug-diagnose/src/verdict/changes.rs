@@ -1,0 +1,42 @@
+//! Whether a rig changes while it is measured: as it warms up, empties or wears, one of its numbers goes from one value at the beginning of
+//! every recording to another at its end, and no model whose numbers stay follows it.
+
+use crate::data::cases::Cases;
+use crate::pooled::equation::{PlainEquation, values};
+use crate::pooled::fitted::Fitted;
+use crate::selection::thresholds::MOST;
+use crate::verdict::reasons::named;
+use crate::verdict::thresholds::CHANGES;
+use snug_campaign::words::changes::{Changes, Changing};
+use snug_model::{BASE_PARAMETERS, Effect};
+
+const OF_BASE: [Changing; BASE_PARAMETERS.len()] =
+    [Changing::Mass, Changing::Damping, Changing::Stiffness];
+
+/// What a plain regression with the effects of `fitted`, dry friction and an offset says of that; `None` where nothing changes that takes
+/// most of what it leaves.
+pub(crate) fn changes(cases: Cases<'_>, fitted: &Fitted) -> Option<Changes> {
+    let plain = PlainEquation::of(&cases)?;
+    let at = values(cases, fitted)?;
+    let terms = plain.with_plain_terms(&fitted.effects, &at)?;
+    let (effects, terms): (Vec<Effect>, Vec<_>) = terms.into_iter().unzip();
+    let change = plain.equation.change(&terms)?;
+    let (from, to) = (change.from, change.to);
+    let is_one = change.taken > MOST && (to - from).abs() > CHANGES * from.abs().max(to.abs());
+    let what = match change.index.checked_sub(BASE_PARAMETERS.len()) {
+        None => OF_BASE[change.index].clone(),
+        Some(place) => Changing::Size(named(effects[place])),
+    };
+    tracing::debug!(
+        index = change.index,
+        from,
+        to,
+        taken = change.taken,
+        "what changes along the recordings"
+    );
+    is_one.then_some(Changes {
+        what,
+        times: to / from,
+        taken: change.taken,
+    })
+}
