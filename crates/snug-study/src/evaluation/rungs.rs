@@ -41,12 +41,12 @@ fn with_nothing_usable(verdict: Verdict, headline: Headline) -> (Verdict, Headli
             added,
             further,
             fall,
-            ..
+            explained,
         } => {
-            let headline = Headline::TooLittle {
-                tightenings: None,
+            let headline = Headline::MoreThanNoise {
                 added: [added, further].concat(),
                 fall,
+                explained,
             };
             (Verdict::Undecided, headline)
         }
