@@ -1,6 +1,8 @@
 //! Rigs that were made up here, by small steps of the midpoint rule, of which an engineer would say at once what they lack.
 
+mod changing;
 mod drives;
+mod encoder;
 mod ended;
 mod free_motion;
 mod rig;
