@@ -12,9 +12,9 @@ use crate::question::Question;
 use crate::ranking::rank::Ranking;
 use crate::selection::path::{Addition, SelectionPath, twins};
 use crate::settings::DiagnoseSettings;
-use crate::verdict::changes::changes;
 use crate::verdict::comparisons::compare_sizes;
-use crate::verdict::earned::{self, leaves_a_motion};
+use crate::verdict::decision::Judged;
+use crate::verdict::earned;
 use crate::verdict::experiment::separating_experiment;
 use crate::verdict::ranking_told::RankingTold;
 use crate::verdict::reasons::{
@@ -94,7 +94,12 @@ impl Examination<'_> {
         let cases = self.question.cases;
         let last = self.path.last();
         let places = self.places()?;
-        let (verdict, mut suspicions) = self.verdict_and_suspicions(&places);
+        let Judged {
+            verdict,
+            mut suspicions,
+            changes,
+            is_more_than_noise,
+        } = self.judged(&places);
         suspicions.extend(self.units_that_differ(false).map(Suspicion::Units));
         let ranking = self.ranking(&places.drift);
         let corrected = preparation::corrected(cases);
@@ -103,13 +108,8 @@ impl Examination<'_> {
         let situation = Situation {
             in_model: &added,
             explained: places.explained,
-            is_more_than_noise: verdict == Verdict::Undecided
-                && (self.is_more_than_noise(places.explained.as_ref())
-                    || leaves_a_motion(&self.path, self.settings, places.explained.as_ref())),
-            changes: match self.path.is_interrupted() {
-                true => None,
-                false => changes(self.cases, last),
-            },
+            is_more_than_noise,
+            changes,
             suspicions: &suspicions,
             ..self.situation(verdict, &ranking, &corrected)
         };

@@ -6,16 +6,56 @@ use crate::pooled::thresholds::AT_FLOOR;
 use crate::question::Goal;
 use crate::selection::thresholds::MOST;
 use crate::verdict::answer::{Examination, Places};
+use crate::verdict::changes::changes;
+use crate::verdict::earned::{self, leaves_a_motion};
+use crate::verdict::floor;
 use crate::verdict::thresholds::{BESIDE_EFFECTS, MOSTLY_EXPLAINED, REPEATS, WHITE};
-use crate::verdict::{earned, floor};
 use snug_campaign::Verdict;
+use snug_campaign::words::changes::Changes;
 use snug_campaign::words::explained::Explained;
 use snug_campaign::words::suspicion::{FailedFit, OtherUnits, Suspicion};
 
+/// The verdict, with what goes into its words.
+pub(super) struct Judged {
+    pub verdict: Verdict,
+    /// What to check where no model fits.
+    pub suspicions: Vec<Suspicion>,
+    /// What changes along the recordings.
+    pub changes: Option<Changes>,
+    /// Whether the verdict is open because more is left than noise, though it hardly repeats and nothing explains it.
+    pub is_more_than_noise: bool,
+}
+
 impl Examination<'_> {
+    /// The verdict by candidates, unless the rig changes while it is measured and it cannot be that.
+    pub(super) fn judged(&self, places: &Places) -> Judged {
+        let changes = match self.path.is_interrupted() {
+            true => None,
+            false => changes(self.cases, self.path.last()),
+        };
+        let (verdict, suspicions) = self.verdict_and_suspicions(places);
+        let is_followed = changes.is_none() || self.follows_changes(verdict, places);
+        let verdict = match is_followed {
+            true => verdict,
+            false => Verdict::Undecided,
+        };
+        let explained = places.explained.as_ref();
+        let leaves_more = || {
+            self.is_more_than_noise(explained)
+                || leaves_a_motion(&self.path, self.settings, explained)
+                || !is_followed
+        };
+        Judged {
+            is_more_than_noise: verdict == Verdict::Undecided && leaves_more(),
+            verdict,
+            suspicions,
+            changes,
+        }
+    }
+
     /// The verdict, and what to check where no model fits. A comparison leaves it at that only where there is something to check:
     /// an effect that does most of the work is for `diagnose` to find.
-    pub(super) fn verdict_and_suspicions(&self, places: &Places) -> (Verdict, Vec<Suspicion>) {
+    fn verdict_and_suspicions(&self, places: &Places) -> (Verdict, Vec<Suspicion>) {
         let is_white = (places.explained.as_ref()).is_some_and(|all| all.neighbours.abs() < WHITE);
         let wrong = [
             self.units_that_differ(true).map(Suspicion::Units),
@@ -49,6 +89,22 @@ impl Examination<'_> {
         match (&self.question.goal, suspicions.as_slice()) {
             (Goal::Compare, [Suspicion::NoOscillator]) => (Verdict::Undecided, Vec::new()),
             _ => (verdict, suspicions),
+        }
+    }
+
+    /// Whether this may be the verdict on a rig that changes while it is measured. A law that is in no catalogue only stands for the change
+    /// there; and a model that is restarted from the measured motion again and again explains nearly all, whatever changes: it is not
+    /// adequate while a motion is left.
+    fn follows_changes(&self, verdict: Verdict, places: &Places) -> bool {
+        let is_restarted = self.cases.iter().any(|case| case.input.is_restarted());
+        let leaves_a_motion = places
+            .explained
+            .as_ref()
+            .is_some_and(Explained::leaves_a_motion);
+        match verdict {
+            Verdict::UnlistedEffect => false,
+            Verdict::Adequate => !(is_restarted && leaves_a_motion),
+            _ => true,
         }
     }
 
@@ -137,7 +193,7 @@ impl Examination<'_> {
     /// is chosen or promising: that is no adequate model. A model that is restarted from the measured motion again and again predicts
     /// nearly all, whatever it lacks: one that was given nothing must leave noise. Beside an effect that lets go, the instants at which the
     /// grip sets in are never quite right.
-    pub(super) fn is_more_than_noise(&self, explained: Option<&Explained>) -> bool {
+    fn is_more_than_noise(&self, explained: Option<&Explained>) -> bool {
         let last = self.path.last();
         let lets_go = last.effects.iter().any(|one| one.has_unilateral_contact());
         let floor = if lets_go { BESIDE_EFFECTS } else { AT_FLOOR };
