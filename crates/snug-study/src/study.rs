@@ -1,5 +1,6 @@
 //! The study file: the settings of every crate under one roof, read and written as RON, checked before work starts.
 
+pub(crate) mod beginning;
 pub(crate) mod rewriting;
 
 use crate::error::StudyError;
@@ -7,7 +8,6 @@ use crate::settings::diagnosis::DiagnosisSettings;
 use crate::settings::validation::ValidationSettings;
 use crate::syntax;
 use crate::syntax::position::Position;
-use crate::tasks::initial_state;
 use ron::extensions::Extensions;
 use serde::{Deserialize, Serialize};
 use snug_campaign::{Factor, Intersample, Quantity, Rig, Tightening};
@@ -178,7 +178,7 @@ impl Study {
             shares.map(|(level, share)| (level.name, share)).collect()
         };
         let mut model = self.model.model_of_group(tightening.rig, &group)?;
-        initial_state::as_measured(&mut model, tightening, &self.model);
+        beginning::as_measured(&mut model, tightening, &self.model);
         Ok(model)
     }
 

@@ -5,5 +5,5 @@ pub(crate) mod comparable;
 pub(crate) mod copies;
 pub(crate) mod free_run;
 pub(crate) mod held_input;
-pub(crate) mod initial_state;
+mod initial_state;
 pub(crate) mod settling;

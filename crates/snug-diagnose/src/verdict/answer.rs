@@ -13,7 +13,6 @@ use crate::ranking::rank::Ranking;
 use crate::selection::path::{Addition, SelectionPath, twins};
 use crate::settings::DiagnoseSettings;
 use crate::verdict::comparisons::compare_sizes;
-use crate::verdict::decision::Judged;
 use crate::verdict::earned;
 use crate::verdict::experiment::separating_experiment;
 use crate::verdict::ranking_told::RankingTold;
@@ -23,6 +22,7 @@ use crate::verdict::reasons::{
 use crate::verdict::tightening_fits::TighteningFits;
 use crate::verdict::trend::trends;
 use crate::verdict::{detectability, in_some_groups, ladder, preparation};
+use snug_campaign::words::changes::Changes;
 use snug_campaign::words::explained::Explained;
 use snug_campaign::words::statement;
 use snug_campaign::words::suspicion::{OtherUnits, Suspicion};
@@ -79,6 +79,17 @@ pub(super) struct Places {
     pub(super) explained: Option<Explained>,
     /// What no model could explain of it, if that is nearly all.
     pub(super) left_over: Option<Suspicion>,
+}
+
+/// The verdict, with what goes into its words.
+pub(super) struct Judged {
+    pub verdict: Verdict,
+    /// What to check where no model fits.
+    pub suspicions: Vec<Suspicion>,
+    /// What changes along the recordings.
+    pub changes: Option<Changes>,
+    /// Whether the verdict is open because more is left than noise, though it hardly repeats and nothing explains it.
+    pub is_more_than_noise: bool,
 }
 
 impl Places {

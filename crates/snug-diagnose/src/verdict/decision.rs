@@ -5,26 +5,14 @@ use crate::pooled::fitted::Fitted;
 use crate::pooled::thresholds::AT_FLOOR;
 use crate::question::Goal;
 use crate::selection::thresholds::MOST;
-use crate::verdict::answer::{Examination, Places};
+use crate::verdict::answer::{Examination, Judged, Places};
 use crate::verdict::changes::changes;
 use crate::verdict::earned::{self, leaves_a_motion};
 use crate::verdict::floor;
 use crate::verdict::thresholds::{BESIDE_EFFECTS, MOSTLY_EXPLAINED, REPEATS, WHITE};
 use snug_campaign::Verdict;
-use snug_campaign::words::changes::Changes;
 use snug_campaign::words::explained::Explained;
 use snug_campaign::words::suspicion::{FailedFit, OtherUnits, Suspicion};
-
-/// The verdict, with what goes into its words.
-pub(super) struct Judged {
-    pub verdict: Verdict,
-    /// What to check where no model fits.
-    pub suspicions: Vec<Suspicion>,
-    /// What changes along the recordings.
-    pub changes: Option<Changes>,
-    /// Whether the verdict is open because more is left than noise, though it hardly repeats and nothing explains it.
-    pub is_more_than_noise: bool,
-}
 
 impl Examination<'_> {
     /// The verdict by candidates, unless the rig changes while it is measured and it cannot be that.
