@@ -58,6 +58,11 @@ impl<'a> Cases<'a> {
         self.is_one_machine
     }
 
+    /// Whether the model is restarted from the measured motion of any of them.
+    pub fn are_restarted(self) -> bool {
+        self.iter().any(|case| case.input.is_restarted())
+    }
+
     /// The same, where there are any (else for this `reason` none) and each was measured.
     pub fn checked(
         all: &'a [FitTask<'a>],

@@ -13,10 +13,13 @@ use snug_model::{BASE_PARAMETERS, Effect};
 const OF_BASE: [Changing; BASE_PARAMETERS.len()] =
     [Changing::Mass, Changing::Damping, Changing::Stiffness];
 
-/// What a plain regression with the effects of `fitted`, dry friction and an offset says of that; `None` where nothing changes that takes
+/// What a `plain` regression with the effects of `fitted`, dry friction and an offset says of that; `None` where nothing changes that takes
 /// most of what it leaves.
-pub(crate) fn changes(cases: Cases<'_>, fitted: &Fitted) -> Option<Changes> {
-    let plain = PlainEquation::of(&cases)?;
+pub(crate) fn changes(
+    plain: &PlainEquation<'_>,
+    cases: Cases<'_>,
+    fitted: &Fitted,
+) -> Option<Changes> {
     let at = values(cases, fitted)?;
     let terms = plain.with_plain_terms(&fitted.effects, &at)?;
     let (effects, terms): (Vec<Effect>, Vec<_>) = terms.into_iter().unzip();

@@ -1,6 +1,7 @@
 //! Which verdict the data allow, and what to check where no model fits.
 
 use crate::library::is_unlisted;
+use crate::pooled::equation::PlainEquation;
 use crate::pooled::fitted::Fitted;
 use crate::pooled::thresholds::AT_FLOOR;
 use crate::question::Goal;
@@ -17,11 +18,12 @@ use snug_campaign::words::suspicion::{FailedFit, OtherUnits, Suspicion};
 impl Examination<'_> {
     /// The verdict by candidates, unless the rig changes while it is measured and it cannot be that.
     pub(super) fn judged(&self, places: &Places) -> Judged {
-        let changes = match self.path.is_interrupted() {
-            true => None,
-            false => changes(self.cases, self.path.last()),
-        };
-        let (verdict, suspicions) = self.verdict_and_suspicions(places);
+        let plain = PlainEquation::of(&self.cases);
+        let plain = plain.as_ref();
+        let changes = plain
+            .filter(|_| !self.path.is_interrupted())
+            .and_then(|plain| changes(plain, self.cases, self.path.last()));
+        let (verdict, suspicions) = self.verdict_and_suspicions(places, plain);
         let is_followed = changes.is_none() || self.follows_changes(verdict, places);
         let verdict = match is_followed {
             true => verdict,
@@ -43,11 +45,17 @@ impl Examination<'_> {
 
     /// The verdict, and what to check where no model fits. A comparison leaves it at that only where there is something to check:
     /// an effect that does most of the work is for `diagnose` to find.
-    fn verdict_and_suspicions(&self, places: &Places) -> (Verdict, Vec<Suspicion>) {
+    fn verdict_and_suspicions(
+        &self,
+        places: &Places,
+        plain: Option<&PlainEquation<'_>>,
+    ) -> (Verdict, Vec<Suspicion>) {
         let is_white = (places.explained.as_ref()).is_some_and(|all| all.neighbours.abs() < WHITE);
         let wrong = [
             self.units_that_differ(true).map(Suspicion::Units),
-            self.failed_fit().map(Suspicion::FailedFit),
+            plain
+                .and_then(|plain| self.failed_fit(plain))
+                .map(Suspicion::FailedFit),
             earned::is_undriven(self.question.cases).then_some(Suspicion::Undriven),
         ];
         let wrong: Vec<Suspicion> = wrong.into_iter().flatten().collect();
@@ -84,14 +92,13 @@ impl Examination<'_> {
     /// there; and a model that is restarted from the measured motion again and again explains nearly all, whatever changes: it is not
     /// adequate while a motion is left.
     fn follows_changes(&self, verdict: Verdict, places: &Places) -> bool {
-        let is_restarted = self.cases.iter().any(|case| case.input.is_restarted());
         let leaves_a_motion = places
             .explained
             .as_ref()
             .is_some_and(Explained::leaves_a_motion);
         match verdict {
             Verdict::UnlistedEffect => false,
-            Verdict::Adequate => !(is_restarted && leaves_a_motion),
+            Verdict::Adequate => !(self.cases.are_restarted() && leaves_a_motion),
             _ => true,
         }
     }
@@ -111,11 +118,11 @@ impl Examination<'_> {
     }
 
     /// How the best model falls short of a plain regression, if it does.
-    fn failed_fit(&self) -> Option<FailedFit> {
+    fn failed_fit(&self, plain: &PlainEquation<'_>) -> Option<FailedFit> {
         let candidates = &self.path.ranking.candidates;
         let best = (self.path.chosen).map_or(self.path.last(), |index| &candidates[index].fitted);
         let were_tried = !candidates.is_empty();
-        floor::shortfall(self.cases, best, were_tried)
+        floor::shortfall(plain, self.cases, best, were_tried)
     }
 
     /// `is_white` where what is left is as white as noise, whatever candidates promise.
@@ -187,10 +194,11 @@ impl Examination<'_> {
         let floor = if lets_go { BESIDE_EFFECTS } else { AT_FLOOR };
         let leaves_much = match earned::share(self.question.cases, last) {
             Some(share) => {
-                let is_restarted = self.cases.iter().any(|case| case.input.is_restarted());
                 let leaves_a_motion = explained.is_some_and(Explained::leaves_a_motion);
                 share < MOSTLY_EXPLAINED
-                    || (is_restarted && leaves_a_motion && self.path.additions.is_empty())
+                    || (self.cases.are_restarted()
+                        && leaves_a_motion
+                        && self.path.additions.is_empty())
             }
             None => last.error() > floor,
         };

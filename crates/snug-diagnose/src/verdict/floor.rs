@@ -9,13 +9,17 @@ use crate::verdict::thresholds::PLAIN_PROMISE;
 use snug_campaign::words::suspicion::FailedFit;
 use snug_identify::EquationFit;
 
-/// What is wrong with `fitted`, if it falls short of the regression with its own effects or, where candidates were tried as well,
+/// What is wrong with `fitted`, if it falls short of the `plain` regression with its own effects or, where candidates were tried as well,
 /// of one with dry friction and an offset.
-pub(crate) fn shortfall(cases: Cases<'_>, fitted: &Fitted, were_tried: bool) -> Option<FailedFit> {
+pub(crate) fn shortfall(
+    plain: &PlainEquation<'_>,
+    cases: Cases<'_>,
+    fitted: &Fitted,
+    were_tried: bool,
+) -> Option<FailedFit> {
     if fitted.is_weighted {
         return None;
     }
-    let plain = PlainEquation::of(&cases)?;
     let at = values(cases, fitted)?;
     let kept = plain.equation.explained_by(&fitted.effects, &at)?;
     let own = plain.as_fitted(&fitted.effects, &at);
@@ -47,8 +51,7 @@ pub(crate) fn shortfall(cases: Cases<'_>, fitted: &Fitted, were_tried: bool) -> 
     };
     // Run freely, a fit that explains as much of the output itself keeps the promise: high up, an acceleration is the coarseness of a
     // logged angle. Restarted every so often, any model explains nearly all of it.
-    let is_restarted = cases.iter().any(|case| case.input.is_restarted());
-    let of_output = share(&cases, fitted).filter(|_| !is_restarted);
+    let of_output = share(&cases, fitted).filter(|_| !cases.are_restarted());
     let keeps = |found: &EquationFit| {
         of_output.is_some_and(|share| !falls_short(share, found, PLAIN_PROMISE))
     };

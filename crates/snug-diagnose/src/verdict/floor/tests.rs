@@ -27,7 +27,8 @@ fn said_leaving(
     let fitted = Fitted::made_up(&[], &[squares], SAMPLES).unweighted();
     let fitted = fitted.with_own(&names, vec![values.to_vec()], 0);
     let tally = Tally::default();
-    shortfall(Cases::new(&cases, &tally), &fitted, were_tried)
+    let plain = PlainEquation::of(&cases)?;
+    shortfall(&plain, Cases::new(&cases, &tally), &fitted, were_tried)
 }
 
 #[test]
