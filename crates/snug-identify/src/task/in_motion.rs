@@ -44,14 +44,14 @@ const ELSEWHERE: f64 = 0.02;
 
 /// Whether any of the recordings of an angle begins where the sensor reads more than noise and a little of the way that it goes.
 pub fn begin_elsewhere(recordings: &[FitTask<'_>]) -> bool {
-    recordings.iter().any(|task| {
+    let of_angle = |task: &&FitTask<'_>| task.quantity() == Quantity::Displacement;
+    recordings.iter().filter(of_angle).any(|task| {
         let angle = task.measured();
         let mean = angle.iter().sum::<f64>() / angle.len().max(1) as f64;
         let about_mean: Vec<f64> = angle.iter().map(|angle| angle - mean).collect();
         let noise = BEYOND_NOISE * white_noise_level(angle);
         let least = (ELSEWHERE * root_mean_square(&about_mean)).max(noise);
-        let is_angle = task.quantity() == Quantity::Displacement;
-        is_angle && angle.first().is_some_and(|first| first.abs() > least)
+        angle.first().is_some_and(|first| first.abs() > least)
     })
 }
 

@@ -13,8 +13,8 @@ pub(crate) struct Comparable {
     pub reasons: Vec<Reason>,
 }
 
-/// Of tightenings that are there more than once the first, and of those the largest group that have the compared output and a known (or unknown) noise in common; of equals,
-/// the one whose noise is known.
+/// Of tightenings that are there more than once the first, and of those the largest group that have the compared output and a known (or
+/// unknown) noise in common; of equals, the one whose noise is known.
 ///
 /// A pooled residual has one unit: multiples of the noise, or the output's own. One tightening whose noise could not be
 /// measured would take that unit away from all.
