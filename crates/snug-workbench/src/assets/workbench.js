@@ -62,6 +62,14 @@ const ask = async (path, body) => {
   return null;
 };
 
+// What somebody wishes waits until the server knows this page: earlier it would be nobody's.
+let isKnown;
+const known = new Promise(done => { isKnown = done; });
+const wish = async change => {
+  await known;
+  return ask('/api/change', change);
+};
+
 // Switches: what is in the model first, then by promise.
 const items = () => [...one('switches').children];
 const check = () => items().forEach(item => {
@@ -95,7 +103,7 @@ const ladder = rungs => {
     if (isLast) row.setAttribute('aria-current', 'step');
     else {
       Object.assign(name, { type: 'button', title: 'back to this model' });
-      name.addEventListener('click', () => ask('/api/change', { kind: 'back', rung: i }));
+      name.addEventListener('click', () => wish({ kind: 'back', rung: i }));
     }
     row.append(name, element('span', rung.shown, 'value'), bar);
     return row;
@@ -385,7 +393,7 @@ const lookCloser = change => {
   choosable();
   if (!among().some(option => option.value === state.tightening)) state.tightening = among()[0].value;
   remember();
-  ask('/api/change', { kind: 'closer', ...closer() });
+  wish({ kind: 'closer', ...closer() });
 };
 const zoomed = () => { one('brush').disabled = one('alone').disabled = !viewers[0].view; };
 const shownStretch = () => viewers[0].view.map(at => at / state.perSecond);
@@ -401,7 +409,7 @@ items().forEach(item => item.querySelector('.switch').addEventListener('click', 
   state.effects = effects;
   letGo();
   check();
-  ask('/api/change', { kind: 'choose', effects: effects.join(',') });
+  wish({ kind: 'choose', effects: effects.join(',') });
 }));
 one('switches').addEventListener('pointerleave', () => {
   if (state.isUnsorted) sort();
@@ -432,7 +440,7 @@ one('as-fitted').addEventListener('click', () => { letGo(); look(); });
 one('from-here').addEventListener('click', () => {
   const values = state.values.join(',');
   letGo();
-  ask('/api/change', { kind: 'fit_from', number: Number(state.tightening), values });
+  wish({ kind: 'fit_from', number: Number(state.tightening), values });
 });
 one('pin').addEventListener('click', () => {
   state.rival = state.rival === null ? state.effects.join(',') : null;
@@ -453,8 +461,8 @@ one('results').addEventListener('click', async () => {
     one('links').append(anchor, ' ');
   }
 });
-one('undo').addEventListener('click', () => ask('/api/change', { kind: 'undo' }));
-one('redo').addEventListener('click', () => ask('/api/change', { kind: 'redo' }));
+one('undo').addEventListener('click', () => wish({ kind: 'undo' }));
+one('redo').addEventListener('click', () => wish({ kind: 'redo' }));
 one('save').addEventListener('click', async () => {
   const answer = await ask('/api/save', { effects: state.effects.join(',') });
   if (answer) show('saved', answer.sentence);
@@ -469,6 +477,7 @@ const listen = () => {
     const event = JSON.parse(message.data);
     hear[event.kind]?.(event);
     state.given = true;
+    isKnown();
   };
   events.onerror = () => {
     events.close();

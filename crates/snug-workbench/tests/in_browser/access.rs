@@ -1,8 +1,7 @@
 //! The page for everybody: on paper-narrow screens, in the dark, with a keyboard alone, and to a screen reader.
 
-use crate::browser::{Headless, Tab, installed};
-use crate::server::{Server, study_in};
-use tempfile::TempDir;
+use crate::browser::Tab;
+use crate::opened::Opened;
 
 /// Faults that axe-core calls serious or critical; `SNUG_AXE` names its script, which then must be there.
 async fn serious(tab: &Tab, script: &str) -> Vec<String> {
@@ -21,22 +20,21 @@ async fn serious(tab: &Tab, script: &str) -> Vec<String> {
 
 #[tokio::test(flavor = "multi_thread", worker_threads = 2)]
 async fn the_page_is_for_everybody() {
-    let Some(program) = installed() else { return };
+    let Some(opened) = Opened::on_the_mystery().await else {
+        return;
+    };
     let axe = std::env::var_os("SNUG_AXE").map(|path| std::fs::read_to_string(path).unwrap());
     if axe.is_none() {
         println!("skipped: SNUG_AXE names no script of axe-core");
     }
-    let folder = TempDir::new().unwrap();
-    let server = Server::begin(0, &study_in(folder.path()));
-    let browser = Headless::launch(program).await;
     for (width, scheme) in [
         (1400, "light"),
         (1400, "dark"),
         (390, "light"),
         (390, "dark"),
     ] {
-        let address = format!("{}?effects=stretch_reflex&rival=", server.address());
-        let tab = browser.open(&address, width, scheme).await;
+        let address = format!("{}?effects=stretch_reflex&rival=", opened.server.address());
+        let tab = opened.browser.open(&address, width, scheme).await;
         tab.until("document.querySelector('[data-error]')?.textContent === '1.007'")
             .await;
         tab.until("document.querySelector('[data-tested]').dataset.state === 'real'")
@@ -47,21 +45,19 @@ async fn the_page_is_for_everybody() {
             let faults = serious(&tab, axe).await;
             assert!(faults.is_empty(), "{width} {scheme}: {faults:#?}");
         }
-        tab.was_well(server.port);
+        tab.was_well(opened.server.port);
         tab.page.close().await.unwrap();
     }
-    browser.close().await;
-    server.end();
+    opened.close().await;
 }
 
 /// From the top of the page by Tab alone to the switch that promises most, and on by the space bar.
 #[tokio::test(flavor = "multi_thread", worker_threads = 2)]
 async fn a_keyboard_is_enough() {
-    let Some(program) = installed() else { return };
-    let folder = TempDir::new().unwrap();
-    let server = Server::begin(0, &study_in(folder.path()));
-    let browser = Headless::launch(program).await;
-    let tab = browser.open(&server.address(), 1400, "light").await;
+    let Some(opened) = Opened::on_the_mystery().await else {
+        return;
+    };
+    let tab = opened.tab().await;
     tab.is_ready("1.541").await;
     let at = "document.activeElement.closest('li')?.dataset.effect ?? ''";
     let mut presses = 0;
@@ -74,6 +70,5 @@ async fn a_keyboard_is_enough() {
     tab.until("document.querySelector('[data-error]').textContent === '1.007'")
         .await;
     println!("{presses} presses of Tab to the first switch");
-    browser.close().await;
-    server.end();
+    opened.close().await;
 }

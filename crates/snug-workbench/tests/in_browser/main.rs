@@ -3,6 +3,8 @@
 
 mod access;
 mod browser;
+mod early;
 mod mystery;
+mod opened;
 mod server;
 mod stretch;

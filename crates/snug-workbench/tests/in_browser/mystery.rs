@@ -1,7 +1,8 @@
 //! The mystery solved with a mouse: the error falls on screen, and what is saved can be run.
 
-use crate::browser::{Headless, LOADING, Tab, installed};
-use crate::server::{Server, study_in};
+use crate::browser::{LOADING, Tab};
+use crate::opened::Opened;
+use crate::server::Server;
 use serde_json::Value;
 use snug_study::{RunSettings, Study, run};
 use std::path::Path;
@@ -23,12 +24,10 @@ const AT_LAST_MS: f64 = 10_000.0;
 
 #[tokio::test(flavor = "multi_thread", worker_threads = 2)]
 async fn the_mystery_is_solved_by_clicking() {
-    let Some(program) = installed() else { return };
-    let folder = TempDir::new().unwrap();
-    let study_file = study_in(folder.path());
-    let server = Server::begin(0, &study_file);
-    let browser = Headless::launch(program).await;
-    let tab = browser.open(&server.address(), 1400, "light").await;
+    let Some(opened) = Opened::on_the_mystery().await else {
+        return;
+    };
+    let tab = opened.tab().await;
 
     // The misfit is seen, and what promises most stands first.
     tab.is_ready("1.541").await;
@@ -116,16 +115,15 @@ async fn the_mystery_is_solved_by_clicking() {
     tab.click("[data-save]").await;
     tab.until("document.querySelector('[data-saved]').textContent.startsWith('Saved as ')")
         .await;
-    reproduces(&folder.path().join("mystery.workbench.ron"));
+    reproduces(&opened.folder.path().join("mystery.workbench.ron"));
 
     // A reload shows the same.
     (tokio::time::timeout(LOADING, tab.page.reload()).await).ok();
     tab.until("document.querySelector('[data-error]')?.textContent === '1.007'")
         .await;
     assert_eq!(switched_on(&tab.value(ON).await), ["stretch_reflex"]);
-    tab.was_well(server.port);
-    browser.close().await;
-    server.end();
+    tab.was_well(opened.server.port);
+    opened.close().await;
 }
 
 /// Step responses of the model before and the present one, and how measured and simulated motion answer the torque over frequency.
@@ -199,14 +197,11 @@ fn reproduces(study_file: &Path) {
 
 #[tokio::test(flavor = "multi_thread", worker_threads = 2)]
 async fn a_server_that_goes_and_comes_back_loses_nothing() {
-    let Some(program) = installed() else { return };
-    let folder = TempDir::new().unwrap();
-    let study_file = study_in(folder.path());
-    let server = Server::begin(0, &study_file);
-    let (port, address) = (server.port, server.address());
-    let browser = Headless::launch(program).await;
-    let tab = browser.open(&address, 1400, "light").await;
-    let other = browser.open(&address, 1400, "light").await;
+    let Some(opened) = Opened::on_the_mystery().await else {
+        return;
+    };
+    let (tab, other) = (opened.tab().await, opened.tab().await);
+    let port = opened.server.port;
     for (tab, effect) in [(&tab, "stretch_reflex"), (&other, "cubic_stiffness")] {
         tab.is_ready("1.541").await;
         tab.click(&format!("[data-effect={effect}] .switch")).await;
@@ -215,11 +210,11 @@ async fn a_server_that_goes_and_comes_back_loses_nothing() {
         tab.until("!document.body.classList.contains('fitting')")
             .await;
     }
-    server.end();
+    opened.server.end();
     tab.until("!document.querySelector('[data-fault]').hidden")
         .await;
     assert!(tab.text("fault").await.contains("Is it still running?"));
-    let again = Server::begin(port, &study_file);
+    let again = Server::begin(port, &opened.study_file);
     for (tab, effect) in [(&tab, "stretch_reflex"), (&other, "cubic_stiffness")] {
         tab.until("document.querySelector('[data-fault]').hidden")
             .await;
@@ -227,6 +222,6 @@ async fn a_server_that_goes_and_comes_back_loses_nothing() {
             .await;
         assert_eq!(switched_on(&tab.value(ON).await), [effect]);
     }
-    browser.close().await;
+    opened.browser.close().await;
     again.end();
 }

@@ -1,24 +1,25 @@
 //! A stretch of time that is dragged over is fitted alone, saved as a study, and left again.
 
-use crate::browser::{Headless, installed};
-use crate::server::{Server, study_in};
+use crate::opened::Opened;
 use snug_study::{RunSettings, Study, run};
 use std::sync::atomic::AtomicBool;
 use tempfile::TempDir;
 
 #[tokio::test(flavor = "multi_thread", worker_threads = 2)]
 async fn a_stretch_is_fitted_alone_and_saved() {
-    let Some(program) = installed() else { return };
-    let folder = TempDir::new().unwrap();
-    let server = Server::begin(0, &study_in(folder.path()));
-    let browser = Headless::launch(program).await;
-    let tab = browser.open(&server.address(), 1400, "light").await;
+    let Some(opened) = Opened::on_the_mystery().await else {
+        return;
+    };
+    let tab = opened.tab().await;
     tab.is_ready("1.541").await;
     tab.drag(0.1, 0.5).await;
     tab.click("[data-alone]").await;
     tab.until("document.querySelector('header').textContent.includes('s of every window alone')")
         .await;
-    tab.until("document.querySelector('[data-error]')?.textContent > '1'")
+    tab.until("Number(document.querySelector('[data-error]')?.textContent) > 1")
+        .await;
+    // Effects that are still being sorted would move away from under the click.
+    tab.until("(document.querySelector('[data-usable]')?.textContent ?? '') !== ''")
         .await;
     let whole = "document.querySelector('[data-error]').textContent === '1.541'";
     assert_eq!(tab.value(whole).await, false);
@@ -33,9 +34,8 @@ async fn a_stretch_is_fitted_alone_and_saved() {
     tab.click("[data-whole]").await;
     tab.until("document.querySelector('[data-error]')?.textContent === '1.007'")
         .await;
-    tab.was_well(server.port);
-    browser.close().await;
-    server.end();
+    tab.was_well(opened.server.port);
+    let folder = opened.close().await;
 
     // The same as a command: nothing after the stretch is there, and nothing before it is scored.
     let study = Study::read(&folder.path().join("mystery.workbench.ron")).unwrap();
