@@ -51,7 +51,7 @@ impl Doors {
 }
 
 /// Threads that work out what pages ask for beside their fits. Of more, each keeps scattered memory that the others do not use: with
-/// as many as tokio begins by itself a day of 500 clicks left 100 MB more from noon to evening.
+/// as many as tokio begins by itself, and the system's allocator, a day of 500 clicks left 100 MB more from noon to evening.
 const ASIDE: usize = 3;
 
 /// What pages are answered on.

@@ -4,9 +4,15 @@ use crate::server::Server;
 use std::io::{BufRead, BufReader};
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
+use std::time::Duration;
 
 /// What tells this program to serve; the study's file comes next.
 const SERVE: &str = "--serve";
+
+/// Ticks in a second that nobody works for. Chosen.
+const AT_REST: u64 = 5;
+/// How long somebody waits for that \[s\]. Chosen.
+const LONGEST_WAIT_S: usize = 120;
 
 /// Whether this process is the workbench.
 pub fn is_asked_for() -> bool {
@@ -47,6 +53,27 @@ impl Apart {
 
     pub fn address(&self) -> String {
         format!("http://127.0.0.1:{}/", self.port)
+    }
+
+    /// Waits until nothing is worked on: effects are tested for a while after the last click.
+    pub async fn rests(&self) {
+        let mut worked = self.worked();
+        for _ in 0..LONGEST_WAIT_S {
+            tokio::time::sleep(Duration::from_secs(1)).await;
+            let before = std::mem::replace(&mut worked, self.worked());
+            if worked <= before + AT_REST {
+                return;
+            }
+        }
+    }
+
+    /// Ticks of the processor that it took so far, hundredths of a second; 0 where the system does not tell them.
+    fn worked(&self) -> u64 {
+        let stat = format!("/proc/{}/stat", self.process.id());
+        let stat = std::fs::read_to_string(stat).unwrap_or_default();
+        let after_name = stat.rsplit(')').next().unwrap_or_default();
+        let ticks = after_name.split_whitespace().skip(11).take(2);
+        ticks.filter_map(|ticks| ticks.parse::<u64>().ok()).sum()
     }
 
     /// Resident memory \[MB\]; NaN where the system does not tell it.

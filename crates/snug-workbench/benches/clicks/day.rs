@@ -74,11 +74,12 @@ pub async fn of_use(program: &Path) {
     server.end();
 }
 
-/// One line of the table; what the server has in memory \[MB\].
+/// One line of the table; what the server has in memory once it rests \[MB\].
 async fn line(click: usize, server: &Apart, tab: &Tab) -> f64 {
     tab.page.bring_to_front().await.unwrap();
     let heap = tab.value("performance.memory.usedJSHeapSize").await;
     let nodes = tab.value("document.getElementsByTagName('*').length").await;
+    server.rests().await;
     let memory_mb = server.memory_mb();
     println!(
         "  {click:>3} clicks    {memory_mb:>10.0} {:>10.1} {:>6}",
