@@ -11,6 +11,10 @@ use snug_model::{CustomEffectSettings, CustomParameterSettings, Effect, Place, S
 /// Speeds over which two of the terms turn or set in, on a hand \[m/s\].
 const SLOW_M_PER_S: [(&str, f64); 2] = [("sqrt_v_law", 0.001), ("abs_x_friction_law", 0.01)];
 
+/// A torque at which one whose square acts is as large as one that acts itself, on a hand \[Nm\]. Chosen: of a hand's size, so that the
+/// factor is of the size of 1 over the lever arm.
+const LARGE_NM: f64 = 10.0;
+
 /// Every term that can act on a rig of this scale, as an effect.
 pub(crate) fn terms(scale: Scale, rig: &Rig) -> Result<Vec<Effect>, DiagnoseError> {
     let more = match scale {
@@ -48,10 +52,14 @@ fn term(name: &str) -> Option<&'static Term> {
 impl Term {
     fn settings(&self, scale: Scale, rig: &Rig) -> CustomEffectSettings {
         let slow = self.slow_m_per_s(scale, rig);
+        // Any of this size does: the factor makes up for it.
+        let large_nm = format!("{:.0e}", LARGE_NM * scale.times_hand("Nm", rig));
         CustomEffectSettings {
             name: self.name.to_owned(),
             place: Place::Force,
-            expression: self.expression.replace("{slow}", &slow),
+            expression: (self.expression)
+                .replace("{slow}", &slow)
+                .replace("{large}", &large_nm),
             parameters: (self.parameters.iter())
                 .map(|factor| factor.settings(scale.times_hand(factor.unit, rig)))
                 .collect(),
@@ -149,6 +157,14 @@ mod tests {
         ("abs_x_law", 0.024),
         // It is 5 mm on the other side.
         ("lower_end_stop_law", 0.0),
+        // 2 (25 − 62.5).
+        ("torque2_law", -75.0),
+        ("torque_abs_torque_law", -75.0),
+        // Beyond 1 Nm.
+        ("dead_band_law", 2.0),
+        ("torque_x_law", 0.6),
+        ("torque_x2_law", 0.0072),
+        ("torque_abs_v_law", 15.0),
     ];
 
     fn force_n(effect: Effect, size: f64, since_onset_s: f64, [x_m, v_m_per_s]: [f64; 2]) -> f64 {
@@ -220,15 +236,9 @@ mod tests {
             let own = all.iter().filter(|name| !others.contains(name));
             own.copied().collect()
         };
-        let of_a_hand = [
-            "stribeck_law",
-            "exponential_spring_law",
-            "latch_law",
-            "late_damping_law",
-        ];
-        assert_eq!(beyond(&hand_s, &machine_s), of_a_hand);
-        let of_a_machine = ["abs_x_law", "lower_end_stop_law"];
-        assert_eq!(beyond(&machine_s, &hand_s), of_a_machine);
+        let own = |terms: &[Term]| -> Vec<&str> { terms.iter().map(|term| term.name).collect() };
+        assert_eq!(beyond(&hand_s, &machine_s), own(OF_A_HAND));
+        assert_eq!(beyond(&machine_s, &hand_s), own(OF_A_MACHINE));
     }
 
     #[test]

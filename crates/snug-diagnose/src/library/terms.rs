@@ -6,7 +6,7 @@ pub(super) struct Term {
     pub says: &'static str,
     /// What it is where its size p is negative.
     pub says_below_zero: &'static str,
-    /// `{slow}` is a speed \[m/s\] over which it turns or sets in, see [`Term::slow_m_per_s`].
+    /// `{slow}` is a speed \[m/s\] over which it turns or sets in, see [`Term::slow_m_per_s`]; `{large}` is a torque \[Nm\], see `LARGE_NM`.
     pub expression: &'static str,
     pub parameters: &'static [Factor],
 }
@@ -240,7 +240,8 @@ pub(super) const OF_A_HAND: &[Term] = &[
     },
 ];
 
-/// A hand rests at one end of its way: it has no other side.
+/// A hand rests at one end of its way: it has no other side. A nutrunner's torque is measured where it acts; what drives a machine is often
+/// a command, of which an actuator makes a force in its own way.
 pub(super) const OF_A_MACHINE: &[Term] = &[
     Term {
         name: "abs_x_law",
@@ -267,5 +268,59 @@ pub(super) const OF_A_MACHINE: &[Term] = &[
                 maximum: 0.05,
             },
         ],
+    },
+    Term {
+        name: "torque2_law",
+        says: "an input whose square acts as well, or instead",
+        says_below_zero: "an input whose square acts against it",
+        expression: "p*(T-T^2/{large})",
+        parameters: &[p("N/Nm")],
+    },
+    Term {
+        name: "torque_abs_torque_law",
+        says: "an input that acts ever more the larger it is",
+        says_below_zero: "an input that acts ever less the larger it is",
+        expression: "p*(T-T*abs(T)/{large})",
+        parameters: &[p("N/Nm")],
+    },
+    Term {
+        name: "dead_band_law",
+        says: "an input that hardly acts as long as it is smaller than b",
+        says_below_zero: "an input that acts more as long as it is smaller than b",
+        expression: "p*max(-b,min(b,T))",
+        parameters: &[
+            Factor {
+                starts: &[1.0],
+                ..p("N/Nm")
+            },
+            Factor {
+                name: "b",
+                unit: "Nm",
+                starts: &[1.0, 4.0],
+                minimum: 0.1,
+                maximum: 20.0,
+            },
+        ],
+    },
+    Term {
+        name: "torque_x_law",
+        says: "an input that acts less above rest than below it",
+        says_below_zero: "an input that acts more above rest than below it",
+        expression: "p*T*x",
+        parameters: &[p("1/m^2")],
+    },
+    Term {
+        name: "torque_x2_law",
+        says: "an input that acts less the further the rig is from rest",
+        says_below_zero: "an input that acts more the further the rig is from rest",
+        expression: "p*T*x^2",
+        parameters: &[p("1/m^3")],
+    },
+    Term {
+        name: "torque_abs_v_law",
+        says: "an input that acts less the faster the rig moves",
+        says_below_zero: "an input that acts more the faster the rig moves",
+        expression: "p*T*abs(v)",
+        parameters: &[p("s/m^2")],
     },
 ];
