@@ -17,8 +17,17 @@ impl Machine {
         for folder in ["programs", "home", "work"] {
             std::fs::create_dir(machine.path(folder)).unwrap();
         }
-        std::fs::copy(env!("CARGO_BIN_EXE_snug"), machine.path("programs/snug")).unwrap();
+        machine.install(Path::new(env!("CARGO_BIN_EXE_snug")), "snug");
         machine
+    }
+
+    /// Puts a program there. Another process does it: one that a test beside this starts meanwhile would inherit a file that is open for
+    /// writing here, and while it has that nobody can run it ("text file busy").
+    pub fn install(&self, program: &Path, name: &str) {
+        let mut install = Command::new("install");
+        install.args(["-m", "755"]).arg(program);
+        let status = install.arg(self.path("programs").join(name)).status();
+        assert!(status.unwrap().success());
     }
 
     /// A path on it: `home`, `work`, or what lies below.

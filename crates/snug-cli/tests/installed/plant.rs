@@ -1,7 +1,6 @@
 //! `snug plant`: a program of its own, started where it is installed.
 
 use crate::machine::{Machine, ended};
-use std::os::unix::fs::PermissionsExt;
 
 #[test]
 fn it_says_how_the_plant_is_installed() {
@@ -17,13 +16,13 @@ fn it_says_how_the_plant_is_installed() {
 #[test]
 fn an_installed_plant_gets_the_words_and_its_code_comes_back() {
     let machine = Machine::new();
-    let program = machine.path("programs/snug-plant");
+    let script = machine.path("script");
     std::fs::write(
-        &program,
+        &script,
         "#!/bin/sh\necho \"$SNUG_PROGRAM plant: $*\"\nexit 7\n",
     )
     .unwrap();
-    std::fs::set_permissions(&program, std::fs::Permissions::from_mode(0o755)).unwrap();
+    machine.install(&script, "snug-plant");
     let (code, said, told) = ended(&mut machine.snug(&["plant", "fit", "--help"]));
     assert_eq!(
         (code, said.as_str()),
