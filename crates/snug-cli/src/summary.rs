@@ -39,6 +39,25 @@ pub fn of_run(outcome: &Outcome) -> String {
     text
 }
 
+/// One line of what was found in the recordings themselves, for who is told of the model first; empty where nothing was.
+pub fn of_recordings(findings: &[Finding]) -> String {
+    let mut kinds: BTreeMap<&str, usize> = BTreeMap::new();
+    let of_one = findings.iter().filter(|one| one.tightening.is_some());
+    for finding in of_one.filter(|one| one.severity != Severity::LeftOut) {
+        *kinds.entry(&finding.code).or_default() += 1;
+    }
+    if kinds.is_empty() {
+        return String::new();
+    }
+    let told: Vec<String> = (kinds.iter())
+        .map(|(code, count)| format!("{} ({count})", code.replace('_', " ")))
+        .collect();
+    format!(
+        "\nFound in the recordings: {}; findings.json and the report say what and where\n",
+        told.join(", ")
+    )
+}
+
 /// What became of the work: whether it was cut short, what was left out, where the results stand.
 pub fn of_results(outcome: &Outcome) -> String {
     let mut text = String::new();

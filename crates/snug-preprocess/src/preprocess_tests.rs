@@ -3,7 +3,6 @@
 
 use super::*;
 use crate::prepared::Prepared;
-use crate::settings::rig::KnownInertia;
 use crate::tests::synthetic::{
     ONSET, PEAK, SEGMENT, acceleration, coloured_noise, pulse, recording, white_noise,
 };
@@ -407,32 +406,6 @@ fn thesis_leaves_out_what_is_too_short() {
     );
     recording.segments[0].end = 17_798;
     assert_eq!(codes(&thesis(&recording).findings), ["truncated_segment"]);
-}
-
-#[test]
-fn whole_segments_stay_as_measured() {
-    let mut recording = recording(&[51], 0.0);
-    recording.motion = snug_campaign::Motion {
-        displacement_rad: Some(coloured_noise(SEGMENT, 1.0, 3)),
-        ..Default::default()
-    };
-    recording.segments[0].start = 100;
-    let mut settings = PreprocessSettings {
-        window: Window::Whole,
-        ..PreprocessSettings::default()
-    };
-    settings.rig.known_inertia = KnownInertia::Fixed(0.0);
-    let result = preprocess(&recording, &settings, Quantity::Displacement).unwrap();
-    let tightening = &result.tightenings[0].tightening;
-    assert_eq!(tightening.torque_nm, recording.torque_nm[100..]);
-    assert_eq!(
-        tightening.motion.displacement_rad.as_ref().unwrap()[..],
-        recording.motion.displacement_rad.as_ref().unwrap()[100..]
-    );
-    assert_eq!(tightening.rig.known_inertia_kg_m2, 0.0);
-    assert!(tightening.motion.velocity_rad_per_s.is_none() && tightening.noise.is_none());
-    let result = preprocess(&recording, &settings, Quantity::Acceleration).unwrap();
-    assert_eq!(codes(&result.findings), ["missing_channel"]);
 }
 
 #[test]

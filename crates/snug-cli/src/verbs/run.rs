@@ -115,6 +115,9 @@ fn told(outcome: &Outcome, options: &RunOptions, next: &str) -> String {
         None => vocabulary.says(&summary::of_run(outcome)),
     };
     text.push_str(&estimates::of(&outcome.result));
+    if outcome.result.diagnosis.is_some() {
+        text.push_str(&summary::of_recordings(&outcome.result.findings));
+    }
     text.push_str(&vocabulary.says(&summary::of_results(outcome)));
     text
 }

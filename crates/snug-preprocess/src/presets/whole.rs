@@ -2,6 +2,7 @@
 
 use crate::prepared::Prepared;
 use crate::quality::wrapped::{Wrapped, unwrap};
+use crate::quality::{catching_up, spikes};
 use crate::segment::channel::Channel;
 use crate::segment::context::Context;
 use crate::segment::integration::complete;
@@ -9,6 +10,10 @@ use crate::segment::peak_torque::peak_torque_nm;
 use crate::segment::remarks::Remarks;
 use crate::segment::signals::Signals;
 use snug_campaign::{Finding, Quantity, Segment};
+
+/// Samples to either side of a jump of the input within which the motion may jump, too. Chosen: a pendulum that is kicked turns about within
+/// three samples of 300 Hz.
+const KICKED: usize = 4;
 
 /// Takes every sample; nothing is zeroed, and the noise floor is left to the fit's residual.
 pub(crate) fn prepare(
@@ -32,6 +37,7 @@ pub(crate) fn prepare(
     if let Some(angle_rad) = &mut signals.motion.displacement_rad {
         tell_wrapped(unwrap(angle_rad), remarks);
     }
+    tell_doubtful(context, &signals, remarks);
     complete(&mut signals.motion, context.interval_s);
     let peak = peak_torque_nm(&signals.torque_nm);
     Ok(Prepared {
@@ -40,6 +46,50 @@ pub(crate) fn prepare(
         zero_sample: None,
         data_quality_rejects: false,
     })
+}
+
+/// Says where a displacement or velocity goes as no rig does that is not kicked. Nothing is mended, and of an acceleration nothing is said:
+/// a blow makes a spike of it.
+fn tell_doubtful(context: &Context<'_>, signals: &Signals, remarks: &mut Remarks) {
+    let quality = &context.settings.quality;
+    let kicks = spikes::jumps(&signals.torque_nm, quality.spike_sd);
+    let is_kicked = |index: usize| {
+        let next = kicks.partition_point(|kick| kick + KICKED < index);
+        kicks.get(next).is_some_and(|&kick| kick <= index + KICKED)
+    };
+    for quantity in [Quantity::Displacement, Quantity::Velocity] {
+        let Some(samples) = signals.motion.get(quantity) else {
+            continue;
+        };
+        let channel = Channel::Motion(quantity);
+        let at_s = |sample: usize| sample as f64 * context.interval_s;
+        let spikes = spikes::repair(&mut samples.to_vec(), quality.spike_sd, |index, _, _, _| {
+            is_kicked(index)
+        });
+        if let Some(first) = spikes.mended.first() {
+            let message = format!(
+                "{} leaves its course for at most 3 samples and comes back, {} times, first at {:.4} s; it is taken as it is, and no model \
+                 follows it there",
+                channel.name(),
+                spikes.mended.len(),
+                at_s(first.start)
+            );
+            remarks.note("spikes", Some(channel), message);
+        }
+        let shortest = context.samples(quality.stuck_s);
+        let held = catching_up::find(samples, shortest, quality.spike_sd);
+        if let Some(first) = held.first() {
+            let message = format!(
+                "{} repeats one value for {} samples from {:.4} s on and then jumps ({} such stretches), as where a logger drops out; it is \
+                 taken as it is, and no model follows it there",
+                channel.name(),
+                first.len(),
+                at_s(first.start),
+                held.len()
+            );
+            remarks.note("dropout", Some(channel), message);
+        }
+    }
 }
 
 /// Says that an angle begins anew again and again.
@@ -69,3 +119,6 @@ fn tell_wrapped(wrapped: Option<Wrapped>, remarks: &mut Remarks) {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -64,6 +64,19 @@ pub(crate) fn repair(
     found
 }
 
+/// Where a channel jumps by more than `threshold_sd` standard deviations of the differences between neighbours; of one that mostly stays as it
+/// is, wherever it changes.
+pub(crate) fn jumps(samples: &[f64], threshold_sd: f64) -> Vec<usize> {
+    let typical = typical_difference(samples, 0..samples.len());
+    let least = match typical.is_finite() {
+        true => threshold_sd * typical,
+        false => 0.0,
+    };
+    (1..samples.len())
+        .filter(|&index| (samples[index] - samples[index - 1]).abs() > least)
+        .collect()
+}
+
 /// One past the spike that begins with the jump into `start`, if it is one.
 fn spike_end(samples: &[f64], start: usize, threshold: f64) -> Option<usize> {
     let jump = samples[start] - samples[start - 1];
@@ -81,7 +94,7 @@ fn spike_end(samples: &[f64], start: usize, threshold: f64) -> Option<usize> {
 
 /// Standard deviation of the noise from the median absolute difference; infinite where more than half of the samples
 /// repeat, because then nothing is known.
-fn typical_difference(samples: &[f64], range: Range<usize>) -> f64 {
+pub(super) fn typical_difference(samples: &[f64], range: Range<usize>) -> f64 {
     let mut differences: Vec<f64> = samples[range]
         .windows(2)
         .map(|pair| (pair[1] - pair[0]).abs())
