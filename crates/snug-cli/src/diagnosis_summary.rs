@@ -257,6 +257,10 @@ fn next(page: &mut Page, diagnosis: &Diagnosis, following: &Following<'_>) {
         ));
         return;
     }
+    if diagnosis.changes_above_all() {
+        page.paragraph("  ", "Record again with a rig that stays as it is; or write into the study in which seconds of every recording it does, `preprocess: (stretch: (from_s: …, to_s: …))`, those in which an earlier state still rings left out, and ask again:");
+        return command(page, &diagnosis.verb);
+    }
     let is_fitted = diagnosis.verdict != Verdict::NotFitted;
     if diagnosis.verb == "compare" && is_fitted {
         page.paragraph("  ", "Ask which effect is missing; it changes nothing:");
@@ -296,15 +300,20 @@ fn next(page: &mut Page, diagnosis: &Diagnosis, following: &Following<'_>) {
         ),
     }
     if climbed && !diagnosis.added.is_empty() {
-        let where_it_is = format!(
-            "The study with the model found is {}. Use it for this and further recordings:",
-            following.written
-        );
-        page.paragraph("  ", &where_it_is);
-        page.line(&format!(
-            "    {} run --study {}",
-            program(),
-            following.written
-        ));
+        where_the_model_is(page, following);
     }
+}
+
+/// Where the study with the model found is, and how it is used.
+fn where_the_model_is(page: &mut Page, following: &Following<'_>) {
+    let where_it_is = format!(
+        "The study with the model found is {}. Use it for this and further recordings:",
+        following.written
+    );
+    page.paragraph("  ", &where_it_is);
+    page.line(&format!(
+        "    {} run --study {}",
+        program(),
+        following.written
+    ));
 }

@@ -1,7 +1,7 @@
 //! What was found, as the answer to a question.
 
 pub(crate) mod answer;
-mod changes;
+pub(crate) mod changes;
 mod comparisons;
 mod decision;
 pub(crate) mod detectability;

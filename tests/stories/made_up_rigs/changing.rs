@@ -13,20 +13,57 @@ fn changes(diagnosis: &Diagnosis) -> Option<&Changes> {
     })
 }
 
-/// A vessel on springs that runs out: what is left of its mass at the end of each recording, over that at the beginning.
-fn vessel(left: f64) -> Diagnosis {
+/// A vessel on springs, of which mass \[kg\] and stiffness \[N/m\] go with the share of a recording that is over, recording by recording.
+fn on_springs(of: [&dyn Fn(f64) -> [f64; 2]; 3]) -> Diagnosis {
     const SAMPLES: usize = 6000;
     let mut noise = Noise(51);
-    let mut recording = || {
+    let recordings = of.map(|numbers| {
         let inputs = noise.tones([0.8, 20.0], 20.0, SAMPLES);
         let rate = |[x, v, t_s]: [f64; 3], u: f64| {
-            let mass = 5.0 * (1.0 - (1.0 - left) * t_s / (1e-3 * SAMPLES as f64));
-            [v, (u - 40.0 * v - 8000.0 * x) / mass, 1.0]
+            let [mass, stiffness] = numbers(t_s / (1e-3 * SAMPLES as f64));
+            [v, (u - 40.0 * v - stiffness * x) / mass, 1.0]
         };
         let places = moved(&inputs, 10, rate).map(|[x, _, _]| x);
         noise.with(&inputs, places, 2e-5)
-    };
-    Rig::that_slides((0..3).map(|_| recording()).collect()).told(&Verb::Improve)
+    });
+    Rig::that_slides(recordings.into()).told(&Verb::Improve)
+}
+
+/// One that runs out: what is left of its mass at the end of each recording, over that at the beginning.
+fn vessel(left: f64) -> Diagnosis {
+    on_springs([&|over| [5.0 * (1.0 - (1.0 - left) * over), 8000.0]; 3])
+}
+
+/// What is told of a rig that changes, where nothing was looked for beside that.
+#[track_caller]
+fn told(diagnosis: &Diagnosis, what: &Changing, times: f64) -> Changes {
+    let found = changes(diagnosis).expect("it changes");
+    assert_eq!(&found.what, what);
+    assert!((found.times / times - 1.0).abs() < 0.05, "{found:?}");
+    assert_eq!(diagnosis.word(), "the rig changes while it is measured");
+    assert!(diagnosis.added.is_empty() && diagnosis.ranking.is_empty());
+    found.clone()
+}
+
+#[test]
+fn what_is_put_on_halfway_is_told_with_where_it_is() {
+    let put_on = |over: f64| [if over < 0.5 { 5.0 } else { 7.5 }, 8000.0];
+    let found = told(&on_springs([&put_on; 3]), &Changing::Mass, 1.5);
+    let after = found.after.expect("at once");
+    assert!((after - 0.5).abs() < 0.07, "{after}");
+    assert!(found.only_in.is_empty(), "{:?}", found.only_in);
+}
+
+#[test]
+fn the_recording_in_which_a_spring_gives_way_is_named() {
+    let stays = |_| [5.0, 8000.0];
+    let gives_way = |over: f64| [5.0, 8000.0 * (1.0 - 0.45 * over)];
+    let rig = on_springs([&stays, &gives_way, &stays]);
+    let found = told(&rig, &Changing::Stiffness, 0.55);
+    assert_eq!(
+        (found.after, found.only_in),
+        (None, vec!["r1.csv".to_owned()])
+    );
 }
 
 #[test]

@@ -1,5 +1,5 @@
 //! Whether a rig changes while it is measured: as it warms up, empties or wears, one of its numbers goes from one value at the beginning of
-//! every recording to another at its end, and no model whose numbers stay follows it.
+//! recordings to another at their end, and no model whose numbers stay follows it.
 
 use crate::data::cases::Cases;
 use crate::pooled::equation::{PlainEquation, values};
@@ -8,22 +8,21 @@ use crate::selection::thresholds::MOST;
 use crate::verdict::reasons::named;
 use crate::verdict::thresholds::CHANGES;
 use snug_campaign::words::changes::{Changes, Changing};
+use snug_identify::Change;
 use snug_model::{BASE_PARAMETERS, Effect};
 
 const OF_BASE: [Changing; BASE_PARAMETERS.len()] =
     [Changing::Mass, Changing::Damping, Changing::Stiffness];
 
-/// What a `plain` regression with the effects of `fitted`, dry friction and an offset says of that; `None` where nothing changes that takes
-/// most of what it leaves.
+/// What a `plain` regression with the effects of the last of these models that it can follow, dry friction and an offset says of that;
+/// `None` where nothing changes that takes most of what it leaves.
 pub(crate) fn changes(
     plain: &PlainEquation<'_>,
     cases: Cases<'_>,
-    fitted: &Fitted,
+    models: &[Fitted],
 ) -> Option<Changes> {
-    let at = values(cases, fitted)?;
-    let terms = plain.with_plain_terms(&fitted.effects, &at)?;
-    let (effects, terms): (Vec<Effect>, Vec<_>) = terms.into_iter().unzip();
-    let change = plain.equation.change(&terms)?;
+    let mut models = models.iter().rev();
+    let (effects, change) = models.find_map(|fitted| change(plain, cases, fitted))?;
     let (from, to) = (change.from, change.to);
     let is_one = change.taken > MOST && (to - from).abs() > CHANGES * from.abs().max(to.abs());
     let what = match change.index.checked_sub(BASE_PARAMETERS.len()) {
@@ -35,11 +34,29 @@ pub(crate) fn changes(
         from,
         to,
         taken = change.taken,
+        at = change.at,
+        recordings = ?change.recordings,
         "what changes along the recordings"
     );
-    is_one.then_some(Changes {
+    let some = change.recordings.len() < cases.len();
+    let names = (change.recordings.iter()).map(|&place| cases[place].tightening.id.file.clone());
+    is_one.then(|| Changes {
         what,
         times: to / from,
         taken: change.taken,
+        after: change.at.map(|at| 0.5 * (1.0 + at)),
+        only_in: names.filter(|_| some).collect(),
     })
+}
+
+/// What changes most, and the effects among which it was looked for; `None` where the regression cannot follow the model.
+fn change(
+    plain: &PlainEquation<'_>,
+    cases: Cases<'_>,
+    fitted: &Fitted,
+) -> Option<(Vec<Effect>, Change)> {
+    let at = values(cases, fitted)?;
+    let terms = plain.with_plain_terms(&fitted.effects, &at)?;
+    let (effects, terms): (Vec<Effect>, Vec<_>) = terms.into_iter().unzip();
+    Some((effects, plain.equation.change(&terms)?))
 }

@@ -22,7 +22,7 @@ impl Examination<'_> {
         let plain = plain.as_ref();
         let changes = plain
             .filter(|_| !self.path.is_interrupted())
-            .and_then(|plain| changes(plain, self.cases, self.path.last()));
+            .and_then(|plain| changes(plain, self.cases, &self.path.rungs));
         let (verdict, suspicions) = self.verdict_and_suspicions(places, plain);
         let is_followed = changes.is_none() || self.follows_changes(verdict, places);
         let verdict = match is_followed {

@@ -59,6 +59,12 @@ pub(crate) struct Situation<'a> {
 }
 
 impl Situation<'_> {
+    /// What changes along the recordings, where that is so much that nothing was looked for.
+    fn changes_above_all(&self) -> Option<&Changes> {
+        let changes = self.changes.as_ref();
+        changes.filter(|changes| changes.taken > NEARLY_ALL && self.ranking.is_empty())
+    }
+
     /// Two effects that are to be told apart by an experiment, if there are: the one that is missing or was added last, and
     /// its twin.
     pub fn twin_pair(&self) -> Option<(&Fitted, Effect)> {
@@ -139,6 +145,13 @@ pub(crate) fn headline(situation: &Situation<'_>) -> Headline {
     if situation.is_interrupted() {
         let added = [added, further].concat();
         return Headline::Stopped { added, fall: fell };
+    }
+    let is_open = matches!(situation.verdict, Verdict::NotFitted | Verdict::Undecided);
+    if let Some(changes) = situation.changes_above_all().filter(|_| is_open) {
+        return Headline::Changes {
+            changes: changes.clone(),
+            left: fell.after,
+        };
     }
     match (situation.verdict, situation.chosen) {
         (Verdict::MissingEffect, Some(chosen))

@@ -7,7 +7,7 @@ use std::fmt::{self, Display, Formatter};
 /// Digits of a growth.
 const DIGITS: i32 = 2;
 
-/// What of a rig goes from one value at the beginning of every recording to another at its end.
+/// What of a rig goes from one value at the beginning of recordings to another at their end.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Changes {
     /// Which number.
@@ -16,6 +16,10 @@ pub struct Changes {
     pub times: f64,
     /// Share of what a plain regression leaves without the change that it takes.
     pub taken: f64,
+    /// Share of the recording after which it changes at once; `None` where it does so evenly.
+    pub after: Option<f64>,
+    /// The recordings that change; empty where all do.
+    pub only_in: Vec<String>,
 }
 
 /// A number of a rig.
@@ -31,8 +35,9 @@ pub enum Changing {
     Size(Named),
 }
 
-impl Display for Changes {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+impl Changes {
+    /// What changes, when and by how much: `from beginning to end of the recordings the mass falls by about 50 %`.
+    pub fn clause(&self) -> String {
         let what = match &self.what {
             Changing::Mass => "the mass".to_owned(),
             Changing::Damping => "the damping".to_owned(),
@@ -47,9 +52,28 @@ impl Display for Changes {
                 significant(times, DIGITS)
             ),
         };
+        let of = match self.only_in.as_slice() {
+            [] => "the recordings".to_owned(),
+            some => some.join(", "),
+        };
+        let when = match self.after {
+            None => format!("from beginning to end of {of}"),
+            Some(share) => format!("at once, after about {} of {of},", whole_percent(share)),
+        };
+        format!("{when} {what} {how}")
+    }
+}
+
+impl Display for Changes {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let why = match self.after {
+            None => "It may warm up, empty or wear",
+            Some(_) => "Something may be put on, come off, break or be set otherwise",
+        };
         write!(
             f,
-            "The rig changes while it is measured: from the beginning of the recordings to their end {what} {how}, and a plain regression in which it does leaves {} less. It may warm up, empty or wear; `preprocess.stretch` looks at a part of every recording alone.",
+            "The rig changes while it is measured: {}, and a plain regression in which it does leaves {} less. {why}; `preprocess.stretch` looks at a part of every recording alone.",
+            self.clause(),
             whole_percent(self.taken)
         )
     }
@@ -59,17 +83,30 @@ impl Display for Changes {
 mod tests {
     use super::*;
 
+    fn of(times: f64, after: Option<f64>, only_in: &[&str]) -> String {
+        let changes = Changes {
+            what: Changing::Mass,
+            times,
+            taken: 0.9,
+            after,
+            only_in: only_in.iter().map(|&name| name.to_owned()).collect(),
+        };
+        changes.to_string().replace('\u{a0}', " ")
+    }
+
+    #[test]
+    fn where_and_when_it_does() {
+        let evenly = of(0.5, None, &[]);
+        assert!(evenly.contains("from beginning to end of the recordings the mass falls by"));
+        let at_once = of(1.5, Some(0.5), &["r1.csv", "r3.csv"]);
+        let said = "at once, after about 50 % of r1.csv, r3.csv, the mass grows to";
+        assert!(at_once.contains(said), "{at_once}");
+        assert!(at_once.contains("put on"), "{at_once}");
+    }
+
     #[test]
     fn falls_grows_or_changes_its_sign() {
-        let said = |times: f64| {
-            let what = Changing::Mass;
-            let changes = Changes {
-                what,
-                times,
-                taken: 0.9,
-            };
-            changes.to_string().replace('\u{a0}', " ")
-        };
+        let said = |times: f64| of(times, None, &[]);
         assert!(said(0.5).contains("the mass falls by about 50 %, and"));
         assert!(said(2.5).contains("the mass grows to about 2.5 times as much, and"));
         assert!(said(-0.1).contains("the mass changes its sign, and"));

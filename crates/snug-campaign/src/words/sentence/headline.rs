@@ -1,5 +1,6 @@
 //! The verdict in one sentence.
 
+use crate::words::changes::Changes;
 use crate::words::effect_name::Named;
 use crate::words::grammar::{counted, joined};
 use crate::words::number::significant;
@@ -111,6 +112,13 @@ pub enum Headline {
     },
     /// There is no model that a question about effects could be about.
     NoModel(NoModel),
+    /// The rig changes while it is measured, by so much that nothing else was looked for.
+    Changes {
+        /// What changes.
+        changes: Changes,
+        /// What the model leaves whose numbers stay.
+        left: Left,
+    },
     /// Compared only; nothing was looked for.
     Compared(Left),
     /// Too little to say.
@@ -186,6 +194,11 @@ impl Display for Headline {
                 adequate(f, added, *fall, *explained)?;
                 aside(f, further)
             }
+            Self::Changes { changes, left } => write!(
+                f,
+                "The rig changes while it is measured: {}. No model whose numbers stay follows that; this one leaves {left}.",
+                changes.clause()
+            ),
             Self::Compared(left) => {
                 write!(
                     f,

@@ -1,8 +1,9 @@
 //! What changes along the recordings: inertia, damping, stiffness or the size of an effect that goes from one value at the beginning of
-//! each to another at its end.
+//! all or some of them to another at their end, evenly or at once.
 //!
 //! ```text
-//! T = I α + C ω + K θ − Σ s_e g_e,   one of I, C, K, s_e being p + p' τ,   τ from −1 at the beginning of a recording to 1 at its end
+//! T = I α + C ω + K θ − Σ s_e g_e,   one of I, C, K, s_e being p + p' h(τ),   τ from −1 at the beginning of a recording to 1 at its end,
+//! h(τ) = τ, or −1 before τ₀ and 1 after;   where only some recordings change, p + d + p' h(τ) in these and p in the others
 //! ```
 
 use super::{MotionEquation, Term};
@@ -14,18 +15,29 @@ use snug_least_squares::matrix::dot;
 /// be one of the rig and not of how it was driven \[–\]. Chosen: under a sweep or steps that grow, what only depends on frequency or size
 /// changes with the time, too.
 const DRIVEN_ALIKE: f64 = 1.5;
+/// Where in the recordings a change at once is looked for: so many places between beginning and end. Chosen.
+const PLACES: usize = 15;
+/// Recordings, those that change most, of which some are said to change and the others not. Chosen.
+const MOST_OF_SOME: usize = 6;
+/// Squares that a change at once, or in some recordings only, must leave over those of an even one in all to be the likelier story \[–\].
+/// Chosen.
+const PLAINLY_LESS: f64 = 0.5;
 
 /// What changes along the recordings.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Change {
     /// Which: 0 the mass, 1 the damping, 2 the stiffness, then the terms.
     pub index: usize,
-    /// What it is at the beginning of each recording \[kg, kg/s or N/m; of a term how many times it acts\].
+    /// What it is at the beginning of each recording that changes \[kg, kg/s or N/m; of a term how many times it acts\].
     pub from: f64,
     /// What it is at the end of each, in the same unit.
     pub to: f64,
     /// Share \[–\] of the squares left without the change that it takes.
     pub taken: f64,
+    /// Where in these recordings it changes at once, from −1 at the beginning to 1 at the end \[–\]; `None` where it does so evenly.
+    pub at: Option<f64>,
+    /// The recordings that change, in their order.
+    pub recordings: Vec<usize>,
 }
 
 impl MotionEquation<'_> {
@@ -37,32 +49,75 @@ impl MotionEquation<'_> {
         let left: Vec<Vec<f64>> = self.records.iter().map(|one| one.torque.clone()).collect();
         let constant = self.of_torque(terms);
         let (_, before) = self.regressed(&left, &constant)?;
-        let with_change = |index: usize| {
+        let with_change = |index: usize, at: Option<f64>, recordings: &[usize]| {
             let mut columns = constant.clone();
-            columns.push(self.over_time(&constant[index]));
+            let changing =
+                |course: &dyn Fn(f64) -> f64| self.over_time(&constant[index], course, recordings);
+            columns.push(changing(&|time| course(time, at)));
+            if recordings.len() < self.records.len() {
+                columns.push(changing(&|_| 1.0));
+            }
             let (sizes, after) = self.regressed(&left, &columns)?;
-            let (middle, slope) = (sizes[index], *sizes.last()?);
-            Some((index, middle - slope, middle + slope, 1.0 - after / before))
+            let (slope, apart) = (sizes[constant.len()], sizes.get(constant.len() + 1));
+            let middle = sizes[index] + apart.unwrap_or(&0.0);
+            let change = Change {
+                index,
+                from: middle - slope,
+                to: middle + slope,
+                taken: 1.0 - after / before,
+                at,
+                recordings: recordings.to_vec(),
+            };
+            change.is_finite().then_some(change)
         };
-        let changes = (0..constant.len()).filter_map(with_change);
-        let (index, from, to, taken) = changes.max_by(|a, b| a.3.total_cmp(&b.3))?;
+        let all: Vec<usize> = (0..self.records.len()).collect();
+        let evenly = most((0..constant.len()).filter_map(|index| with_change(index, None, &all)))?;
+        let others = (0..constant.len()).filter_map(|index| {
+            let some = self.some(&left, &constant, index);
+            let some = some.iter().chain([&all]);
+            let evenly = most(some.filter_map(|group| with_change(index, None, group)))?;
+            let at_once = [&all, &evenly.recordings]
+                .into_iter()
+                .flat_map(|group| places().filter_map(|at| with_change(index, Some(at), group)));
+            most(at_once.chain([evenly.clone()]))
+        });
+        let is_plainly_more =
+            |other: &Change| 1.0 - other.taken < PLAINLY_LESS * (1.0 - evenly.taken);
+        let change = most(others).filter(is_plainly_more).unwrap_or(evenly);
         let rig = self.tasks.first()?.model.rig();
         let square = rig.lever_arm_m * rig.lever_arm_m;
-        let told = |value: f64| match index {
+        let told = |value: f64| match change.index {
             0 => (value - rig.known_inertia_kg_m2) / square,
             1 | 2 => value / square,
             _ => value,
         };
-        let change = Change {
-            index,
-            from: told(from),
-            to: told(to),
-            taken,
+        Some(Change {
+            from: told(change.from),
+            to: told(change.to),
+            ..change
+        })
+        .filter(Change::is_finite)
+    }
+
+    /// The recordings that change most where each may do so by itself, then those and the next, and so on.
+    fn some(&self, left: &[Vec<f64>], constant: &[Column], index: usize) -> Vec<Vec<usize>> {
+        let count = self.records.len();
+        let mut columns = constant.to_vec();
+        let alone = |record: usize| self.over_time(&constant[index], &|time| time, &[record]);
+        columns.extend((0..count).map(alone));
+        let Some((sizes, _)) = self.regressed(left, &columns) else {
+            return Vec::new();
         };
-        [change.from, change.to, change.taken]
-            .iter()
-            .all(|value| value.is_finite())
-            .then_some(change)
+        let slopes = &sizes[constant.len()..];
+        let mut order: Vec<usize> = (0..count).collect();
+        order.sort_by(|&a, &b| slopes[b].abs().total_cmp(&slopes[a].abs()));
+        let groups = 1..count.min(MOST_OF_SOME + 1);
+        let sorted = groups.map(|many| {
+            let mut group = order[..many].to_vec();
+            group.sort_unstable();
+            group
+        });
+        sorted.collect()
     }
 
     /// What makes the torque: α, ω, θ, and what effects take off it.
@@ -87,18 +142,52 @@ impl MotionEquation<'_> {
         of_base.into_iter().chain(of_terms).collect()
     }
 
-    /// A column times τ.
-    fn over_time(&self, column: &Column) -> Column {
-        let of_record = |(record, values): (&AveragedRecord, &Vec<f64>)| -> Vec<f64> {
+    /// A column times what goes with the time in these recordings; nothing in the others.
+    fn over_time(
+        &self,
+        column: &Column,
+        course: &dyn Fn(f64) -> f64,
+        recordings: &[usize],
+    ) -> Column {
+        let records = self.records.iter().zip(&column.of_records).enumerate();
+        let of_records = records.map(|(place, (record, values))| {
+            let changes = f64::from(u8::from(recordings.contains(&place)));
             let times = record.times().zip(values);
-            times.map(|(time, value)| time * value).collect()
-        };
-        let records = self.records.iter().zip(&column.of_records);
+            let times = times.map(|(time, value)| changes * course(time) * value);
+            times.collect()
+        });
         Column {
-            of_records: records.map(of_record).collect(),
+            of_records: of_records.collect(),
             ..*column
         }
     }
+}
+
+/// h(τ).
+fn course(time: f64, at: Option<f64>) -> f64 {
+    match at {
+        Some(at) if time < at => -1.0,
+        Some(_) => 1.0,
+        None => time,
+    }
+}
+
+impl Change {
+    fn is_finite(&self) -> bool {
+        [self.from, self.to, self.taken]
+            .iter()
+            .all(|value| value.is_finite())
+    }
+}
+
+/// Places at which something may change at once.
+fn places() -> impl Iterator<Item = f64> {
+    let parts = (PLACES + 1) as f64;
+    (1..=PLACES).map(move |place| 2.0 * place as f64 / parts - 1.0)
+}
+
+fn most(changes: impl Iterator<Item = Change>) -> Option<Change> {
+    changes.max_by(|a, b| a.taken.total_cmp(&b.taken))
 }
 
 fn is_driven_alike(record: &AveragedRecord) -> bool {

@@ -1,6 +1,7 @@
 //! Regressions of recordings whose equation is known: the motion is written down, the torque follows from it.
 #![allow(clippy::unwrap_used)]
 
+use super::over_time::Change;
 use super::*;
 use crate::settings::IdentifySettings;
 use snug_campaign::{Intersample, Quantity, Rig, Tightening};
@@ -33,6 +34,8 @@ struct Made {
     base: [f64; 3],
     /// What is added to I, C, K and the friction at the end of a recording and taken off at its beginning, over what they are.
     change: [f64; 4],
+    /// Where it does so at once, from −1 at the beginning to 1 at the end; evenly where nowhere.
+    at: Option<f64>,
 }
 
 impl Default for Made {
@@ -44,6 +47,7 @@ impl Default for Made {
             quantity: Quantity::Velocity,
             base: BASE,
             change: [0.0; 4],
+            at: None,
         }
     }
 }
@@ -57,7 +61,8 @@ impl Made {
             let t = sample as f64 * INTERVAL_S;
             let (a, b) = (5.0 + 0.3 * seed, 11.0 - 0.2 * seed);
             let along = 2.0 * sample as f64 / SAMPLES as f64 - 1.0;
-            let now = self.change.map(|change| 1.0 + change * along);
+            let course = self.at.map_or(along, |at| (along - at).signum());
+            let now = self.change.map(|change| 1.0 + change * course);
             let [i, c, k] = [0, 1, 2].map(|index| self.base[index] * now[index]);
             let (x, y) = (a * t + seed, b * t);
             let start = (seed.sin(), a * seed.cos(), 0.5);
@@ -331,18 +336,14 @@ fn a_regression_takes_milliseconds() {
 fn what_changes_along_the_recordings_is_found() {
     let [i, c, k] = BASE;
     for (index, size, tolerance) in [(0, i, 0.03), (1, c, 0.03), (2, k, 0.03), (3, 3.0, 0.08)] {
-        let mut change = [0.0; 4];
-        change[index] = 0.25;
+        let mut changes = [0.0; 4];
+        changes[index] = 0.25;
         let made = Made {
             friction_nm: 3.0,
-            change,
+            change: changes,
             ..Made::default()
         };
-        let tasks = made.tasks();
-        let equation = MotionEquation::of(&tasks, Effect::PLAIN).unwrap();
-        let terms = Effect::PLAIN.iter();
-        let terms: Option<Vec<Term>> = terms.map(|&one| equation.term(one, &[1.0])).collect();
-        let found = equation.change(&terms.unwrap()).unwrap();
+        let found = change(&made.tasks());
         assert_eq!(found.index, index);
         near(
             &[found.from, found.to],
@@ -350,7 +351,58 @@ fn what_changes_along_the_recordings_is_found() {
             tolerance,
         );
         assert!(found.taken > 0.85, "{found:?}");
+        assert_eq!((found.at, found.recordings), (None, vec![0, 1]));
     }
+}
+
+/// What the equation with friction and an offset says that changes along these recordings.
+fn change(tasks: &[FitTask<'_>]) -> Change {
+    let equation = MotionEquation::of(tasks, Effect::PLAIN).unwrap();
+    let terms = Effect::PLAIN.iter();
+    let terms: Option<Vec<Term>> = terms.map(|&one| equation.term(one, &[1.0])).collect();
+    equation.change(&terms.unwrap()).unwrap()
+}
+
+/// A spring gives way in the second of three recordings only; as much of a change in all is no story then.
+#[test]
+fn the_recordings_that_change_are_told_from_those_that_do_not() {
+    let [same, changes] = [0.0, -0.25].map(|change| Made {
+        friction_nm: 3.0,
+        change: [0.0, 0.0, change, 0.0],
+        ..Made::default()
+    });
+    let tasks = [(&same, 1.0), (&changes, 2.0), (&same, 3.0)]
+        .map(|(made, seed)| made.task(seed, [1.0; 2], 1.0));
+    let found = change(&tasks);
+    assert_eq!(
+        (found.index, found.at, &found.recordings[..]),
+        (2, None, &[1][..])
+    );
+    near(
+        &[found.from, found.to],
+        &[1.25 * BASE[2], 0.75 * BASE[2]],
+        0.03,
+    );
+}
+
+/// A mass is put on after five eighths of each recording.
+#[test]
+fn what_changes_at_once_is_told_from_what_does_so_evenly() {
+    let made = Made {
+        friction_nm: 3.0,
+        change: [0.2, 0.0, 0.0, 0.0],
+        at: Some(0.25),
+        ..Made::default()
+    };
+    let found = change(&made.tasks());
+    assert_eq!((found.index, &found.recordings[..]), (0, &[0, 1][..]));
+    let at = found.at.expect("it does so at once");
+    assert!((at - 0.25).abs() < 0.13, "{at}");
+    near(
+        &[found.from, found.to],
+        &[0.8 * BASE[0], 1.2 * BASE[0]],
+        0.05,
+    );
 }
 
 /// Under a torque that grows, friction is a smaller part of it at the end, and nothing is said.
