@@ -10,8 +10,8 @@ use snug_identify::{FitTask, TighteningResidual, convex_set};
 use snug_least_squares::{DenseResidual, PooledFit, PooledSettings, Settings, solve};
 
 /// Fits from each of `starts`, and with their sizes from where the study's own mass, damping and stiffness begin; the
-/// lowest cost goes on to the end. Where the records [take long](take_long) to simulate, that is done on their beginnings, few
-/// of the starts are followed far, and from where the best of them leads a few steps are taken on the whole.
+/// lowest cost goes on to the end. Where the records [take long](take_long) to simulate, that is done on their beginnings, and
+/// from where it leads a few steps are taken on the whole.
 ///
 /// A model without the effect may have been led far off by what it lacks, to where no step leads back.
 pub(crate) fn best_of(
@@ -25,10 +25,7 @@ pub(crate) fn best_of(
     }
     let beginnings: Vec<FitTask<'_>> = pooled.cases.iter().map(beginning).collect();
     let mut there = PooledModel::new(pooled.cases.others(&beginnings), &pooled.effects)?;
-    let mut sieved = ends(&mut there, &starts, &SIEVE)?;
-    sieved.truncate(SIEVED);
-    let sieved: Vec<Start> = sieved.iter().map(Start::at).collect();
-    let start = Start::at(&lowest(&mut there, &sieved, settings)?);
+    let start = Start::at(&lowest(&mut there, &starts, settings)?);
     pooled.fit(&start, &A_FEW_STEPS)
 }
 
@@ -87,13 +84,16 @@ fn no_less_than_a_regression(
     }
 }
 
-/// Tries each start and goes on to the end from where the lowest led.
+/// Takes a few steps from each start, follows those that led lowest farther, and goes on to the end from where the lowest led.
 fn lowest(
     pooled: &mut PooledModel<'_>,
     starts: &[Start],
     settings: &PooledSettings,
 ) -> Result<PooledFit, DiagnoseError> {
-    let best = &ends(pooled, starts, &TRIAL_OF_A_START)?[0];
+    let mut sieved = ends(pooled, starts, &SIEVE)?;
+    sieved.truncate(SIEVED);
+    let sieved: Vec<Start> = sieved.iter().map(Start::at).collect();
+    let best = &ends(pooled, &sieved, &TRIAL_OF_A_START)?[0];
     pooled.fit(&Start::at(best), settings)
 }
 

@@ -35,7 +35,7 @@ pub(crate) const TRIAL_OF_A_START: PooledSettings = PooledSettings {
     max_iterations: 15,
     cost_tolerance: 1e-3,
 };
-/// When starts are sieved on the beginnings of records that take long. Chosen.
+/// When many starts are sieved. Chosen.
 pub(crate) const SIEVE: PooledSettings = PooledSettings {
     max_iterations: 4,
     cost_tolerance: 1e-2,

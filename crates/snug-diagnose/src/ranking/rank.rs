@@ -259,7 +259,8 @@ fn follow_best(
     let followed = match clusters.are_whole() {
         true if !is_at_floor => BEST,
         false if long_record::take_long(&cases) => BEST_OF_LONG,
-        _ => 0,
+        false => BEST,
+        true => 0,
     };
     let best = candidates.par_iter_mut().take(followed);
     best.try_for_each(|candidate| {
