@@ -157,6 +157,8 @@ mod tests {
         ("abs_x_law", 0.024),
         // It is 5 mm on the other side.
         ("lower_end_stop_law", 0.0),
+        // Beyond 5 mm.
+        ("slack_spring_law", 0.01),
         // 2 (25 − 62.5).
         ("torque2_law", -75.0),
         ("torque_abs_torque_law", -75.0),
@@ -246,6 +248,7 @@ mod tests {
         let of_a_machine = [
             "abs_x_law",
             "lower_end_stop_law",
+            "slack_spring_law",
             "torque2_law",
             "torque_abs_torque_law",
             "dead_band_law",

@@ -198,10 +198,13 @@ impl Search<'_> {
         study: &Study,
         question: &Question<'_>,
     ) -> Result<(Answer, Option<Study>), StudyError> {
-        let straight = self.examined(question)?;
         let cases = question.cases;
-        let goes_on = *self.verb == Verb::Improve && !straight.diagnosis.interrupted;
-        if !goes_on || !held_input::is_open(study, cases) {
+        let is_open = *self.verb == Verb::Improve && held_input::is_open(study, cases);
+        if is_open && let Some((held, study)) = self.held_at_once(study, question)? {
+            return Ok((held, Some(study)));
+        }
+        let straight = self.examined(question)?;
+        if !is_open || straight.diagnosis.interrupted {
             return Ok((straight, None));
         }
         let last = with_last_model(study, &straight);
@@ -244,6 +247,41 @@ impl Search<'_> {
             }
         }
         Ok((straight, None))
+    }
+
+    /// What a search with a held input finds, where one effect already leaves far less with it than any does without.
+    fn held_at_once(
+        &self,
+        study: &Study,
+        question: &Question<'_>,
+    ) -> Result<Option<(Answer, Study)>, StudyError> {
+        if !held_input::is_likely(study, question.cases)? {
+            return Ok(None);
+        }
+        let (held_study, held_cases) = held_input::held(study, question.cases)?;
+        let asked = |cases, goal| Question {
+            cases,
+            goal,
+            ..question.clone()
+        };
+        let held = self
+            .examined(&asked(&held_cases, Goal::Diagnose))?
+            .diagnosis;
+        if held.interrupted || !held_input::takes_nearly_all(&held) {
+            return Ok(None);
+        }
+        let straight = self
+            .examined(&asked(question.cases, Goal::Diagnose))?
+            .diagnosis;
+        if straight.interrupted || !held_input::leaves_far_less(&held, &straight) {
+            return Ok(None);
+        }
+        let mut answer = self.examined(&asked(&held_cases, question.goal.clone()))?;
+        answer.diagnosis.reasons.push(Reason::Held {
+            spared: Vec::new(),
+            is_half_an_interval: false,
+        });
+        Ok(Some((answer, held_study)))
     }
 
     fn examined(&self, question: &Question<'_>) -> Result<Answer, StudyError> {

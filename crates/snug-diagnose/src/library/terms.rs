@@ -270,6 +270,25 @@ pub(super) const OF_A_MACHINE: &[Term] = &[
         ],
     },
     Term {
+        name: "slack_spring_law",
+        says: "a spring that is stiffer within b of rest than beyond",
+        says_below_zero: "a spring that is softer within b of rest than beyond, or does not act there",
+        expression: "p*max(-b,min(b,x))",
+        parameters: &[
+            Factor {
+                starts: &[1000.0],
+                ..p("N/m")
+            },
+            Factor {
+                name: "b",
+                unit: "m",
+                starts: &[0.005, 0.01],
+                minimum: 0.0005,
+                maximum: 0.05,
+            },
+        ],
+    },
+    Term {
         name: "torque2_law",
         says: "an input whose square acts as well, or instead",
         says_below_zero: "an input whose square acts against it",
