@@ -240,6 +240,9 @@ fn paste_the_law(page: &mut Page, diagnosis: &Diagnosis) {
     }
 }
 
+/// What to do with a rig that changes while it is measured.
+const ALONE: &str = "Record again with a rig that stays as it is; or write into the study in which seconds of every recording it does, `preprocess: (stretch: (from_s: …, to_s: …))`, those in which an earlier state still rings left out, and ask again:";
+
 fn next(page: &mut Page, diagnosis: &Diagnosis, following: &Following<'_>) {
     page.heading("What to do next");
     let command = |page: &mut Page, words: &str| {
@@ -257,17 +260,17 @@ fn next(page: &mut Page, diagnosis: &Diagnosis, following: &Following<'_>) {
         ));
         return;
     }
-    if diagnosis.changes_above_all() {
-        page.paragraph("  ", "Record again with a rig that stays as it is; or write into the study in which seconds of every recording it does, `preprocess: (stretch: (from_s: …, to_s: …))`, those in which an earlier state still rings left out, and ask again:");
-        return command(page, &diagnosis.verb);
-    }
     let is_fitted = diagnosis.verdict != Verdict::NotFitted;
-    if diagnosis.verb == "compare" && is_fitted {
+    if diagnosis.verb == "compare" && is_fitted && !diagnosis.changes() {
         page.paragraph("  ", "Ask which effect is missing; it changes nothing:");
         return command(page, "diagnose");
     }
     let climbed = is_fitted && matches!(diagnosis.verb.as_str(), "add" | "improve");
     match diagnosis.verdict {
+        _ if diagnosis.changes() => {
+            page.paragraph("  ", ALONE);
+            command(page, &diagnosis.verb);
+        }
         Verdict::MissingEffect => {
             let is_added = |name: &str| diagnosis.added.iter().any(|one| one.effect == name);
             let best = diagnosis.ranking.first();

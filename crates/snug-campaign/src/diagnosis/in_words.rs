@@ -14,7 +14,7 @@ impl Diagnosis {
         let is_comparison = self.verb == "compare";
         match self.verdict {
             _ if self.interrupted => "stopped before there was a verdict",
-            _ if self.changes_above_all() => "the rig changes while it is measured",
+            _ if self.changes() => "the rig changes while it is measured",
             Verdict::Adequate => "the model is adequate",
             Verdict::MissingEffect => "an effect is missing",
             Verdict::UnlistedEffect => "something is missing that is in no catalogue",
@@ -32,9 +32,13 @@ impl Diagnosis {
         }
     }
 
-    /// Whether the rig changes while it is measured, by so much that nothing else was looked for.
-    pub fn changes_above_all(&self) -> bool {
-        matches!(self.headline, Headline::Changes { .. })
+    /// Whether the rig changes while it is measured, and no model follows that.
+    pub fn changes(&self) -> bool {
+        match &self.headline {
+            Headline::Changes { .. } => true,
+            Headline::MoreThanNoise { changes, .. } => changes.is_some(),
+            _ => false,
+        }
     }
 
     /// An effect as commands and files name it; a term that is in no catalogue by what it is.

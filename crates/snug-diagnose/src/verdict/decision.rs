@@ -24,7 +24,7 @@ impl Examination<'_> {
             .filter(|_| !self.path.is_interrupted())
             .and_then(|plain| changes(plain, self.cases, &self.path.rungs));
         let (verdict, suspicions) = self.verdict_and_suspicions(places, plain);
-        let is_followed = changes.is_none() || self.follows_changes(verdict, places);
+        let is_followed = changes.is_none() || Self::follows_changes(verdict, places);
         let verdict = match is_followed {
             true => verdict,
             false => Verdict::Undecided,
@@ -89,16 +89,15 @@ impl Examination<'_> {
     }
 
     /// Whether this may be the verdict on a rig that changes while it is measured. A law that is in no catalogue only stands for the change
-    /// there; and a model that is restarted from the measured motion again and again explains nearly all, whatever changes: it is not
-    /// adequate while a motion is left.
-    fn follows_changes(&self, verdict: Verdict, places: &Places) -> bool {
+    /// there, and no model is adequate while a motion is left.
+    fn follows_changes(verdict: Verdict, places: &Places) -> bool {
         let leaves_a_motion = places
             .explained
             .as_ref()
             .is_some_and(Explained::leaves_a_motion);
         match verdict {
             Verdict::UnlistedEffect => false,
-            Verdict::Adequate => !(self.cases.are_restarted() && leaves_a_motion),
+            Verdict::Adequate => !leaves_a_motion,
             _ => true,
         }
     }

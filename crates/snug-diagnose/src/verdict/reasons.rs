@@ -189,6 +189,7 @@ pub(crate) fn headline(situation: &Situation<'_>) -> Headline {
             added: [added, further].concat(),
             fall: fell,
             explained: situation.explained,
+            changes: situation.changes.clone(),
         },
         (Verdict::Undecided | Verdict::MissingEffect, _) => Headline::TooLittle {
             tightenings: situation

@@ -47,6 +47,7 @@ fn with_nothing_usable(verdict: Verdict, headline: Headline) -> (Verdict, Headli
                 added: [added, further].concat(),
                 fall,
                 explained,
+                changes: None,
             };
             (Verdict::Undecided, headline)
         }

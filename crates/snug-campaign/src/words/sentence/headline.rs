@@ -85,6 +85,8 @@ pub enum Headline {
         fall: Fall,
         /// How much of the output is explained, where the noise is not known.
         explained: Option<Explained>,
+        /// What changes along the recordings.
+        changes: Option<Changes>,
     },
     /// Terms that are in no catalogue were added.
     Unlisted {
@@ -165,7 +167,8 @@ impl Display for Headline {
                 added,
                 fall,
                 explained,
-            } => more_than_noise(f, added, *fall, *explained),
+                changes,
+            } => more_than_noise(f, added, *fall, *explained, changes.as_ref()),
             Self::Unlisted {
                 added,
                 further,
@@ -327,12 +330,20 @@ fn more_than_noise(
     added: &[Named],
     fall: Fall,
     explained: Option<Explained>,
+    changes: Option<&Changes>,
 ) -> fmt::Result {
     match added {
         [] => write!(f, "The model leaves {}", fall.after),
         added => write!(f, "With {} the error fell {fall}", named(added)),
     }?;
-    f.write_str(", which is more than noise, and nothing that was tried explains the rest: the verdict is open.")?;
+    match changes {
+        None => f.write_str(", which is more than noise, and nothing that was tried explains the rest: the verdict is open."),
+        Some(changes) => write!(
+            f,
+            ", which is more than noise: the rig changes while it is measured, {}. No model whose numbers stay follows that.",
+            changes.clause()
+        ),
+    }?;
     explained.map_or(Ok(()), |all| {
         write!(f, " The model explains {all}. {}", all.left())
     })

@@ -17,6 +17,8 @@ use snug_least_squares::matrix::dot;
 const DRIVEN_ALIKE: f64 = 1.5;
 /// Where in the recordings a change at once is looked for: so many places between beginning and end. Chosen.
 const PLACES: usize = 15;
+/// Parts of the way from one of these to the next in which the best is looked for more closely. Chosen.
+const PARTS: u32 = 6;
 /// Recordings, those that change most, of which some are said to change and the others not. Chosen.
 const MOST_OF_SOME: usize = 6;
 /// Squares that a change at once, or in some recordings only, must leave over those of an even one in all to be the likelier story \[–\].
@@ -79,7 +81,10 @@ impl MotionEquation<'_> {
             let at_once = [&all, &evenly.recordings]
                 .into_iter()
                 .flat_map(|group| places().filter_map(|at| with_change(index, Some(at), group)));
-            most(at_once.chain([evenly.clone()]))
+            let best = most(at_once.chain([evenly.clone()]))?;
+            let nearer = best.at.into_iter().flat_map(beside);
+            let nearer = nearer.filter_map(|at| with_change(index, Some(at), &best.recordings));
+            most(nearer.chain([best.clone()]))
         });
         let is_plainly_more =
             |other: &Change| 1.0 - other.taken < PLAINLY_LESS * (1.0 - evenly.taken);
@@ -184,6 +189,13 @@ impl Change {
 fn places() -> impl Iterator<Item = f64> {
     let parts = (PLACES + 1) as f64;
     (1..=PLACES).map(move |place| 2.0 * place as f64 / parts - 1.0)
+}
+
+/// Places between one of these and the next to either side.
+fn beside(place: f64) -> impl Iterator<Item = f64> {
+    let apart = 2.0 / (PLACES + 1) as f64;
+    let parts = (1..PARTS).map(|part| f64::from(part) / f64::from(PARTS));
+    parts.flat_map(move |part| [place - part * apart, place + part * apart])
 }
 
 fn most(changes: impl Iterator<Item = Change>) -> Option<Change> {
