@@ -21,8 +21,8 @@ const PLACES: usize = 15;
 const PARTS: u32 = 6;
 /// Recordings, those that change most, of which some are said to change and the others not. Chosen.
 const MOST_OF_SOME: usize = 6;
-/// Squares that a change at once, or in some recordings only, must leave over those of an even one in all to be the likelier story \[–\].
-/// Chosen.
+/// Squares that a change at once, or in some recordings only, must leave over those of an even one in all to be the likelier story, and over
+/// those of recordings that only differ \[–\]. Chosen.
 const PLAINLY_LESS: f64 = 0.5;
 
 /// What changes along the recordings.
@@ -55,13 +55,22 @@ impl MotionEquation<'_> {
             let mut columns = constant.clone();
             let changing =
                 |course: &dyn Fn(f64) -> f64| self.over_time(&constant[index], course, recordings);
-            columns.push(changing(&|time| course(time, at)));
-            if recordings.len() < self.records.len() {
+            let are_some = recordings.len() < self.records.len();
+            if are_some {
                 columns.push(changing(&|_| 1.0));
             }
+            // Of recordings that are others from beginning to end nothing changes.
+            let without = match are_some {
+                true => self.regressed(&left, &columns)?.1,
+                false => f64::INFINITY,
+            };
+            columns.push(changing(&|time| course(time, at)));
             let (sizes, after) = self.regressed(&left, &columns)?;
-            let (slope, apart) = (sizes[constant.len()], sizes.get(constant.len() + 1));
-            let middle = sizes[index] + apart.unwrap_or(&0.0);
+            if after > PLAINLY_LESS * without {
+                return None;
+            }
+            let (slope, apart) = (*sizes.last()?, &sizes[constant.len()..sizes.len() - 1]);
+            let middle = sizes[index] + apart.iter().sum::<f64>();
             let change = Change {
                 index,
                 from: middle - slope,

@@ -385,6 +385,22 @@ fn the_recordings_that_change_are_told_from_those_that_do_not() {
     );
 }
 
+/// A softer spring in one of three recordings, from its beginning to its end, is no change along it.
+#[test]
+fn recordings_that_only_differ_change_nothing() {
+    let (same, other) = (
+        Made::default(),
+        Made {
+            base: [BASE[0], BASE[1], 0.6 * BASE[2]],
+            ..Made::default()
+        },
+    );
+    let tasks = [(&same, 1.0), (&other, 2.0), (&same, 3.0)]
+        .map(|(made, seed)| made.task(seed, [1.0; 2], 1.0));
+    let found = change(&tasks);
+    assert!(found.taken < 0.5, "{found:?}");
+}
+
 /// A mass is put on after five eighths of each recording.
 #[test]
 fn what_changes_at_once_is_told_from_what_does_so_evenly() {
