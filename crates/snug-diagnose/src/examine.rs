@@ -11,12 +11,12 @@ use crate::pooled::one_machine::one_machine_or_several;
 use crate::question::{Goal, Question};
 use crate::selection::model_selection::ModelSelection;
 use crate::selection::path::SelectionPath;
-use crate::selection::thresholds::NEARLY_ALL;
 use crate::settings::DiagnoseSettings;
 use crate::verdict::answer::{Answer, Examination};
-use crate::verdict::changes::changes;
+use crate::verdict::changes::{are_above_all, changes};
 use crate::verdict::earned::is_declared_wrong;
 use crate::verdict::units::in_other_units;
+use snug_campaign::words::changes::Changes;
 
 /// Answers a question.
 ///
@@ -53,12 +53,15 @@ pub fn examine(
     // What is missing is no question where recordings stand in units of their own or channels are not what they are said to be.
     let stand_apart = units.as_ref().is_some_and(|units| units.is_prefix);
     let is_declared_wrong = is_declared_wrong(cases, compared.last());
-    let goal = match &question.goal {
-        _ if stand_apart || is_declared_wrong => &Goal::Compare,
-        Goal::Diagnose | Goal::Improve if changes_above_all(counted, compared.last()) => {
-            &Goal::Compare
+    let changes = match question.goal {
+        Goal::Compare | Goal::Diagnose | Goal::Improve => {
+            changes_above_all(counted, &compared.rungs)
         }
-        goal => goal,
+        Goal::Add(_) | Goal::ImproveFrom(_) => None,
+    };
+    let goal = match stand_apart || is_declared_wrong || changes.is_some() {
+        true => &Goal::Compare,
+        false => &question.goal,
     };
     let slow = match goal {
         Goal::Compare => None,
@@ -82,18 +85,17 @@ pub fn examine(
         path: path.without_torque_noise(counted)?,
         units,
         is_declared_wrong,
+        changes,
         // What was found is told, however it ended.
         watch: watch.to_the_end(),
     }
     .answer()
 }
 
-/// Whether the rig changes while it is measured, and that takes nearly all of what its own model leaves: beside it no law whose numbers
-/// stay is worth a search.
-fn changes_above_all(cases: Cases<'_>, own: &Fitted) -> bool {
-    let plain = PlainEquation::of(&cases);
-    let changes = plain.and_then(|plain| changes(&plain, cases, std::slice::from_ref(own)));
-    changes.is_some_and(|changes| changes.taken > NEARLY_ALL)
+/// What changes while the rig is measured, where that takes nearly all of what its own model leaves.
+fn changes_above_all(cases: Cases<'_>, own: &[Fitted]) -> Option<Changes> {
+    let plain = PlainEquation::of(&cases)?;
+    changes(&plain, cases, own).filter(are_above_all)
 }
 
 /// What a goal makes of the study's own model.

@@ -65,6 +65,8 @@ pub(crate) struct Examination<'a> {
     pub units: Option<OtherUnits>,
     /// Whether a channel is not what it is declared to be, so that nothing was looked for.
     pub is_declared_wrong: bool,
+    /// What changes along the recordings by so much that nothing was looked for.
+    pub changes: Option<Changes>,
     pub watch: Watch<'a>,
 }
 

@@ -6,13 +6,18 @@ use crate::pooled::equation::{PlainEquation, values};
 use crate::pooled::fitted::Fitted;
 use crate::selection::thresholds::MOST;
 use crate::verdict::reasons::named;
-use crate::verdict::thresholds::CHANGES;
+use crate::verdict::thresholds::{ABOVE_ALL, CHANGES};
 use snug_campaign::words::changes::{Changes, Changing};
 use snug_identify::Change;
 use snug_model::{BASE_PARAMETERS, Effect};
 
 const OF_BASE: [Changing; BASE_PARAMETERS.len()] =
     [Changing::Mass, Changing::Damping, Changing::Stiffness];
+
+/// Whether a change takes so much that beside it no law whose numbers stay is worth a search.
+pub(crate) fn are_above_all(changes: &Changes) -> bool {
+    changes.taken > ABOVE_ALL
+}
 
 /// What a `plain` regression with the effects of the last of these models that it can follow, dry friction and an offset says of that;
 /// `None` where nothing changes that takes most of what it leaves.
@@ -39,7 +44,7 @@ pub(crate) fn changes(
         "what changes along the recordings"
     );
     let some = change.recordings.len() < cases.len();
-    let names = (change.recordings.iter()).map(|&place| cases[place].tightening.id.file.clone());
+    let names = change.recordings.iter().map(|&place| name(cases, place));
     is_one.then(|| Changes {
         what,
         times: to / from,
@@ -47,6 +52,16 @@ pub(crate) fn changes(
         after: change.at.map(|at| 0.5 * (1.0 + at)),
         only_in: names.filter(|_| some).collect(),
     })
+}
+
+/// A recording by its file, and by its number where that holds several.
+fn name(cases: Cases<'_>, place: usize) -> String {
+    let id = &cases[place].tightening.id;
+    let files = cases.iter().map(|case| &case.tightening.id.file);
+    match files.filter(|file| **file == id.file).count() {
+        1 => id.file.clone(),
+        _ => id.to_string(),
+    }
 }
 
 /// What changes most, and the effects among which it was looked for; `None` where the regression cannot follow the model.

@@ -20,9 +20,11 @@ impl Examination<'_> {
     pub(super) fn judged(&self, places: &Places) -> Judged {
         let plain = PlainEquation::of(&self.cases);
         let plain = plain.as_ref();
-        let changes = plain
-            .filter(|_| !self.path.is_interrupted())
-            .and_then(|plain| changes(plain, self.cases, &self.path.rungs));
+        let of_models = || {
+            let plain = plain.filter(|_| !self.path.is_interrupted())?;
+            changes(plain, self.cases, &self.path.rungs)
+        };
+        let changes = self.changes.clone().or_else(of_models);
         let (verdict, suspicions) = self.verdict_and_suspicions(places, plain);
         let is_followed = changes.is_none() || Self::follows_changes(verdict, places);
         let verdict = match is_followed {

@@ -8,6 +8,7 @@ use crate::ranking::rank::Candidate;
 use crate::selection::path::{Addition, Attempt, Stop, least_share};
 use crate::selection::thresholds::{NEARLY_ALL, SMALL};
 use crate::settings::DiagnoseSettings;
+use crate::verdict::changes::are_above_all;
 use snug_campaign::words::changes::Changes;
 use snug_campaign::words::effect_name::Named;
 use snug_campaign::words::explained::Explained;
@@ -62,7 +63,7 @@ impl Situation<'_> {
     /// What changes along the recordings, where that is so much that nothing was looked for.
     fn changes_above_all(&self) -> Option<&Changes> {
         let changes = self.changes.as_ref();
-        changes.filter(|changes| changes.taken > NEARLY_ALL && self.ranking.is_empty())
+        changes.filter(|changes| are_above_all(changes) && self.ranking.is_empty())
     }
 
     /// Two effects that are to be told apart by an experiment, if there are: the one that is missing or was added last, and

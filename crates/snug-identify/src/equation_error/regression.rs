@@ -119,17 +119,22 @@ impl Regression<'_> {
     /// Σ (y − X p)² over all places.
     pub fn left_over(&self, sizes: &[f64]) -> f64 {
         let of_record = |record: usize| -> f64 {
-            let rows = self.left[record].iter().enumerate();
-            rows.map(|(place, y)| {
-                let columns = self.columns.iter().zip(sizes);
-                let told: f64 = columns
-                    .map(|(column, size)| size * column.of_records[record][place])
-                    .sum();
-                (y - told).powi(2)
-            })
-            .sum()
+            let rest = self.rest(sizes, record);
+            rest.map(|rest| rest.powi(2)).sum()
         };
         (0..self.left.len()).map(of_record).sum()
+    }
+
+    /// y − X p along a record, in the unit of the left-hand side.
+    pub fn rest<'a>(&'a self, sizes: &'a [f64], record: usize) -> impl Iterator<Item = f64> + 'a {
+        let rows = self.left[record].iter().enumerate();
+        rows.map(move |(place, y)| {
+            let columns = self.columns.iter().zip(sizes);
+            let told: f64 = columns
+                .map(|(column, size)| size * column.of_records[record][place])
+                .sum();
+            y - told
+        })
     }
 }
 

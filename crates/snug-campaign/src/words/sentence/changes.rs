@@ -1,6 +1,7 @@
 //! That a rig changes while it is measured, as data, and the sentence it is said with.
 
 use crate::words::effect_name::Named;
+use crate::words::grammar::joined;
 use crate::words::number::{significant, whole_percent};
 use std::fmt::{self, Display, Formatter};
 
@@ -36,7 +37,7 @@ pub enum Changing {
 }
 
 impl Changes {
-    /// What changes, when and by how much: `from beginning to end of the recordings the mass falls by about 50 %`.
+    /// What changes, when and by how much: `from beginning to end of each recording the mass falls by about 50 %`.
     pub fn clause(&self) -> String {
         let what = match &self.what {
             Changing::Mass => "the mass".to_owned(),
@@ -53,8 +54,8 @@ impl Changes {
             ),
         };
         let of = match self.only_in.as_slice() {
-            [] => "the recordings".to_owned(),
-            some => some.join(", "),
+            [] => "each recording".to_owned(),
+            some => joined(some),
         };
         let when = match self.after {
             None => format!("from beginning to end of {of}"),
@@ -97,9 +98,9 @@ mod tests {
     #[test]
     fn where_and_when_it_does() {
         let evenly = of(0.5, None, &[]);
-        assert!(evenly.contains("from beginning to end of the recordings the mass falls by"));
+        assert!(evenly.contains("from beginning to end of each recording the mass falls by"));
         let at_once = of(1.5, Some(0.5), &["r1.csv", "r3.csv"]);
-        let said = "at once, after about 50 % of r1.csv, r3.csv, the mass grows to";
+        let said = "at once, after about 50 % of r1.csv and r3.csv, the mass grows to";
         assert!(at_once.contains(said), "{at_once}");
         assert!(at_once.contains("put on"), "{at_once}");
     }

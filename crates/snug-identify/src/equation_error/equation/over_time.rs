@@ -8,7 +8,7 @@
 
 use super::{MotionEquation, Term};
 use crate::equation_error::record::AveragedRecord;
-use crate::equation_error::regression::Column;
+use crate::equation_error::regression::{Column, Regression};
 use snug_least_squares::matrix::dot;
 
 /// Half of a recording over the other that its torque may be, root mean square, and the rate of its torque, for a change between them to
@@ -50,7 +50,15 @@ impl MotionEquation<'_> {
         }
         let left: Vec<Vec<f64>> = self.records.iter().map(|one| one.torque.clone()).collect();
         let constant = self.of_torque(terms);
-        let (_, before) = self.regressed(&left, &constant)?;
+        let (sizes, before) = self.regressed(&left, &constant)?;
+        let unchanging = Regression {
+            left: &left,
+            columns: &constant,
+            apart: &[],
+        };
+        let rest: Vec<Vec<f64>> = (0..left.len())
+            .map(|record| unchanging.rest(&sizes, record).collect())
+            .collect();
         let with_change = |index: usize, at: Option<f64>, recordings: &[usize]| {
             let mut columns = constant.clone();
             let changing =
@@ -84,7 +92,7 @@ impl MotionEquation<'_> {
         let all: Vec<usize> = (0..self.records.len()).collect();
         let evenly = most((0..constant.len()).filter_map(|index| with_change(index, None, &all)))?;
         let others = (0..constant.len()).filter_map(|index| {
-            let some = self.some(&left, &constant, index);
+            let some = self.some(&rest, &constant[index]);
             let some = some.iter().chain([&all]);
             let evenly = most(some.filter_map(|group| with_change(index, None, group)))?;
             let at_once = [&all, &evenly.recordings]
@@ -113,19 +121,17 @@ impl MotionEquation<'_> {
         .filter(Change::is_finite)
     }
 
-    /// The recordings that change most where each may do so by itself, then those and the next, and so on.
-    fn some(&self, left: &[Vec<f64>], constant: &[Column], index: usize) -> Vec<Vec<usize>> {
-        let count = self.records.len();
-        let mut columns = constant.to_vec();
-        let alone = |record: usize| self.over_time(&constant[index], &|time| time, &[record]);
-        columns.extend((0..count).map(alone));
-        let Some((sizes, _)) = self.regressed(left, &columns) else {
-            return Vec::new();
+    /// The recordings by whose own even change of a `column` most of the `rest` is taken, then those and the next, and so on.
+    fn some(&self, rest: &[Vec<f64>], column: &Column) -> Vec<Vec<usize>> {
+        let all: Vec<usize> = (0..self.records.len()).collect();
+        let evenly = self.over_time(column, &|time| time, &all).of_records;
+        let taken = |&record: &usize| {
+            let (rest, course) = (&rest[record], &evenly[record]);
+            dot(rest, course).powi(2) / dot(course, course)
         };
-        let slopes = &sizes[constant.len()..];
-        let mut order: Vec<usize> = (0..count).collect();
-        order.sort_by(|&a, &b| slopes[b].abs().total_cmp(&slopes[a].abs()));
-        let groups = 1..count.min(MOST_OF_SOME + 1);
+        let mut order = all.clone();
+        order.sort_by(|a, b| taken(b).total_cmp(&taken(a)));
+        let groups = 1..all.len().min(MOST_OF_SOME + 1);
         let sorted = groups.map(|many| {
             let mut group = order[..many].to_vec();
             group.sort_unstable();
