@@ -56,10 +56,10 @@ impl Apart {
     }
 
     /// Waits until nothing is worked on: effects are tested for a while after the last click.
-    pub async fn rests(&self) {
+    pub fn rests(&self) {
         let mut worked = self.worked();
         for _ in 0..LONGEST_WAIT_S {
-            tokio::time::sleep(Duration::from_secs(1)).await;
+            std::thread::sleep(Duration::from_secs(1));
             let before = std::mem::replace(&mut worked, self.worked());
             if worked <= before + AT_REST {
                 return;

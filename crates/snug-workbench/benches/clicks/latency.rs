@@ -47,70 +47,67 @@ const DRAGGED: &str = "(async () => {
 const DRAGS: usize = 20;
 
 /// The table of a campaign that is so many times the mystery.
-pub async fn of_clicks(program: &Path, times: usize) {
+pub fn of_clicks(program: &Path, times: usize) {
     let folder = TempDir::new().unwrap();
     let study = study_of(folder.path(), times);
     let begun = Instant::now();
     let server = Server::begin(0, &study);
-    let browser = Headless::launch(program.to_owned()).await;
-    let tab = browser.open(&server.address(), 1400, "light").await;
-    tab.until("document.querySelector('[data-error]')?.textContent > '1'")
-        .await;
+    let browser = Headless::launch(program.to_owned());
+    let tab = browser.open(&server.address(), 1400, "light");
+    tab.until("document.querySelector('[data-error]')?.textContent > '1'");
     println!(
         "{} tightenings: first error on screen after {:.1} s, browser started",
         24 * times,
         begun.elapsed().as_secs_f64()
     );
     println!("  click                  first [ms]  last [ms]  then a drag [ms]  longest");
-    for effect in of_which(&tab, times).await {
-        is_quiet(&tab).await;
-        let [first, last] = clicked(&tab, &format!("[data-effect={effect}] .switch")).await;
-        is_quiet(&tab).await;
-        let [drag, longest] = dragged(&tab).await;
+    for effect in of_which(&tab, times) {
+        is_quiet(&tab);
+        let [first, last] = clicked(&tab, &format!("[data-effect={effect}] .switch"));
+        is_quiet(&tab);
+        let [drag, longest] = dragged(&tab);
         println!("  {effect:<26} {first:>6.0} {last:>10.0} {drag:>17.0} {longest:>8.0}");
-        clicked(&tab, "[data-undo]").await;
+        clicked(&tab, "[data-undo]");
     }
-    is_quiet(&tab).await;
-    let [drag, longest] = dragged(&tab).await;
+    is_quiet(&tab);
+    let [drag, longest] = dragged(&tab);
     println!(
         "  {:<26} {:>6} {:>10} {drag:>17.0} {longest:>8.0}",
         "no effect", "", ""
     );
     tab.was_well(server.port);
-    browser.close().await;
+    browser.close();
     server.end();
 }
 
 /// Every effect of a campaign that is fitted at once, else some.
-async fn of_which(tab: &Tab, times: usize) -> Vec<String> {
+fn of_which(tab: &Tab, times: usize) -> Vec<String> {
     let all =
         "[...document.querySelectorAll('[data-switches] > li')].map(one => one.dataset.effect)";
     match times {
-        1 => serde_json::from_value(tab.value(all).await).unwrap(),
+        1 => serde_json::from_value(tab.value(all)).unwrap(),
         _ => EFFECTS.map(str::to_owned).to_vec(),
     }
 }
 
 /// Median and longest of some drags \[ms\].
-async fn dragged(tab: &Tab) -> [f64; 2] {
+fn dragged(tab: &Tab) -> [f64; 2] {
     let mut drags = Vec::new();
     for _ in 0..DRAGS {
-        drags.push(tab.value(DRAGGED).await.as_f64().unwrap_or(f64::NAN));
+        drags.push(tab.value(DRAGGED).as_f64().unwrap_or(f64::NAN));
     }
-    tab.value("document.querySelector('[data-as-fitted]').click()")
-        .await;
+    tab.value("document.querySelector('[data-as-fitted]').click()");
     drags.sort_by(f64::total_cmp);
     [drags[DRAGS / 2], drags[DRAGS - 1]]
 }
 
 /// Waits until all that follows from a fit is told but the tests of what was added, which go on behind the next click.
-async fn is_quiet(tab: &Tab) {
-    tab.until("document.querySelector('[data-usable]').textContent !== ''")
-        .await;
+fn is_quiet(tab: &Tab) {
+    tab.until("document.querySelector('[data-usable]').textContent !== ''");
 }
 
-async fn clicked(tab: &Tab, selector: &str) -> [f64; 2] {
+fn clicked(tab: &Tab, selector: &str) -> [f64; 2] {
     let script = CLICKED.replace("SELECTOR", &format!("'{selector}'"));
-    let times = tab.value(&script).await;
+    let times = tab.value(&script);
     [0, 1].map(|place| times[place].as_f64().unwrap_or(f64::NAN))
 }

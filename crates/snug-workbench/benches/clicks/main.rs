@@ -10,6 +10,8 @@ mod apart;
 #[path = "../../tests/in_browser/browser.rs"]
 mod browser;
 mod day;
+#[path = "../../tests/in_browser/devtools.rs"]
+mod devtools;
 mod latency;
 mod many;
 #[path = "../../tests/in_browser/server.rs"]
@@ -29,12 +31,9 @@ fn main() {
     }
     let Some(program) = installed() else { return };
     let is_long = std::env::args().any(|argument| argument == "--long");
-    let runtime = tokio::runtime::Runtime::new().unwrap();
-    runtime.block_on(async {
-        if is_long {
-            day::of_use(&program).await;
-        }
-        latency::of_clicks(&program, 1).await;
-        latency::of_clicks(&program, 10).await;
-    });
+    if is_long {
+        day::of_use(&program);
+    }
+    latency::of_clicks(&program, 1);
+    latency::of_clicks(&program, 10);
 }

@@ -2,25 +2,25 @@
 
 use crate::browser::Tab;
 use crate::opened::Opened;
+use serde_json::json;
 
 /// Faults that axe-core calls serious or critical; `SNUG_AXE` names its script, which then must be there.
-async fn serious(tab: &Tab, script: &str) -> Vec<String> {
-    tab.value(&format!("{script};0")).await;
+fn serious(tab: &Tab, script: &str) -> Vec<String> {
+    tab.value(&format!("{script};0"));
     let told = tab
         .value(
             "axe.run().then(found => found.violations.filter(one => ['serious', 'critical'].includes(one.impact))
              .map(one => one.id + ': ' + one.nodes.map(node => node.html.slice(0, 120)).slice(0, 3).join(' | ')))",
-        )
-        .await;
+        );
     let faults = told.as_array().unwrap().iter();
     faults
         .map(|fault| fault.as_str().unwrap().to_owned())
         .collect()
 }
 
-#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
-async fn the_page_is_for_everybody() {
-    let Some(opened) = Opened::on_the_mystery().await else {
+#[test]
+fn the_page_is_for_everybody() {
+    let Some(opened) = Opened::on_the_mystery() else {
         return;
     };
     let axe = std::env::var_os("SNUG_AXE").map(|path| std::fs::read_to_string(path).unwrap());
@@ -34,41 +34,38 @@ async fn the_page_is_for_everybody() {
         (390, "dark"),
     ] {
         let address = format!("{}?effects=stretch_reflex&rival=", opened.server.address());
-        let tab = opened.browser.open(&address, width, scheme).await;
-        tab.until("document.querySelector('[data-error]')?.textContent === '1.007'")
-            .await;
-        tab.until("document.querySelector('[data-tested]').dataset.state === 'real'")
-            .await;
-        let sideways = tab.value("document.documentElement.scrollWidth").await;
+        let tab = opened.browser.open(&address, width, scheme);
+        tab.error_is("1.007");
+        tab.until("document.querySelector('[data-tested]').dataset.state === 'real'");
+        let sideways = tab.value("document.documentElement.scrollWidth");
         assert!(sideways.as_i64() <= Some(width), "{sideways} of {width}");
         if let Some(axe) = &axe {
-            let faults = serious(&tab, axe).await;
+            let faults = serious(&tab, axe);
             assert!(faults.is_empty(), "{width} {scheme}: {faults:#?}");
         }
         tab.was_well(opened.server.port);
-        tab.page.close().await.unwrap();
+        tab.ask("Page.close", &json!({}));
     }
-    opened.close().await;
+    opened.close();
 }
 
 /// From the top of the page by Tab alone to the switch that promises most, and on by the space bar.
-#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
-async fn a_keyboard_is_enough() {
-    let Some(opened) = Opened::on_the_mystery().await else {
+#[test]
+fn a_keyboard_is_enough() {
+    let Some(opened) = Opened::on_the_mystery() else {
         return;
     };
-    let tab = opened.tab().await;
-    tab.is_ready("1.541").await;
+    let tab = opened.tab();
+    tab.is_ready("1.541");
     let at = "document.activeElement.closest('li')?.dataset.effect ?? ''";
     let mut presses = 0;
-    while tab.value(at).await != "stretch_reflex" {
-        tab.press("Tab").await;
+    while tab.value(at) != "stretch_reflex" {
+        tab.press("Tab");
         presses += 1;
         assert!(presses < 60, "the switch is out of reach");
     }
-    tab.press(" ").await;
-    tab.until("document.querySelector('[data-error]').textContent === '1.007'")
-        .await;
+    tab.press(" ");
+    tab.error_is("1.007");
     println!("{presses} presses of Tab to the first switch");
-    opened.close().await;
+    opened.close();
 }

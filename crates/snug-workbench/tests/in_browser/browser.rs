@@ -1,25 +1,17 @@
 //! A headless Chromium, and a page of the workbench in it.
 
-use chromiumoxide::cdp::browser_protocol::emulation::{
-    MediaFeature, SetDeviceMetricsOverrideParams,
-};
-use chromiumoxide::cdp::browser_protocol::input::{
-    DispatchKeyEventParams, DispatchKeyEventType, DispatchMouseEventParams, DispatchMouseEventType,
-    MouseButton,
-};
-use chromiumoxide::cdp::browser_protocol::network::{EnableParams, EventRequestWillBeSent};
-use chromiumoxide::cdp::js_protocol::runtime::{EventConsoleApiCalled, EventExceptionThrown};
-use chromiumoxide::layout::Point;
-use chromiumoxide::{Browser, BrowserConfig, Page};
-use serde_json::Value;
+use crate::devtools::{DevTools, PATIENCE};
+use serde_json::{Value, json};
+use std::cell::RefCell;
 use std::path::PathBuf;
-use std::sync::{Arc, Mutex};
+use std::process::{Child, Command, Stdio};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::thread::sleep;
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
-use tokio_stream::StreamExt;
 
-/// Longest that is waited for something to show: a test of one effect on a machine that does something else. Chosen.
-const PATIENCE: Duration = Duration::from_secs(120);
+/// Between two looks at what is waited for.
+const A_MOMENT: Duration = Duration::from_millis(20);
 
 /// The browser that `SNUG_CHROMIUM` names, which then must be there, or one that is found on the path.
 pub fn installed() -> Option<PathBuf> {
@@ -39,218 +31,243 @@ pub fn installed() -> Option<PathBuf> {
     found
 }
 
-/// Longest that is waited for a page to say that it has loaded, which it may never. Chosen.
-pub const LOADING: Duration = Duration::from_secs(5);
-
 /// One browser at a time: what is timed in it has the machine for itself.
-static ALONE: tokio::sync::Mutex<()> = tokio::sync::Mutex::const_new(());
+static ALONE: Mutex<()> = Mutex::new(());
 
 /// A browser without a window, for as long as the value lives.
 pub struct Headless {
-    _alone: tokio::sync::MutexGuard<'static, ()>,
-    browser: Browser,
+    line: RefCell<DevTools>,
+    port: u16,
+    process: Child,
     _profile: TempDir,
+    _alone: MutexGuard<'static, ()>,
 }
 
 impl Headless {
-    pub async fn launch(program: PathBuf) -> Self {
-        let alone = ALONE.lock().await;
+    pub fn launch(program: PathBuf) -> Self {
+        let alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
         let profile = TempDir::new().unwrap();
-        let config = BrowserConfig::builder()
-            .chrome_executable(program)
-            .user_data_dir(profile.path())
-            .new_headless_mode()
-            .no_sandbox()
-            .launch_timeout(PATIENCE)
-            .request_timeout(PATIENCE)
-            .build()
+        let process = Command::new(program)
+            .args(["--headless=new", "--no-sandbox", "--no-first-run"])
+            .args(["--disable-background-networking", "--disable-extensions"])
+            .arg("--remote-debugging-port=0")
+            .arg(format!("--user-data-dir={}", profile.path().display()))
+            .stderr(Stdio::null())
+            .spawn()
             .unwrap();
-        let (browser, mut handler) = Browser::launch(config).await.unwrap();
-        tokio::spawn(async move { while handler.next().await.is_some() {} });
+        let told = profile.path().join("DevToolsActivePort");
+        let begun = Instant::now();
+        let (port, path) = loop {
+            let text = std::fs::read_to_string(&told).unwrap_or_default();
+            if let Some((port, path)) = text.split_once('\n') {
+                break (port.parse().unwrap(), path.to_owned());
+            }
+            assert!(begun.elapsed() < PATIENCE, "the browser never listened");
+            sleep(A_MOMENT);
+        };
         Self {
-            _alone: alone,
-            browser,
+            line: RefCell::new(DevTools::at(port, &path)),
+            port,
+            process,
             _profile: profile,
+            _alone: alone,
         }
     }
 
     /// A page as wide as that, at an address.
-    pub async fn open(&self, address: &str, width: i64, scheme: &str) -> Tab {
-        let page = self.browser.new_page("about:blank").await.unwrap();
-        page.execute(EnableParams::default()).await.unwrap();
-        let size = SetDeviceMetricsOverrideParams::new(width, 1000, 1.0, width < 600);
-        page.execute(size).await.unwrap();
-        let colours = MediaFeature::new("prefers-color-scheme", scheme);
-        page.emulate_media_features(vec![colours]).await.unwrap();
-        let tab = Tab {
-            faults: Arc::default(),
-            asked: Arc::default(),
-            page,
-        };
-        tab.listen().await;
-        // The page that waits for the tightenings reloads itself: that it has loaded is no end to wait for.
-        (tokio::time::timeout(LOADING, tab.page.goto(address)).await).ok();
+    pub fn open(&self, address: &str, width: i64, scheme: &str) -> Tab {
+        let mut line = self.line.borrow_mut();
+        let target = line.ask("Target.createTarget", &json!({"url": "about:blank"}));
+        let id = target["targetId"].as_str().unwrap();
+        let line = RefCell::new(DevTools::at(self.port, &format!("/devtools/page/{id}")));
+        let tab = Tab { line };
+        for watched in ["Network.enable", "Page.enable", "Runtime.enable"] {
+            tab.ask(watched, &json!({}));
+        }
+        tab.ask(
+            "Emulation.setDeviceMetricsOverride",
+            &json!({"width": width, "height": 1000, "deviceScaleFactor": 1, "mobile": width < 600}),
+        );
+        tab.ask(
+            "Emulation.setEmulatedMedia",
+            &json!({"features": [{"name": "prefers-color-scheme", "value": scheme}]}),
+        );
+        tab.goto(address);
         tab
     }
 
-    pub async fn close(mut self) {
-        self.browser.close().await.unwrap();
-        self.browser.wait().await.unwrap();
+    pub fn close(mut self) {
+        self.line.get_mut().ask("Browser.close", &json!({}));
+        self.process.wait().unwrap();
     }
 }
 
-/// One page, with what went wrong in it and what it asked for.
+impl Drop for Headless {
+    /// A story that failed leaves no browser behind.
+    fn drop(&mut self) {
+        self.process.kill().ok();
+        self.process.wait().ok();
+    }
+}
+
+/// One page.
 pub struct Tab {
-    pub page: Page,
-    pub faults: Arc<Mutex<Vec<String>>>,
-    pub asked: Arc<Mutex<Vec<String>>>,
+    line: RefCell<DevTools>,
 }
 
 impl Tab {
-    async fn listen(&self) {
-        let mut thrown = self
-            .page
-            .event_listener::<EventExceptionThrown>()
-            .await
-            .unwrap();
-        let mut said = self
-            .page
-            .event_listener::<EventConsoleApiCalled>()
-            .await
-            .unwrap();
-        let mut sent = self
-            .page
-            .event_listener::<EventRequestWillBeSent>()
-            .await
-            .unwrap();
-        let (faults, more, asked) = (
-            Arc::clone(&self.faults),
-            Arc::clone(&self.faults),
-            Arc::clone(&self.asked),
-        );
-        tokio::spawn(async move {
-            while let Some(event) = thrown.next().await {
-                faults
-                    .lock()
-                    .unwrap()
-                    .push(format!("{:?}", event.exception_details));
-            }
-        });
-        tokio::spawn(async move {
-            while let Some(event) = said.next().await {
-                more.lock().unwrap().push(format!("{:?}", event.args));
-            }
-        });
-        tokio::spawn(async move {
-            while let Some(event) = sent.next().await {
-                asked.lock().unwrap().push(event.request.url.clone());
-            }
-        });
+    /// The answer of the page's DevTools to a question.
+    pub fn ask(&self, method: &str, params: &Value) -> Value {
+        self.line.borrow_mut().ask(method, params)
+    }
+
+    /// Goes to an address; what is there may still be loading.
+    pub fn goto(&self, address: &str) {
+        self.ask("Page.navigate", &json!({"url": address}));
+    }
+
+    /// Shows the page before the others, as what is timed and clicked must be.
+    pub fn to_front(&self) {
+        self.ask("Page.bringToFront", &json!({}));
+    }
+
+    /// The same address anew; what is there may still be loading.
+    pub fn reload(&self) {
+        self.value("window.isLeft = true");
+        self.ask("Page.reload", &json!({}));
+        self.until("window.isLeft === undefined");
     }
 
     /// What an expression of the page comes to; nothing while another page is being loaded.
-    pub async fn value(&self, expression: &str) -> Value {
-        let told = self.page.evaluate_expression(expression).await;
-        told.ok()
-            .and_then(|told| told.value().cloned())
-            .unwrap_or(Value::Null)
+    pub fn value(&self, expression: &str) -> Value {
+        let question =
+            json!({"expression": expression, "returnByValue": true, "awaitPromise": true});
+        let told = self.line.borrow_mut().asked("Runtime.evaluate", &question);
+        told.map_or(Value::Null, |mut told| told["result"]["value"].take())
     }
 
     /// The text of the element with this data attribute; nothing where it is not there.
-    pub async fn text(&self, name: &str) -> String {
-        let text = self
-            .value(&format!(
-                "document.querySelector('[data-{name}]')?.textContent ?? ''"
-            ))
-            .await;
+    pub fn text(&self, name: &str) -> String {
+        let text = self.value(&format!(
+            "document.querySelector('[data-{name}]')?.textContent ?? ''"
+        ));
         text.as_str().unwrap_or("").replace('\u{a0}', " ")
     }
 
     /// Waits until an expression is true.
-    pub async fn until(&self, expression: &str) {
+    pub fn until(&self, expression: &str) {
         let begun = Instant::now();
-        while self.value(expression).await != Value::Bool(true) {
+        while self.value(expression) != Value::Bool(true) {
             assert!(begun.elapsed() < PATIENCE, "it never came to {expression}");
-            tokio::time::sleep(Duration::from_millis(20)).await;
+            sleep(A_MOMENT);
         }
     }
 
-    /// Waits until the study's own model is fitted, its error said, and everything that follows from it.
-    pub async fn is_ready(&self, error: &str) {
+    /// Waits until the error on the page is that.
+    pub fn error_is(&self, error: &str) {
         self.until(&format!(
             "document.querySelector('[data-error]')?.textContent === '{error}'"
-        ))
-        .await;
-        self.until("(document.querySelector('[data-usable]')?.textContent ?? '') !== ''")
-            .await;
+        ));
     }
 
-    /// Clicks where a person would: in the middle of what is on screen.
-    pub async fn click(&self, selector: &str) {
-        self.page.bring_to_front().await.unwrap();
-        let element = self.page.find_element(selector).await;
-        let element = element.unwrap_or_else(|error| panic!("{selector}: {error}"));
-        element.click().await.unwrap();
+    /// Waits until the study's own model is fitted, its error said, and everything that follows from it.
+    pub fn is_ready(&self, error: &str) {
+        self.error_is(error);
+        self.until("(document.querySelector('[data-usable]')?.textContent ?? '') !== ''");
+    }
+
+    /// Gives an element the focus.
+    pub fn focus(&self, selector: &str) {
+        let has_it = self.value(&format!(
+            "(() => {{ const one = document.querySelector({selector:?}); one.focus(); return document.activeElement === one; }})()"
+        ));
+        assert_eq!(has_it, true, "{selector}");
+    }
+
+    /// Where an element is on screen, once it is scrolled there: left, top, width and height \[px\].
+    fn place(&self, selector: &str) -> [f64; 4] {
+        let place = self.value(&format!(
+            "(() => {{
+               const one = document.querySelector({selector:?});
+               one.scrollIntoView({{ block: 'center', inline: 'center', behavior: 'instant' }});
+               const {{ x, y, width, height }} = one.getBoundingClientRect();
+               return [x, y, width, height];
+             }})()"
+        ));
+        let told = serde_json::from_value(place);
+        told.unwrap_or_else(|_| panic!("{selector} is not there"))
+    }
+
+    /// What the mouse does at a point.
+    fn mouse(&self, kind: &str, x: f64, y: f64) {
+        self.ask(
+            "Input.dispatchMouseEvent",
+            &json!({"type": kind, "x": x, "y": y, "button": "left", "buttons": 1, "clickCount": 1}),
+        );
+    }
+
+    /// Clicks where a person would: in the middle of what is on screen, which nothing may cover.
+    pub fn click(&self, selector: &str) {
+        self.to_front();
+        let [left, top, width, height] = self.place(selector);
+        let (x, y) = (left + 0.5 * width, top + 0.5 * height);
+        let is_on_top = self.value(&format!(
+            "document.querySelector({selector:?}).contains(document.elementFromPoint({x}, {y}))"
+        ));
+        assert_eq!(is_on_top, true, "{selector} is covered");
+        for kind in ["mouseMoved", "mousePressed", "mouseReleased"] {
+            self.mouse(kind, x, y);
+        }
     }
 
     /// Presses a key, whatever has the focus.
-    pub async fn press(&self, key: &str) {
-        let code = match key {
-            "Tab" => 9,
-            "Enter" => 13,
-            "ArrowRight" => 39,
-            " " => 32,
+    pub fn press(&self, key: &str) {
+        let (number, text) = match key {
+            "Tab" => (9, ""),
+            "Enter" => (13, "\r"),
+            "ArrowRight" => (39, ""),
+            " " => (32, " "),
             other => panic!("no story presses {other}"),
         };
-        for kind in [
-            DispatchKeyEventType::RawKeyDown,
-            DispatchKeyEventType::Char,
-            DispatchKeyEventType::KeyUp,
-        ] {
-            let mut event = DispatchKeyEventParams::new(kind.clone());
-            event.key = Some(key.to_owned());
-            event.code = Some(if key == " " { "Space" } else { key }.to_owned());
-            event.windows_virtual_key_code = Some(code);
-            if matches!(kind, DispatchKeyEventType::Char) {
-                match key {
-                    "Enter" => event.text = Some("\r".to_owned()),
-                    " " => event.text = Some(" ".to_owned()),
-                    _ => continue,
-                }
+        let code = if key == " " { "Space" } else { key };
+        for kind in ["rawKeyDown", "char", "keyUp"] {
+            if kind != "char" || !text.is_empty() {
+                let said = if kind == "char" { text } else { "" };
+                let event = json!({"type": kind, "key": key, "code": code, "windowsVirtualKeyCode": number, "text": said});
+                self.ask("Input.dispatchKeyEvent", &event);
             }
-            self.page.execute(event).await.unwrap();
         }
     }
 
     /// Drags across the first figure, between two shares of its width.
-    pub async fn drag(&self, from: f64, to: f64) {
-        let figure = self.page.find_element("[data-panel] svg").await.unwrap();
-        figure.scroll_into_view().await.unwrap();
-        let shape = figure.bounding_box().await.unwrap();
-        let at = |share: f64| Point {
-            x: shape.x + share * shape.width,
-            y: shape.y + 0.5 * shape.height,
-        };
+    pub fn drag(&self, from: f64, to: f64) {
+        let [left, top, width, height] = self.place("[data-panel] svg");
         for (kind, share) in [
-            (DispatchMouseEventType::MouseMoved, from),
-            (DispatchMouseEventType::MousePressed, from),
-            (DispatchMouseEventType::MouseMoved, 0.5 * (from + to)),
-            (DispatchMouseEventType::MouseMoved, to),
-            (DispatchMouseEventType::MouseReleased, to),
+            ("mouseMoved", from),
+            ("mousePressed", from),
+            ("mouseMoved", 0.5 * (from + to)),
+            ("mouseMoved", to),
+            ("mouseReleased", to),
         ] {
-            let Point { x, y } = at(share);
-            let mut event = DispatchMouseEventParams::new(kind, x, y);
-            event.button = Some(MouseButton::Left);
-            event.buttons = Some(1);
-            event.click_count = Some(1);
-            self.page.execute(event).await.unwrap();
+            self.mouse(kind, left + share * width, top + 0.5 * height);
         }
     }
 
     /// Nothing went wrong, and nothing was asked of another machine.
     pub fn was_well(&self, port: u16) {
-        assert_eq!(*self.faults.lock().unwrap(), Vec::<String>::new());
-        let asked = self.asked.lock().unwrap();
+        let mut line = self.line.borrow_mut();
+        let (mut faults, mut asked) = (Vec::new(), Vec::new());
+        for event in line.events() {
+            match &*event.method {
+                "Runtime.exceptionThrown" => faults.push(&event.params["exceptionDetails"]),
+                "Runtime.consoleAPICalled" => faults.push(&event.params["args"]),
+                "Network.requestWillBeSent" => {
+                    asked.push(event.params["request"]["url"].as_str().unwrap());
+                }
+                _ => (),
+            }
+        }
+        assert_eq!(faults, Vec::<&Value>::new());
         assert!(asked.len() > 3, "{asked:?}");
         let own = format!("http://127.0.0.1:{port}/");
         let stranger = asked

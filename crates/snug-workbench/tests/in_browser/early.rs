@@ -1,8 +1,7 @@
 //! A click by somebody who is faster than the page's line to the server.
 
 use crate::opened::Opened;
-use chromiumoxide::cdp::browser_protocol::page::AddScriptToEvaluateOnNewDocumentParams;
-use std::time::Duration;
+use serde_json::json;
 
 /// A line that is made a second late, as over a slow machine.
 const LATE: &str = "
@@ -17,23 +16,25 @@ window.EventSource = function (address) {
   return late;
 };";
 
-#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
-async fn a_click_before_the_server_knows_the_page_counts() {
-    let Some(opened) = Opened::on_the_mystery().await else {
+#[test]
+fn a_click_before_the_server_knows_the_page_counts() {
+    let Some(opened) = Opened::on_the_mystery() else {
         return;
     };
     // Read, so that the page is there at once.
-    opened.tab().await.is_ready("1.541").await;
-    let tab = opened.browser.open("about:blank", 1400, "light").await;
-    let script = AddScriptToEvaluateOnNewDocumentParams::new(LATE);
-    tab.page.execute(script).await.unwrap();
-    let going = tab.page.goto(opened.server.address());
-    (tokio::time::timeout(Duration::from_secs(1), going).await).ok();
-    tab.click("[data-effect=stretch_reflex] .switch").await;
+    opened.tab().is_ready("1.541");
+    let tab = opened.browser.open("about:blank", 1400, "light");
+    tab.ask(
+        "Page.addScriptToEvaluateOnNewDocument",
+        &json!({"source": LATE}),
+    );
+    tab.goto(&opened.server.address());
+    let switch = "[data-effect=stretch_reflex] .switch";
+    tab.until(&format!("document.querySelector('{switch}') !== null"));
+    tab.click(switch);
     let early = "document.querySelector('[data-error]').textContent";
-    assert_eq!(tab.value(early).await, "…");
-    tab.until("document.querySelector('[data-error]').textContent === '1.007'")
-        .await;
+    assert_eq!(tab.value(early), "…");
+    tab.error_is("1.007");
     tab.was_well(opened.server.port);
-    opened.close().await;
+    opened.close();
 }

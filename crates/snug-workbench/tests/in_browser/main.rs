@@ -3,6 +3,7 @@
 
 mod access;
 mod browser;
+mod devtools;
 mod early;
 mod mystery;
 mod opened;

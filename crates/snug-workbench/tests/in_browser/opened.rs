@@ -16,28 +16,26 @@ pub struct Opened {
 
 impl Opened {
     /// `None` where there is no browser, which then is said.
-    pub async fn on_the_mystery() -> Option<Self> {
+    pub fn on_the_mystery() -> Option<Self> {
         let program = installed()?;
         let folder = TempDir::new().unwrap();
         let study_file = study_in(folder.path());
         Some(Self {
             server: Server::begin(0, &study_file),
-            browser: Headless::launch(program).await,
+            browser: Headless::launch(program),
             study_file,
             folder,
         })
     }
 
     /// The page as somebody at a desk has it.
-    pub async fn tab(&self) -> Tab {
-        self.browser
-            .open(&self.server.address(), 1400, "light")
-            .await
+    pub fn tab(&self) -> Tab {
+        self.browser.open(&self.server.address(), 1400, "light")
     }
 
     /// Closes all but the folder.
-    pub async fn close(self) -> TempDir {
-        self.browser.close().await;
+    pub fn close(self) -> TempDir {
+        self.browser.close();
         self.server.end();
         self.folder
     }

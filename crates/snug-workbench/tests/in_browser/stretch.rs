@@ -5,37 +5,31 @@ use snug_study::{RunSettings, Study, run};
 use std::sync::atomic::AtomicBool;
 use tempfile::TempDir;
 
-#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
-async fn a_stretch_is_fitted_alone_and_saved() {
-    let Some(opened) = Opened::on_the_mystery().await else {
+#[test]
+fn a_stretch_is_fitted_alone_and_saved() {
+    let Some(opened) = Opened::on_the_mystery() else {
         return;
     };
-    let tab = opened.tab().await;
-    tab.is_ready("1.541").await;
-    tab.drag(0.1, 0.5).await;
-    tab.click("[data-alone]").await;
-    tab.until("document.querySelector('header').textContent.includes('s of every window alone')")
-        .await;
-    tab.until("Number(document.querySelector('[data-error]')?.textContent) > 1")
-        .await;
+    let tab = opened.tab();
+    tab.is_ready("1.541");
+    tab.drag(0.1, 0.5);
+    tab.click("[data-alone]");
+    tab.until("document.querySelector('header').textContent.includes('s of every window alone')");
+    tab.until("Number(document.querySelector('[data-error]')?.textContent) > 1");
     // Effects that are still being sorted would move away from under the click.
-    tab.until("(document.querySelector('[data-usable]')?.textContent ?? '') !== ''")
-        .await;
+    tab.until("(document.querySelector('[data-usable]')?.textContent ?? '') !== ''");
     let whole = "document.querySelector('[data-error]').textContent === '1.541'";
-    assert_eq!(tab.value(whole).await, false);
-    tab.click("[data-effect=stretch_reflex] .switch").await;
+    assert_eq!(tab.value(whole), false);
+    tab.click("[data-effect=stretch_reflex] .switch");
     tab.until(
         "document.querySelector('[data-says]').textContent === 'Nothing but the noise is left.'",
-    )
-    .await;
-    tab.click("[data-save]").await;
-    tab.until("document.querySelector('[data-saved]').textContent.startsWith('Saved as ')")
-        .await;
-    tab.click("[data-whole]").await;
-    tab.until("document.querySelector('[data-error]')?.textContent === '1.007'")
-        .await;
+    );
+    tab.click("[data-save]");
+    tab.until("document.querySelector('[data-saved]').textContent.startsWith('Saved as ')");
+    tab.click("[data-whole]");
+    tab.error_is("1.007");
     tab.was_well(opened.server.port);
-    let folder = opened.close().await;
+    let folder = opened.close();
 
     // The same as a command: nothing after the stretch is there, and nothing before it is scored.
     let study = Study::read(&folder.path().join("mystery.workbench.ron")).unwrap();
