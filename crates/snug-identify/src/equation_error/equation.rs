@@ -14,7 +14,8 @@ use crate::constraint_kind::ConstraintKind;
 use crate::equation_error::record::AveragedRecord;
 use crate::equation_error::regression::{Column, Regression};
 use crate::equation_error::thresholds::{
-    AVERAGES_PER_UNKNOWN, LEAST_BY_TORQUE, LEAST_HALF_WIDTH, LEAST_SHARE, MOST_PLACES, ROUNDING,
+    AVERAGES_PER_UNKNOWN, LEAST_BY_TORQUE, LEAST_HALF_WIDTH, LEAST_SHARE, MOST_PASSED_OVER,
+    MOST_PLACES, ROUNDING,
 };
 use crate::task::FitTask;
 use snug_campaign::Parameter;
@@ -129,16 +130,25 @@ impl<'a> MotionEquation<'a> {
         best.map(|(_, equation)| equation)
     }
 
-    /// Averaged over `half_width` samples to either side.
+    /// Averaged over `half_width` samples to either side; `None` where too many are too short for that, or rest.
     pub fn averaged(tasks: &'a [FitTask<'a>], half_width: usize) -> Option<Self> {
         let most = MOST_PLACES / tasks.len().max(1);
         let records = tasks
             .iter()
             .map(|task| AveragedRecord::of(task, half_width, most));
-        let records: Option<Vec<AveragedRecord>> = records.collect();
-        Some(Self {
+        let records: Vec<AveragedRecord> = records.collect();
+        let samples = |is_counted: &dyn Fn(&AveragedRecord) -> bool| -> f64 {
+            let counted = tasks
+                .iter()
+                .zip(&records)
+                .filter(|(_, record)| is_counted(record));
+            counted.map(|(task, _)| task.measured().len() as f64).sum()
+        };
+        let all = samples(&|_| true);
+        let is_enough = all > 0.0 && samples(&AveragedRecord::is_empty) <= MOST_PASSED_OVER * all;
+        is_enough.then_some(Self {
             tasks,
-            records: records.filter(|records| !records.is_empty())?,
+            records,
             half_width,
         })
     }

@@ -41,8 +41,9 @@ pub struct AveragedRecord {
 }
 
 impl AveragedRecord {
-    /// Averages over `half_width` samples to either side, at no more than about `most` places; `None` where there are none, or nothing was measured.
-    pub fn of(task: &FitTask<'_>, half_width: usize, most: usize) -> Option<Self> {
+    /// Averages over `half_width` samples to either side, at no more than about `most` places; at none where the recording is too short or
+    /// the rig rests.
+    pub fn of(task: &FitTask<'_>, half_width: usize, most: usize) -> Self {
         let interval_s = task.tightening.time_base.interval_s;
         let (measured, torque_nm) = (task.measured(), &task.tightening.torque_nm);
         let stride = (half_width / PARTS_OF_A_HALF).max(1);
@@ -63,9 +64,6 @@ impl AveragedRecord {
             &velocity_rad_per_s,
             length.div_ceil(stride),
         );
-        if starts.is_empty() {
-            return None;
-        }
         let mean = |signal: &[f64], weight: &[f64]| -> Vec<f64> {
             let at = |&start: &usize| dot(&signal[start..start + length], weight);
             starts.iter().map(at).collect()
@@ -93,7 +91,7 @@ impl AveragedRecord {
             true => (of_curvature, coarse.of_curvature),
             false => (of_value, coarse.of_value),
         };
-        Some(Self {
+        Self {
             torque: mean(&acting, of_torque),
             acceleration,
             velocity,
@@ -105,7 +103,7 @@ impl AveragedRecord {
             velocity_rad_per_s,
             places: starts.iter().map(|start| start / stride).collect(),
             weights,
-        })
+        }
     }
 
     /// What acts along the measured motion beside the torque of the base model \[Nm\]: T − l F of `model` without the torque,
@@ -129,6 +127,11 @@ impl AveragedRecord {
         let span = self.places.last().map_or(0, |last| last - first).max(1);
         let time = move |&place: &usize| 2.0 * (place - first) as f64 / span as f64 - 1.0;
         self.places.iter().map(time)
+    }
+
+    /// Whether it says nothing.
+    pub fn is_empty(&self) -> bool {
+        self.places.is_empty()
     }
 
     /// Number of places.

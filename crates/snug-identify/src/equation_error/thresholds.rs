@@ -21,6 +21,9 @@ pub(crate) const LEAST_BY_TORQUE: f64 = 0.02;
 pub(crate) const LEAST_SHARE: f64 = 1e-3;
 /// Squared share of a term below which a difference is rounding \[–\]. Chosen.
 pub(crate) const ROUNDING: f64 = 1e-12;
+/// Share of all samples that the recordings may hold which are too short for an average, or rest \[–\]: they are passed over, so that one
+/// which broke off takes nothing from the others. Chosen.
+pub(crate) const MOST_PASSED_OVER: f64 = 0.1;
 /// Most places of all recordings together: more say nothing new, and take longer. Chosen.
 pub(crate) const MOST_PLACES: usize = 6000;
 /// Velocity over its root mean square below which the rig is taken to rest \[–\]. Chosen: with a motor that breaks away after a second

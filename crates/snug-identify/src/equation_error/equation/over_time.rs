@@ -51,14 +51,7 @@ impl MotionEquation<'_> {
         let left: Vec<Vec<f64>> = self.records.iter().map(|one| one.torque.clone()).collect();
         let constant = self.of_torque(terms);
         let (sizes, before) = self.regressed(&left, &constant)?;
-        let unchanging = Regression {
-            left: &left,
-            columns: &constant,
-            apart: &[],
-        };
-        let rest: Vec<Vec<f64>> = (0..left.len())
-            .map(|record| unchanging.rest(&sizes, record).collect())
-            .collect();
+        let rest = rest(&left, &constant, &sizes);
         let with_change = |index: usize, at: Option<f64>, recordings: &[usize]| {
             let mut columns = constant.clone();
             let changing =
@@ -129,9 +122,12 @@ impl MotionEquation<'_> {
             let (rest, course) = (&rest[record], &evenly[record]);
             dot(rest, course).powi(2) / dot(course, course)
         };
-        let mut order = all.clone();
+        let mut order: Vec<usize> = all
+            .into_iter()
+            .filter(|&one| !rest[one].is_empty())
+            .collect();
         order.sort_by(|a, b| taken(b).total_cmp(&taken(a)));
-        let groups = 1..all.len().min(MOST_OF_SOME + 1);
+        let groups = 1..order.len().min(MOST_OF_SOME + 1);
         let sorted = groups.map(|many| {
             let mut group = order[..many].to_vec();
             group.sort_unstable();
@@ -211,6 +207,17 @@ fn beside(place: f64) -> impl Iterator<Item = f64> {
     let apart = 2.0 / (PLACES + 1) as f64;
     let parts = (1..PARTS).map(|part| f64::from(part) / f64::from(PARTS));
     parts.flat_map(move |part| [place - part * apart, place + part * apart])
+}
+
+/// What columns of these sizes leave of the left-hand side, record by record.
+fn rest(left: &[Vec<f64>], columns: &[Column], sizes: &[f64]) -> Vec<Vec<f64>> {
+    let regression = Regression {
+        left,
+        columns,
+        apart: &[],
+    };
+    let of_record = |record| regression.rest(sizes, record).collect();
+    (0..left.len()).map(of_record).collect()
 }
 
 fn most(changes: impl Iterator<Item = Change>) -> Option<Change> {

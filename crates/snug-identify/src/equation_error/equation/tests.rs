@@ -36,6 +36,8 @@ struct Made {
     change: [f64; 4],
     /// Where it does so at once, from −1 at the beginning to 1 at the end; evenly where nowhere.
     at: Option<f64>,
+    /// After which it broke off.
+    samples: usize,
 }
 
 impl Default for Made {
@@ -48,6 +50,7 @@ impl Default for Made {
             base: BASE,
             change: [0.0; 4],
             at: None,
+            samples: SAMPLES,
         }
     }
 }
@@ -57,7 +60,7 @@ impl Made {
     fn task(&self, seed: f64, units: [f64; 2], time: f64) -> FitTask<'static> {
         let [torque_unit, motion_unit] = units;
         let (mut torque_nm, mut measured) = (Vec::new(), Vec::new());
-        for sample in 0..SAMPLES {
+        for sample in 0..self.samples {
             let t = sample as f64 * INTERVAL_S;
             let (a, b) = (5.0 + 0.3 * seed, 11.0 - 0.2 * seed);
             let along = 2.0 * sample as f64 / SAMPLES as f64 - 1.0;
@@ -423,6 +426,31 @@ fn what_changes_at_once_is_told_from_what_does_so_evenly() {
 }
 
 /// Under a torque that grows, friction is a smaller part of it at the end, and nothing is said.
+/// One that broke off says nothing itself, and keeps the others from nothing.
+#[test]
+fn a_recording_that_broke_off_takes_nothing_from_the_others() {
+    let changes = Made {
+        change: [0.0, 0.0, -0.2, 0.0],
+        ..Made::default()
+    };
+    let short = Made {
+        samples: 40,
+        ..Made::default()
+    };
+    let tasks = [(&changes, 1.0), (&short, 3.0), (&changes, 2.0)];
+    let tasks = tasks.map(|(made, seed)| made.task(seed, [1.0; 2], 1.0));
+    let found = change(&tasks);
+    assert_eq!(
+        (found.index, found.at, found.recordings.len()),
+        (2, None, 3)
+    );
+    near(
+        &[found.from, found.to],
+        &[1.2 * BASE[2], 0.8 * BASE[2]],
+        0.02,
+    );
+}
+
 #[test]
 fn what_is_driven_harder_at_the_end_says_nothing() {
     let made = Made::default();
