@@ -11,6 +11,10 @@ use snug_model::{CustomEffectSettings, CustomParameterSettings, Effect, Place, S
 /// Speeds over which two of the terms turn or set in, on a hand \[m/s\].
 const SLOW_M_PER_S: [(&str, f64); 2] = [("sqrt_v_law", 0.001), ("abs_x_friction_law", 0.01)];
 
+/// A displacement over which a force turns over that acts all at once, on a hand \[m\]. Chosen: a five-hundredth of a hand's motion; of a made-up
+/// spring with a preload that turns over that fast, 1e-4 leaves three times as much, and half of it no more than half as much again.
+const NEAR_M: f64 = 2e-5;
+
 /// A torque at which one whose square acts is as large as one that acts itself, on a hand \[Nm\]. Chosen: of a hand's size, so that the
 /// factor is of the size of 1 over the lever arm.
 const LARGE_NM: f64 = 10.0;
@@ -54,11 +58,13 @@ impl Term {
         let slow = self.slow_m_per_s(scale, rig);
         // Any of this size does: the factor makes up for it.
         let large_nm = format!("{:.0e}", LARGE_NM * scale.times_hand("Nm", rig));
+        let near_m = format!("{:.0e}", NEAR_M * scale.times_hand("m", rig));
         CustomEffectSettings {
             name: self.name.to_owned(),
             place: Place::Force,
             expression: (self.expression)
                 .replace("{slow}", &slow)
+                .replace("{near}", &near_m)
                 .replace("{large}", &large_nm),
             parameters: (self.parameters.iter())
                 .map(|factor| factor.settings(scale.times_hand(factor.unit, rig)))
@@ -159,6 +165,8 @@ mod tests {
         ("lower_end_stop_law", 0.0),
         // Beyond 5 mm.
         ("slack_spring_law", 0.01),
+        // 2 tanh(600).
+        ("preload_law", 2.0),
         // 2 (25 − 62.5).
         ("torque2_law", -75.0),
         ("torque_abs_torque_law", -75.0),
@@ -249,6 +257,7 @@ mod tests {
             "abs_x_law",
             "lower_end_stop_law",
             "slack_spring_law",
+            "preload_law",
             "torque2_law",
             "torque_abs_torque_law",
             "dead_band_law",

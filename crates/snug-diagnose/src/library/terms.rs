@@ -6,7 +6,8 @@ pub(super) struct Term {
     pub says: &'static str,
     /// What it is where its size p is negative.
     pub says_below_zero: &'static str,
-    /// `{slow}` is a speed \[m/s\] over which it turns or sets in, see [`Term::slow_m_per_s`]; `{large}` is a torque \[Nm\], see `LARGE_NM`.
+    /// `{slow}` is a speed \[m/s\] over which it turns or sets in, see [`Term::slow_m_per_s`]; `{near}` a displacement \[m\] over which it does,
+    /// see `NEAR_M`; `{large}` a torque \[Nm\], see `LARGE_NM`.
     pub expression: &'static str,
     pub parameters: &'static [Factor],
 }
@@ -287,6 +288,13 @@ pub(super) const OF_A_MACHINE: &[Term] = &[
                 maximum: 0.05,
             },
         ],
+    },
+    Term {
+        name: "preload_law",
+        says: "a preloaded spring: it pushes back with all of a force as soon as it is moved from rest, either way",
+        says_below_zero: "a force that pushes away from rest as soon as it is moved from there, either way",
+        expression: "p*tanh(x/{near})",
+        parameters: &[p("N")],
     },
     Term {
         name: "torque2_law",
