@@ -18,6 +18,15 @@ pub fn many() -> bool {
     std::env::var_os("SNUG_MANY").is_some()
 }
 
+/// Whether a long story was asked for, as [`many`] cases are, or a printed word that it was skipped.
+pub fn long(story: &str) -> bool {
+    let is_asked_for = many();
+    if !is_asked_for {
+        println!("skipped: {story} (it takes long: `cargo xtask test --many`)");
+    }
+    is_asked_for
+}
+
 fn folder(variable: &str, what: &str) -> Option<PathBuf> {
     let folder = std::env::var_os(variable).map(PathBuf::from);
     if folder.is_none() {

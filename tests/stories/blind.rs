@@ -16,10 +16,10 @@ use snug_synthetic::{
 /// One effect of each kind, at strengths that raise the error by about a fifth, and a gap so wide that some tightenings fall
 /// behind the others.
 const FEW: [(Hidden, f64); 5] = [
-    (Hidden::CubicStiffness, 0.35),
     (Hidden::TorqueDependentStiffness, 0.67),
     (Hidden::TorqueDelay, 0.16),
     (Hidden::Backlash, 1.0),
+    (Hidden::CubicStiffness, 0.35),
     (Hidden::TorqueRipple, 0.15),
 ];
 
@@ -217,10 +217,10 @@ fn every(strength: usize) -> impl Iterator<Item = (Vec<Hidden>, f64)> {
 
 #[test]
 fn a_hidden_effect_is_named_and_the_floor_reached() {
-    let few = FEW
-        .into_iter()
-        .map(|(effect, strength)| (vec![effect], strength));
-    hold(few);
+    // The last two where many are asked for.
+    let few = if snug_tests::many() { FEW.len() } else { 3 };
+    let few = FEW.into_iter().take(few);
+    hold(few.map(|(effect, strength)| (vec![effect], strength)));
     hold(every(1));
 }
 

@@ -232,7 +232,7 @@ fn a_filtered_speed_is_a_lag_of_the_motion() {
 fn a_drive_that_saturates_lacks_its_limit() {
     let hz = 500.0;
     let (mut v, mut table) = (0.0, "volt,speed\n".to_owned());
-    for row in 0..12_000 {
+    for row in 0..6000 {
         let t = f64::from(row) / hz;
         let side = (f64::from(row / 80) * 12.9898).sin() * 43_758.545 % 1.0;
         let asked = 5.0 * side.signum() + 4.0 * (2.5 * t).sin() + 3.0 * (6.9 * t + 1.0).sin();

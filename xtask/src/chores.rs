@@ -17,7 +17,7 @@ pub enum Chore {
     Fixtures,
     /// Every test of the workspace, then every example.
     Test {
-        /// Also the statistical checks with many cases (minutes).
+        /// Also the statistical checks with many cases, and the longest stories (minutes).
         #[arg(long)]
         many: bool,
         /// Also every effect of the catalogue hidden and searched for (half an hour and more).

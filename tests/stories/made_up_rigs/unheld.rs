@@ -161,6 +161,9 @@ pub fn joint() -> Rig {
 /// Half an interval's delay is none of them.
 #[test]
 fn a_joint_with_a_held_torque_lacks_four_things_and_no_delay() {
+    if !snug_tests::long("four effects of a joint") {
+        return;
+    }
     let diagnosis = joint().told(&Verb::Improve);
     let headline = diagnosis.headline.to_string();
     let mut names = names(&diagnosis);

@@ -4,7 +4,8 @@ use crate::lockfile::Lockfile;
 use crate::outcome::Outcome;
 use crate::reading::Error;
 use crate::{
-    advisories, duplicates, headers, licences, packages, sizes, source_files, units, unused,
+    advisories, duplicates, features, headers, licences, packages, sizes, source_files, units,
+    unused,
 };
 use cargo_metadata::{Metadata, MetadataCommand};
 use std::collections::BTreeSet;
@@ -23,6 +24,7 @@ pub fn check(root: &Path) -> Result<Vec<Outcome>, Error> {
         advisories::check(&advisories::Snapshot::read(root)?, &lockfile),
         unused::check(&unused::shared(root)?, &unused::members(&metadata)?),
         duplicates::check(&duplicates::built(root)?),
+        features::check(&features::built(root)?),
         packages::check(&packages::published(&metadata)),
         headers::check(&files),
         sizes::check(&files),

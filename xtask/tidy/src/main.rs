@@ -3,6 +3,7 @@
 mod advisories;
 mod check;
 mod duplicates;
+mod features;
 mod headers;
 mod licences;
 mod lockfile;

@@ -148,7 +148,10 @@ struct InWave {
 
 impl InWave {
     fn after(waves: f64) -> Self {
-        let along = (waves - waves.floor()) * PARTS_OF_A_WAVE as f64;
+        // Toward 0, and on: `floor` is a call for every sample.
+        let beyond = waves - waves as i64 as f64;
+        let beyond = if beyond < 0.0 { beyond + 1.0 } else { beyond };
+        let along = beyond * PARTS_OF_A_WAVE as f64;
         let part = (along as usize).min(PARTS_OF_A_WAVE - 1);
         Self {
             part,

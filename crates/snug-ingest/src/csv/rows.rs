@@ -3,6 +3,7 @@
 use super::{CsvLayout, Delimiter};
 use crate::error::IngestError;
 use csv::{ReaderBuilder, StringRecord, Trim};
+use memchr::memchr;
 use std::io::{self, Read};
 
 /// Lines of text below the header (units, remarks) that are passed over.
@@ -139,7 +140,7 @@ fn skip_lines(content: &[u8], count: usize) -> (&[u8], u64) {
     let mut rest = content;
     let mut skipped = 0;
     for _ in 0..count {
-        match rest.iter().position(|&byte| byte == b'\n') {
+        match memchr(b'\n', rest) {
             Some(end) => rest = &rest[end + 1..],
             None => rest = &[],
         }
