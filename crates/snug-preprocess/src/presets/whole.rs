@@ -1,4 +1,4 @@
-//! Window `Whole`: a segment as it was measured, for rigs without a quiet part.
+//! Window `Whole`: a segment as it was measured but for a sensor's glitches, for rigs without a quiet part.
 
 use crate::prepared::Prepared;
 use crate::quality::wrapped::{Wrapped, unwrap};
@@ -10,10 +10,17 @@ use crate::segment::peak_torque::peak_torque_nm;
 use crate::segment::remarks::Remarks;
 use crate::segment::signals::Signals;
 use snug_campaign::{Finding, Quantity, Segment};
+use std::ops::Range;
 
 /// Samples to either side of a jump of the input within which the motion may jump, too. Chosen: a pendulum that is kicked turns about within
 /// three samples of 300 Hz.
 const KICKED: usize = 4;
+
+/// Share of a recording's samples that may be mended \[–\]: more are no faults of a sensor that come now and then. Chosen.
+const MOST_MENDED: f64 = 0.02;
+
+/// What a rig's inertia keeps from jumping there and back.
+const OF_MOTION: [Quantity; 2] = [Quantity::Displacement, Quantity::Velocity];
 
 /// Takes every sample; nothing is zeroed, and the noise floor is left to the fit's residual.
 pub(crate) fn prepare(
@@ -37,7 +44,8 @@ pub(crate) fn prepare(
     if let Some(angle_rad) = &mut signals.motion.displacement_rad {
         tell_wrapped(unwrap(angle_rad), remarks);
     }
-    tell_doubtful(context, &signals, remarks);
+    mend_spikes(context, &mut signals, remarks);
+    tell_dropouts(context, &signals, remarks);
     complete(&mut signals.motion, context.interval_s);
     let peak = peak_torque_nm(&signals.torque_nm);
     Ok(Prepared {
@@ -48,34 +56,55 @@ pub(crate) fn prepare(
     })
 }
 
-/// Says where a displacement or velocity goes as no rig does that is not kicked. Nothing is mended, and of an acceleration nothing is said:
-/// a blow makes a spike of it.
-fn tell_doubtful(context: &Context<'_>, signals: &Signals, remarks: &mut Remarks) {
+/// Mends where a displacement or velocity leaves its course and comes back as no rig does that is not kicked, as long as that is seldom.
+/// Nothing of an acceleration: a blow makes a spike of it.
+fn mend_spikes(context: &Context<'_>, signals: &mut Signals, remarks: &mut Remarks) {
     let quality = &context.settings.quality;
     let kicks = spikes::jumps(&signals.torque_nm, quality.spike_sd);
     let is_kicked = |index: usize| {
         let next = kicks.partition_point(|kick| kick + KICKED < index);
         kicks.get(next).is_some_and(|&kick| kick <= index + KICKED)
     };
-    for quantity in [Quantity::Displacement, Quantity::Velocity] {
+    for quantity in OF_MOTION {
         let Some(samples) = signals.motion.get(quantity) else {
             continue;
         };
         let channel = Channel::Motion(quantity);
-        let at_s = |sample: usize| sample as f64 * context.interval_s;
-        let spikes = spikes::repair(&mut samples.to_vec(), quality.spike_sd, |index, _, _, _| {
-            is_kicked(index)
-        });
-        if let Some(first) = spikes.mended.first() {
+        let mut mended = samples.to_vec();
+        let explains = |index: usize, _, _, _| is_kicked(index);
+        let spikes = spikes::repair(&mut mended, quality.spike_sd, explains).mended;
+        let Some(first) = spikes.first() else {
+            continue;
+        };
+        let those = format!(
+            "{} leaves its course for at most 3 samples and comes back, {} times, first at {:.4} s",
+            channel.name(),
+            spikes.len(),
+            first.start as f64 * context.interval_s
+        );
+        let lost: usize = spikes.iter().map(Range::len).sum();
+        if lost as f64 <= MOST_MENDED * samples.len() as f64 {
+            signals.motion.set(quantity, mended);
+            let message =
+                format!("{those}, as no rig does; these samples are bridged by straight lines");
+            remarks.repaired("spikes", Some(channel), message);
+        } else {
             let message = format!(
-                "{} leaves its course for at most 3 samples and comes back, {} times, first at {:.4} s; it is taken as it is, and no model \
-                 follows it there",
-                channel.name(),
-                spikes.mended.len(),
-                at_s(first.start)
+                "{those}; that is too often for faults of a sensor that could be mended, and it is taken as it is"
             );
             remarks.note("spikes", Some(channel), message);
         }
+    }
+}
+
+/// Says where a displacement or velocity stands still and then catches up. Nothing is mended: what it did meanwhile nobody knows.
+fn tell_dropouts(context: &Context<'_>, signals: &Signals, remarks: &mut Remarks) {
+    let quality = &context.settings.quality;
+    for quantity in OF_MOTION {
+        let Some(samples) = signals.motion.get(quantity) else {
+            continue;
+        };
+        let channel = Channel::Motion(quantity);
         let shortest = context.samples(quality.stuck_s);
         let held = catching_up::find(samples, shortest, quality.spike_sd);
         if let Some(first) = held.first() {
@@ -84,7 +113,7 @@ fn tell_doubtful(context: &Context<'_>, signals: &Signals, remarks: &mut Remarks
                  taken as it is, and no model follows it there",
                 channel.name(),
                 first.len(),
-                at_s(first.start),
+                first.start as f64 * context.interval_s,
                 held.len()
             );
             remarks.note("dropout", Some(channel), message);

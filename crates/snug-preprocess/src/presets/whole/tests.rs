@@ -18,40 +18,63 @@ fn codes(result: &Preprocessed) -> Vec<String> {
     findings.map(|finding| finding.code.clone()).collect()
 }
 
-/// Glitches of an encoder and a logger that dropped out, told and left; a kick by the torque is none.
-#[test]
-fn what_no_rig_does_is_told_of_a_whole_recording() {
-    let settings = whole();
+/// What is said of a swing that is spoilt, and the angle that is fitted.
+fn told(spoil: &dyn Fn(&mut [f64], &mut [f64])) -> (Vec<String>, Vec<f64>) {
     let swing = |per_sample: f64| (0..SEGMENT).map(move |k| (per_sample * k as f64).sin());
-    let told = |spoil: &dyn Fn(&mut [f64], &mut [f64])| -> Vec<String> {
-        let mut recording = recording(&[51], 0.0);
-        let mut torque_nm: Vec<f64> = swing(0.01).collect();
-        let mut angle_rad: Vec<f64> = swing(0.02).collect();
-        spoil(&mut torque_nm, &mut angle_rad);
-        recording.torque_nm.clone_from(&torque_nm);
-        recording.motion = Motion {
-            displacement_rad: Some(angle_rad.clone()),
-            ..Default::default()
-        };
-        let result = preprocess(&recording, &settings, Quantity::Displacement).unwrap();
-        let tightening = &result.tightenings[0].tightening;
-        assert_eq!(tightening.motion.displacement_rad, Some(angle_rad));
-        codes(&result)
+    let mut recording = recording(&[51], 0.0);
+    let mut torque_nm: Vec<f64> = swing(0.01).collect();
+    let mut angle_rad: Vec<f64> = swing(0.02).collect();
+    spoil(&mut torque_nm, &mut angle_rad);
+    recording.torque_nm = torque_nm;
+    recording.motion = Motion {
+        displacement_rad: Some(angle_rad),
+        ..Default::default()
     };
-    let none = told(&|_, _| ());
+    let mut result = preprocess(&recording, &whole(), Quantity::Displacement).unwrap();
+    let codes = codes(&result);
+    let tightening = result.tightenings.remove(0).tightening;
+    (codes, tightening.motion.displacement_rad.unwrap())
+}
+
+/// The codes of a swing that is not spoilt, and one more.
+fn with(code: &str) -> Vec<String> {
+    [told(&|_, _| ()).0, vec![code.to_owned()]].concat()
+}
+
+/// A glitch of an encoder is bridged; what a kick by the torque makes of the angle stays.
+#[test]
+fn a_glitch_is_mended_and_a_kick_is_none() {
     let glitch = |angle_rad: &mut [f64]| angle_rad[700] += 0.5;
-    let with = |code: &str| [none.as_slice(), &[code.to_owned()]].concat();
-    assert_eq!(told(&|_, angle_rad| glitch(angle_rad)), with("spikes"));
-    let kicked = told(&|torque_nm, angle_rad| {
+    let (codes, mended) = told(&|_, angle_rad| glitch(angle_rad));
+    assert_eq!(codes, with("spikes"));
+    // On the straight line between its neighbours; sin 14 was there.
+    let line = 0.5 * (13.98_f64.sin() + 14.02_f64.sin());
+    assert!((mended[700] - line).abs() < 1e-12, "{}", mended[700]);
+    assert_eq!(mended[699], 13.98_f64.sin());
+    let (codes, kept) = told(&|torque_nm, angle_rad| {
         glitch(angle_rad);
         torque_nm[699] += 20.0;
     });
-    assert_eq!(kicked, none);
-    let held = told(&|_, angle_rad| {
+    assert_eq!(codes, told(&|_, _| ()).0);
+    assert_eq!(kept[700], 14.0_f64.sin() + 0.5);
+}
+
+/// What comes again and again is no glitch, and a logger that dropped out has nothing to be mended with.
+#[test]
+fn what_cannot_be_mended_is_told_and_stays() {
+    let (codes, kept) = told(&|_, angle_rad| {
+        for place in (10..SEGMENT).step_by(40) {
+            angle_rad[place] += 0.5;
+        }
+    });
+    assert_eq!(codes, with("spikes"));
+    assert_eq!(kept[10], 0.2_f64.sin() + 0.5);
+    let (codes, kept) = told(&|_, angle_rad| {
         let value = angle_rad[1000];
         angle_rad[1000..1060].fill(value);
     });
-    assert_eq!(held, with("dropout"));
+    assert_eq!(codes, with("dropout"));
+    assert_eq!(kept[1030], kept[1000]);
 }
 
 #[test]
