@@ -83,6 +83,28 @@ fn a_table_with_play_has_a_spring_that_does_not_act_within_it() {
     assert!(says(&diagnosis, "held from sample to sample"));
 }
 
+/// A slide between two springs that press on it where it rests: whichever way it is moved, one of them pushes back with all of its preload.
+#[test]
+fn a_slide_between_preloaded_springs_lacks_their_preload() {
+    let mut noise = Noise(33);
+    let mut recording = || {
+        let inputs = noise.tones([0.5, 10.0], 20.0, 4000);
+        let rate = |[x, v]: [f64; 2], u: f64| {
+            let preload = 4.0 * (x / 1e-5).tanh();
+            [v, (u - 15.0 * v - 3000.0 * x - preload) / 2.0]
+        };
+        let places = moved(&inputs, 50, rate).map(|[x, _]| x);
+        noise.with(&inputs, places, 1e-5)
+    };
+    let rig = Rig::that_slides((0..2).map(|_| recording()).collect());
+    let diagnosis = rig.told(&Verb::Improve);
+    let headline = diagnosis.headline.to_string();
+    assert_eq!(names(&diagnosis), ["preload_law"], "{headline}");
+    assert!(headline.contains("a preloaded spring"), "{headline}");
+    let preload = &diagnosis.added[0].parameters[0];
+    assert!((preload.value / 4.0 - 1.0).abs() < 0.01, "{preload:?}");
+}
+
 /// One recording of a minute of such an axis with dry friction in it: a spring that shows nowhere is none, however long a recording lasts.
 #[test]
 fn a_long_recording_of_an_axis_with_an_unrecorded_load_lacks_dry_friction_alone() {
