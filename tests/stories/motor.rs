@@ -194,6 +194,9 @@ fn another_load_is_told_and_what_is_missing_is_found_all_the_same() {
 /// A tachometer that lets the speed through 20 ms late, its own equation beside the motor's: no delay, and no mode.
 #[test]
 fn a_filtered_speed_is_a_lag_of_the_motion() {
+    if !snug_tests::long("a filtered speed") {
+        return;
+    }
     const LAG_S: f64 = 0.02;
     let hz = 500.0;
     // A drive's command, 4 V either way, changed after uneven times.

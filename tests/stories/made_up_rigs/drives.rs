@@ -111,6 +111,9 @@ fn what_pushes_itself_away_has_no_wrong_sign() {
 /// A pendulum that stands upright: its weight may be anything by its interval beside a stiffness that may not be below 0, and is needed.
 #[test]
 fn a_pendulum_that_is_held_upright_lacks_its_weight_and_dry_friction() {
+    if !snug_tests::long("a pendulum that is held upright") {
+        return;
+    }
     let mut noise = Noise(31);
     let mut recording = || {
         let away = |x: f64, v: f64| (9.0 * x.sin() - 0.02 * v - 0.3 * (v / 0.05).tanh()) / 0.005;

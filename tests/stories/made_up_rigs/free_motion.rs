@@ -26,6 +26,9 @@ fn let_go<const N: usize>(
 /// A hull in calm water, pulled over and let go: how it rolls shows what water does to it, as soon as its inertia is told; before, only ratios.
 #[test]
 fn a_hull_that_rolls_freely_lacks_what_water_does_once_its_inertia_is_told() {
+    if !snug_tests::long("a hull that rolls") {
+        return;
+    }
     let rate = |[x, v]: [f64; 2]| [v, (-3e4 * v - 4e4 * v * v.abs() - 4e7 * x) / 4e5];
     let mut noise = Noise(31);
     let recordings = let_go(

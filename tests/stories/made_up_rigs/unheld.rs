@@ -108,6 +108,9 @@ fn a_slide_between_preloaded_springs_lacks_their_preload() {
 /// One recording of a minute of such an axis with dry friction in it: a spring that shows nowhere is none, however long a recording lasts.
 #[test]
 fn a_long_recording_of_an_axis_with_an_unrecorded_load_lacks_dry_friction_alone() {
+    if !snug_tests::long("a long recording of an axis") {
+        return;
+    }
     let mut noise = Noise(22);
     let inputs = noise.tones([0.1, 8.0], 0.16, 60_000);
     let loads = noise.levels([-0.05, 0.05], 100, 60_000);

@@ -4,11 +4,11 @@ use crate::program::{differing, ended, expected, fixture, partials, results, snu
 use rand::{Rng, SeedableRng, rngs::StdRng};
 use std::time::{Duration, Instant};
 
-/// How often a run is killed.
-const KILLS: u32 = 100;
+/// How often a run is killed; more with `cargo xtask test --many`.
+const KILLS: [u32; 2] = [40, 100];
 
 #[test]
-fn a_hundred_kills_leave_old_results_or_new_ones_and_recordings_that_can_be_recovered() {
+fn kills_leave_old_results_or_new_ones_and_recordings_that_can_be_recovered() {
     let out = tempfile::tempdir().unwrap();
     let data = [fixture("mystery"), fixture("campaign")];
     let wanted = [expected(&data[0]), expected(&data[1])];
@@ -22,12 +22,13 @@ fn a_hundred_kills_leave_old_results_or_new_ones_and_recordings_that_can_be_reco
             "--quiet",
         ]
     };
+    let kills = KILLS[usize::from(std::env::var_os("SNUG_MANY").is_some())];
     let started = Instant::now();
     assert_eq!(ended(&mut snug(&words(0))).0, 0);
     let whole = started.elapsed();
     let mut random = StdRng::seed_from_u64(19);
     let (mut standing, mut survived, mut recovered) = (0, 0, 0);
-    for kill in 0..KILLS {
+    for kill in 0..kills {
         let next = 1 - standing;
         let mut child = snug(&words(next)).spawn().unwrap();
         // Half of them at the end, where the results are exchanged.
@@ -59,9 +60,9 @@ fn a_hundred_kills_leave_old_results_or_new_ones_and_recordings_that_can_be_reco
             }
         }
     }
-    println!("{KILLS} kills: {survived} came too late, {recovered} recordings recovered");
-    assert!(recovered > KILLS / 4, "{recovered} recordings");
-    assert!(survived < KILLS);
+    println!("{kills} kills: {survived} came too late, {recovered} recordings recovered");
+    assert!(recovered > kills / 4, "{recovered} recordings");
+    assert!(survived < kills);
     assert_eq!(
         ended(&mut snug(&words(1 - standing))).0,
         0,
