@@ -179,9 +179,9 @@ const EXCHANGE: u64 = 60;
 
 /// Of so many calls one fails; with SNUG_MANY every other does.
 fn each(step: usize) -> usize {
-    match std::env::var_os("SNUG_MANY") {
-        Some(_) => 2,
-        None => step,
+    match snug_tests::many() {
+        true => 2,
+        false => step,
     }
 }
 

@@ -152,7 +152,7 @@ fn an_effect_that_differs_from_person_to_person_is_told_with_whose_it_is() {
     // The last where many are asked for.
     let few = if snug_tests::many() { FEW.len() } else { 2 };
     let mut found = all(&FEW[..few], 1);
-    if std::env::var_os("SNUG_BLIND").is_some() {
+    if snug_tests::blind() {
         found.extend(all(&MORE, 1));
         found.extend(all(&FEW, 2));
         found.extend(all(&MORE, 2));
@@ -164,11 +164,7 @@ fn an_effect_that_differs_from_person_to_person_is_told_with_whose_it_is() {
 fn people_who_differ_in_mass_damping_and_stiffness_only_are_no_effect() {
     let mut plan = plan();
     plan.population.between_participants = [0.5, 0.4, 0.5];
-    let seeds = if std::env::var_os("SNUG_BLIND").is_some() {
-        8
-    } else {
-        1
-    };
+    let seeds = if snug_tests::blind() { 8 } else { 1 };
     for seed in 1..=seeds {
         let campaign = blind::campaign_of(snug_study::Preset::Snug, &plan, seed);
         let diagnosis = blind::ask(&campaign.cases, Goal::Improve);

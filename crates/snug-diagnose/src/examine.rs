@@ -53,15 +53,17 @@ pub fn examine(
     // What is missing is no question where recordings stand in units of their own or channels are not what they are said to be.
     let stand_apart = units.as_ref().is_some_and(|units| units.is_prefix);
     let is_declared_wrong = is_declared_wrong(cases, compared.last());
-    let changes = match question.goal {
-        Goal::Compare | Goal::Diagnose | Goal::Improve => {
-            changes_above_all(counted, &compared.rungs)
-        }
-        Goal::Add(_) | Goal::ImproveFrom(_) => None,
-    };
-    let goal = match stand_apart || is_declared_wrong || changes.is_some() {
+    let goal = match stand_apart || is_declared_wrong {
         true => &Goal::Compare,
         false => &question.goal,
+    };
+    let changes = match goal {
+        Goal::Diagnose | Goal::Improve => changes_above_all(counted, &compared.rungs),
+        Goal::Compare | Goal::Add(_) | Goal::ImproveFrom(_) => None,
+    };
+    let goal = match changes.is_some() {
+        true => &Goal::Compare,
+        false => goal,
     };
     let slow = match goal {
         Goal::Compare => None,

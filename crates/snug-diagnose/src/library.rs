@@ -6,6 +6,7 @@ mod terms;
 use self::terms::{Factor, OF_A_HAND, OF_A_MACHINE, TERMS, Term};
 use crate::error::DiagnoseError;
 use snug_campaign::Rig;
+use snug_campaign::words::effect_name::Named;
 use snug_model::{CustomEffectSettings, CustomParameterSettings, Effect, Place, Scale};
 
 /// Speeds over which two of the terms turn or set in, on a hand \[m/s\].
@@ -37,6 +38,12 @@ pub(crate) fn declaration(effect: Effect) -> Option<CustomEffectSettings> {
         Effect::Custom(law) => Some(law.settings().clone()),
         _ => None,
     }
+}
+
+/// An effect by itself, with its expression if it is one of these terms.
+pub(crate) fn named(effect: Effect) -> Named {
+    let expression = declaration(effect).map(|term| term.expression);
+    Named::alone(effect.name().to_owned(), expression)
 }
 
 /// What an effect is in words, if it is one of these terms; `size` is that of its first number.

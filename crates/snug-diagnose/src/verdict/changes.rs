@@ -2,10 +2,10 @@
 //! recordings to another at their end, and no model whose numbers stay follows it.
 
 use crate::data::cases::Cases;
+use crate::library::named;
 use crate::pooled::equation::{PlainEquation, values};
 use crate::pooled::fitted::Fitted;
 use crate::selection::thresholds::MOST;
-use crate::verdict::reasons::named;
 use crate::verdict::thresholds::{ABOVE_ALL, CHANGES};
 use snug_campaign::words::changes::{Changes, Changing};
 use snug_identify::Change;

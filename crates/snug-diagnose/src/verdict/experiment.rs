@@ -2,11 +2,11 @@
 
 use crate::data::cases::Cases;
 use crate::data::clusters::Clusters;
+use crate::library::named;
 use crate::pooled::fit::fit_effects;
 use crate::pooled::fitted::Fitted;
 use crate::pooled::model::PooledModel;
 use crate::pooled::sizes::held;
-use crate::verdict::reasons::named;
 use crate::verdict::thresholds::{MOST_TIGHTENINGS, PATTERNS, TELLING};
 use snug_campaign::Experiment;
 use snug_campaign::words::statement;

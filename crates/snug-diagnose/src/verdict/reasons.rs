@@ -2,7 +2,7 @@
 
 use crate::data::clusters::Clusters;
 use crate::data::machine::is_machine;
-use crate::library::{declaration, in_words};
+use crate::library::{declaration, in_words, named};
 use crate::pooled::fitted::Fitted;
 use crate::ranking::rank::Candidate;
 use crate::selection::path::{Addition, Attempt, Stop, least_share};
@@ -104,12 +104,6 @@ impl Situation<'_> {
             .map(|one| with_twins(one.effect, &one.twins, self.after))
             .collect()
     }
-}
-
-/// An effect by itself.
-pub(crate) fn named(effect: Effect) -> Named {
-    let expression = declaration(effect).map(|term| term.expression);
-    Named::alone(effect.name().to_owned(), expression)
 }
 
 /// An effect of `fitted` with what these data cannot tell from it.

@@ -137,15 +137,11 @@ impl<'a> MotionEquation<'a> {
             .iter()
             .map(|task| AveragedRecord::of(task, half_width, most));
         let records: Vec<AveragedRecord> = records.collect();
-        let samples = |is_counted: &dyn Fn(&AveragedRecord) -> bool| -> f64 {
-            let counted = tasks
-                .iter()
-                .zip(&records)
-                .filter(|(_, record)| is_counted(record));
-            counted.map(|(task, _)| task.measured().len() as f64).sum()
-        };
-        let all = samples(&|_| true);
-        let is_enough = all > 0.0 && samples(&AveragedRecord::is_empty) <= MOST_PASSED_OVER * all;
+        let all: usize = tasks.iter().map(|task| task.measured().len()).sum();
+        let passed_over = tasks.iter().zip(&records);
+        let passed_over = passed_over.filter(|(_, record)| record.is_empty());
+        let passed_over: usize = passed_over.map(|(task, _)| task.measured().len()).sum();
+        let is_enough = all > 0 && passed_over as f64 <= MOST_PASSED_OVER * all as f64;
         is_enough.then_some(Self {
             tasks,
             records,

@@ -103,14 +103,7 @@ fn repair_spikes(
                 _ => false,
             },
         );
-        let told = |spikes: &[Range<usize>]| {
-            let first_s = spikes.first()?.start as f64 * context.interval_s;
-            let name = channel.name();
-            Some(format!(
-                "{} of at most 3 samples in {name}, the first at {first_s:.4} s",
-                spikes.len()
-            ))
-        };
+        let told = |some: &[Range<usize>]| spikes::told(some, channel, context.interval_s);
         if let Some(spikes) = told(&spikes.mended) {
             let message = format!("spikes: {spikes}; bridged by straight lines");
             remarks.repaired("spikes", Some(channel), message);

@@ -73,24 +73,17 @@ fn mend_spikes(context: &Context<'_>, signals: &mut Signals, remarks: &mut Remar
         let mut mended = samples.to_vec();
         let explains = |index: usize, _, _, _| is_kicked(index);
         let spikes = spikes::repair(&mut mended, quality.spike_sd, explains).mended;
-        let Some(first) = spikes.first() else {
+        let Some(those) = spikes::told(&spikes, channel, context.interval_s) else {
             continue;
         };
-        let those = format!(
-            "{} leaves its course for at most 3 samples and comes back, {} times, first at {:.4} s",
-            channel.name(),
-            spikes.len(),
-            first.start as f64 * context.interval_s
-        );
         let lost: usize = spikes.iter().map(Range::len).sum();
         if lost as f64 <= MOST_MENDED * samples.len() as f64 {
             signals.motion.set(quantity, mended);
-            let message =
-                format!("{those}, as no rig does; these samples are bridged by straight lines");
+            let message = format!("spikes: {those}; bridged by straight lines");
             remarks.repaired("spikes", Some(channel), message);
         } else {
             let message = format!(
-                "{those}; that is too often for faults of a sensor that could be mended, and it is taken as it is"
+                "spikes: {those}; too many for a sensor's faults, so that they are taken as they are"
             );
             remarks.note("spikes", Some(channel), message);
         }

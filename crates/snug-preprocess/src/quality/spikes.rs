@@ -2,6 +2,7 @@
 
 use super::non_finite::fill;
 use crate::noise::spread::median;
+use crate::segment::channel::Channel;
 use std::ops::Range;
 
 /// Widest spike \[samples\].
@@ -62,6 +63,16 @@ pub(crate) fn repair(
         found.mended.push(start..end);
     }
     found
+}
+
+/// How many there are in a channel and where the first is; `None` where there are none.
+pub(crate) fn told(spikes: &[Range<usize>], channel: Channel, interval_s: f64) -> Option<String> {
+    let first_s = spikes.first()?.start as f64 * interval_s;
+    Some(format!(
+        "{} of at most {WIDEST} samples in {}, the first at {first_s:.4} s",
+        spikes.len(),
+        channel.name()
+    ))
 }
 
 /// Where a channel jumps by more than `threshold_sd` standard deviations of the differences between neighbours; of one that mostly stays as it

@@ -52,7 +52,7 @@ pub fn of_use(program: &Path) {
         };
         tab.value(&format!("document.querySelector(\"{selector}\").click()"));
         if click % 5 == 4 {
-            tab.until("!document.body.classList.contains('fitting')");
+            tab.has_fitted();
         }
         if click % BETWEEN_RELOADS == BETWEEN_RELOADS - 1 {
             tab.reload();

@@ -62,14 +62,14 @@ pub fn of_clicks(program: &Path, times: usize) {
     );
     println!("  click                  first [ms]  last [ms]  then a drag [ms]  longest");
     for effect in of_which(&tab, times) {
-        is_quiet(&tab);
+        tab.is_quiet();
         let [first, last] = clicked(&tab, &format!("[data-effect={effect}] .switch"));
-        is_quiet(&tab);
+        tab.is_quiet();
         let [drag, longest] = dragged(&tab);
         println!("  {effect:<26} {first:>6.0} {last:>10.0} {drag:>17.0} {longest:>8.0}");
         clicked(&tab, "[data-undo]");
     }
-    is_quiet(&tab);
+    tab.is_quiet();
     let [drag, longest] = dragged(&tab);
     println!(
         "  {:<26} {:>6} {:>10} {drag:>17.0} {longest:>8.0}",
@@ -99,11 +99,6 @@ fn dragged(tab: &Tab) -> [f64; 2] {
     tab.value("document.querySelector('[data-as-fitted]').click()");
     drags.sort_by(f64::total_cmp);
     [drags[DRAGS / 2], drags[DRAGS - 1]]
-}
-
-/// Waits until all that follows from a fit is told but the tests of what was added, which go on behind the next click.
-fn is_quiet(tab: &Tab) {
-    tab.until("document.querySelector('[data-usable]').textContent !== ''");
 }
 
 fn clicked(tab: &Tab, selector: &str) -> [f64; 2] {

@@ -173,7 +173,17 @@ impl Tab {
     /// Waits until the study's own model is fitted, its error said, and everything that follows from it.
     pub fn is_ready(&self, error: &str) {
         self.error_is(error);
+        self.is_quiet();
+    }
+
+    /// Waits until all that follows from a fit is told but the tests of what was added, which go on behind the next click.
+    pub fn is_quiet(&self) {
         self.until("(document.querySelector('[data-usable]')?.textContent ?? '') !== ''");
+    }
+
+    /// Waits until no fit is under way.
+    pub fn has_fitted(&self) {
+        self.until("!document.body.classList.contains('fitting')");
     }
 
     /// Gives an element the focus.
@@ -230,12 +240,9 @@ impl Tab {
             other => panic!("no story presses {other}"),
         };
         let code = if key == " " { "Space" } else { key };
-        for kind in ["rawKeyDown", "char", "keyUp"] {
-            if kind != "char" || !text.is_empty() {
-                let said = if kind == "char" { text } else { "" };
-                let event = json!({"type": kind, "key": key, "code": code, "windowsVirtualKeyCode": number, "text": said});
-                self.ask("Input.dispatchKeyEvent", &event);
-            }
+        for (kind, text) in [("keyDown", text), ("keyUp", "")] {
+            let event = json!({"type": kind, "key": key, "code": code, "windowsVirtualKeyCode": number, "text": text});
+            self.ask("Input.dispatchKeyEvent", &event);
         }
     }
 

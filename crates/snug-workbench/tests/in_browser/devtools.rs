@@ -13,7 +13,7 @@ pub const PATIENCE: Duration = Duration::from_secs(120);
 pub struct DevTools {
     socket: WebSocket<TcpStream>,
     asked: u64,
-    /// What happened since these were looked at.
+    /// What happened so far.
     events: Vec<Event>,
 }
 
@@ -44,10 +44,10 @@ impl DevTools {
         self.socket.send(Message::text(question)).unwrap();
         loop {
             let message = self.socket.read().unwrap();
+            // A ping or the like says nothing.
             let Ok(text) = message.to_text() else {
                 continue;
             };
-            // A ping or the like says nothing.
             let Ok(mut told) = serde_json::from_str::<Value>(text) else {
                 continue;
             };

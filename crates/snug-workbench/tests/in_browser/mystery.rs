@@ -43,7 +43,7 @@ fn the_mystery_is_solved_by_clicking() {
     tab.value(WATCH);
     tab.click("[data-effect=stretch_reflex] .switch");
     tab.error_is("1.007");
-    tab.until("!document.body.classList.contains('fitting')");
+    tab.has_fitted();
     let fallen = tab.value("fallen");
     let fallen: Vec<(f64, f64)> = (fallen.as_array().unwrap().iter())
         .map(|one| (one[0].as_f64().unwrap(), one[1].as_f64().unwrap()))
@@ -168,7 +168,7 @@ fn a_server_that_goes_and_comes_back_loses_nothing() {
         tab.is_ready("1.541");
         tab.click(&format!("[data-effect={effect}] .switch"));
         tab.until("document.querySelector('[data-error]').textContent < '1.541'");
-        tab.until("!document.body.classList.contains('fitting')");
+        tab.has_fitted();
     }
     opened.server.end();
     tab.until("!document.querySelector('[data-fault]').hidden");
@@ -176,7 +176,7 @@ fn a_server_that_goes_and_comes_back_loses_nothing() {
     let again = Server::begin(port, &opened.study_file);
     for (tab, effect) in [(&tab, "stretch_reflex"), (&other, "cubic_stiffness")] {
         tab.until("document.querySelector('[data-fault]').hidden");
-        tab.until("!document.body.classList.contains('fitting')");
+        tab.has_fitted();
         assert_eq!(switched_on(&tab.value(ON)), [effect]);
     }
     opened.browser.close();

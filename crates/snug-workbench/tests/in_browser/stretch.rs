@@ -17,7 +17,7 @@ fn a_stretch_is_fitted_alone_and_saved() {
     tab.until("document.querySelector('header').textContent.includes('s of every window alone')");
     tab.until("Number(document.querySelector('[data-error]')?.textContent) > 1");
     // Effects that are still being sorted would move away from under the click.
-    tab.until("(document.querySelector('[data-usable]')?.textContent ?? '') !== ''");
+    tab.is_quiet();
     let whole = "document.querySelector('[data-error]').textContent === '1.541'";
     assert_eq!(tab.value(whole), false);
     tab.click("[data-effect=stretch_reflex] .switch");
