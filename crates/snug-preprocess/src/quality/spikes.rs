@@ -6,7 +6,7 @@ use crate::segment::channel::Channel;
 use std::ops::Range;
 
 /// Widest spike \[samples\].
-const WIDEST: usize = 3;
+pub(super) const WIDEST: usize = 3;
 
 /// Samples on either side whose differences tell the local noise.
 const NEIGHBOURHOOD: usize = 50;
@@ -27,15 +27,20 @@ pub(crate) struct Spikes {
 /// `explains(index, level before, value, tolerance)` at every sample.
 ///
 /// A spike leaves and returns within three samples: the jump into it and the jump out of it have opposite signs and both
-/// exceed `threshold_sd` standard deviations of the local sample-to-sample noise; the tolerance is half of that. A step
-/// (torque released) does not return, so it is none.
+/// exceed `threshold_sd` standard deviations of the local sample-to-sample noise, or as many steps of a channel that mostly repeats because it
+/// is coarse; the tolerance is half of that. A step (torque released) does not return, so it is none.
 pub(crate) fn repair(
     samples: &mut [f64],
     threshold_sd: f64,
     explains: impl Fn(usize, f64, f64, f64) -> bool,
 ) -> Spikes {
+    let resolution = resolution(samples);
+    let typical = |samples: &[f64], range| match typical_difference(samples, range) {
+        typical if typical.is_finite() => typical,
+        _ => resolution,
+    };
     let candidates = {
-        let typical = typical_difference(samples, 0..samples.len());
+        let typical = typical(samples, 0..samples.len());
         (1..samples.len())
             .filter(|&index| (samples[index] - samples[index - 1]).abs() > threshold_sd * typical)
             .collect::<Vec<_>>()
@@ -48,7 +53,7 @@ pub(crate) fn repair(
         }
         let around =
             start.saturating_sub(NEIGHBOURHOOD)..(start + NEIGHBOURHOOD).min(samples.len());
-        let threshold = threshold_sd * typical_difference(samples, around);
+        let threshold = threshold_sd * typical(samples, around);
         let Some(end) = spike_end(samples, start, threshold) else {
             continue;
         };
@@ -101,6 +106,16 @@ fn spike_end(samples: &[f64], start: usize, threshold: f64) -> Option<usize> {
             let left = samples[end] - samples[start - 1];
             back * jump.signum() > threshold && left.abs() < 0.5 * jump.abs()
         })
+}
+
+/// Median absolute difference of neighbours that differ: the step of a coarse channel; infinite where none do.
+fn resolution(samples: &[f64]) -> f64 {
+    let steps = samples.windows(2).map(|pair| (pair[1] - pair[0]).abs());
+    let mut steps: Vec<f64> = steps.filter(|&step| step > 0.0).collect();
+    match steps.is_empty() {
+        true => f64::INFINITY,
+        false => median(&mut steps),
+    }
 }
 
 /// Standard deviation of the noise from the median absolute difference; infinite where more than half of the samples
@@ -172,6 +187,23 @@ mod tests {
                 (mended - clean).abs() < 0.15,
                 "within the noise of the line's ends"
             );
+        }
+    }
+
+    /// A slow swing of ±0.5 rad by an encoder of 1024 counts a turn repeats itself in most samples.
+    #[test]
+    fn glitches_of_a_coarse_encoder_are_mended() {
+        let count = std::f64::consts::TAU / 1024.0;
+        let at = |k: u32| (0.5 * (0.003 * f64::from(k)).sin() / count).round() * count;
+        let clean: Vec<f64> = (0..3000).map(at).collect();
+        let mut angle = clean.clone();
+        assert_eq!(unexplained(&mut angle), Spikes::default());
+        angle[520] += 1.1;
+        angle[1900..1902].fill(-2.0);
+        let spikes = unexplained(&mut angle);
+        assert_eq!(spikes.mended, vec![520..521, 1900..1902]);
+        for (mended, clean) in angle.iter().zip(&clean) {
+            assert!((mended - clean).abs() <= count);
         }
     }
 

@@ -1,5 +1,7 @@
 //! Angles that begin anew after every turn, as an absolute encoder tells them, and counters that run over.
 
+use super::spikes::{self, WIDEST};
+use crate::noise::spread::median;
 use std::f64::consts::TAU as TURN_RAD;
 
 /// Share of the range of all samples that a jump must exceed to be one \[–\]: over the seam it is nearly all of it. Chosen.
@@ -10,8 +12,10 @@ const STEP: f64 = 0.25;
 /// Steps before and after a jump by which the rig is seen to go on over the seam, none of them with the jump: of what jumps from end to end
 /// by itself and rests there, noise alone looks so in one case of 64. Chosen.
 const BESIDE: usize = 3;
-/// Share of the way beside all jumps that must go on like this \[–\]: a rig that lingers at the seam crosses it with the noise. Chosen.
-const GOES_ON: f64 = 0.75;
+/// How much farther the rig must go on over the seam once than it typically goes beside jumps where it does not \[–\]: at rest on the seam it
+/// goes to and fro with the noise, and so does what jumps from end to end. Chosen: of such noise, the few jumps that look as if it went on
+/// go some three times as far.
+const FARTHER: f64 = 5.0;
 /// Largest difference between the ways that jumps skip, over that way \[–\]. Chosen.
 const ALIKE: f64 = 0.02;
 
@@ -27,19 +31,45 @@ pub(crate) struct Wrapped {
 }
 
 /// Puts the turns of an angle together where it begins anew after each, so that it goes on where the rig does, from between minus and plus
-/// half a turn on.
-pub(crate) fn unwrap(angle_rad: &mut [f64]) -> Option<Wrapped> {
-    let found = find(angle_rad)?;
+/// half a turn on. Glitches, which leave and come back by more than `spike_sd` standard deviations of the noise, are no turns, wherever
+/// they are; they stay, at most half a turn away.
+pub(crate) fn unwrap(angle_rad: &mut [f64], spike_sd: f64) -> Option<Wrapped> {
+    let together = put_together(angle_rad)?;
+    let found = find(&without_spikes(angle_rad, &together, spike_sd))?;
     if found.is_turn {
-        let mut turns = -(angle_rad[0] / TURN_RAD).round();
-        let mut before = angle_rad[0];
-        for angle in angle_rad {
-            turns -= ((*angle - before) / TURN_RAD).round();
-            before = *angle;
-            *angle += turns * TURN_RAD;
-        }
+        angle_rad.copy_from_slice(&together);
     }
     Some(found)
+}
+
+/// Each sample so many turns away that it is nearest to the last before it that is no glitch.
+fn put_together(angle_rad: &[f64]) -> Option<Vec<f64>> {
+    let mut before = 0.0;
+    let mut astray = WIDEST;
+    let next = |&angle: &f64| {
+        let next = angle - TURN_RAD * ((angle - before) / TURN_RAD).round();
+        if (next - before).abs() <= STEP * TURN_RAD || astray == WIDEST {
+            (before, astray) = (next, 0);
+        } else {
+            astray += 1;
+        }
+        next
+    };
+    (!angle_rad.is_empty()).then(|| angle_rad.iter().map(next).collect())
+}
+
+/// The angle, which begins anew wherever it does, without the spikes that are left in it put `together`.
+fn without_spikes(angle_rad: &[f64], together: &[f64], spike_sd: f64) -> Vec<f64> {
+    let mut mended = together.to_vec();
+    let spikes = spikes::repair(&mut mended, spike_sd, |_, _, _, _| false).mended;
+    let ways = together.iter().zip(angle_rad).map(|(to, from)| to - from);
+    let mut ways: Vec<f64> = ways.collect();
+    for spike in spikes {
+        let before = ways[spike.start - 1];
+        ways[spike].fill(before);
+    }
+    let anew = mended.iter().zip(&ways).map(|(mended, way)| mended - way);
+    anew.collect()
 }
 
 fn find(angle_rad: &[f64]) -> Option<Wrapped> {
@@ -58,20 +88,23 @@ fn find(angle_rad: &[f64]) -> Option<Wrapped> {
         let steps = places.map(|place| steps[place]);
         steps.filter(|step| step.abs() <= JUMP * range).collect()
     };
+    let way = |place: usize| beside(place).iter().sum::<f64>();
     // How far the rig moves while it goes over the seam.
-    let moves = |place: usize| {
-        let beside = beside(place);
-        beside.iter().sum::<f64>() / beside.len().max(1) as f64
-    };
+    let moves = |place: usize| way(place) / beside(place).len().max(1) as f64;
     let goes_on = |place: usize| {
         let against = |step: &f64| step * steps[place] <= 0.0;
-        beside(place).iter().all(against) && moves(place) != 0.0
+        beside(place).iter().all(against) && way(place) != 0.0
     };
-    let way = |all: &mut dyn Iterator<Item = &usize>| -> f64 {
-        all.map(|&place| moves(place).abs()).sum()
+    let (seams, noisy): (Vec<usize>, Vec<usize>) =
+        jumps.iter().copied().partition(|&place| goes_on(place));
+    let ways =
+        |places: &[usize]| -> Vec<f64> { places.iter().map(|&place| way(place).abs()).collect() };
+    let to_and_fro = match noisy.is_empty() {
+        true => 0.0,
+        false => median(&mut ways(&noisy)),
     };
-    let going_on = way(&mut jumps.iter().filter(|&&place| goes_on(place)));
-    if going_on == 0.0 || going_on < GOES_ON * way(&mut jumps.iter()) {
+    let farthest = ways(&seams).into_iter().fold(0.0, f64::max);
+    if farthest == 0.0 || farthest < FARTHER * to_and_fro {
         return None;
     }
     let skipped = jumps
@@ -94,6 +127,8 @@ mod tests {
     use crate::tests::synthetic::white_noise;
     use std::f64::consts::PI;
 
+    const SPIKE_SD: f64 = 12.0;
+
     /// Turns both ways, with noise.
     fn turning() -> Vec<f64> {
         let noise = white_noise(4000, 1e-3, 3);
@@ -110,11 +145,65 @@ mod tests {
         for from in [0.0, -PI, 1.0] {
             let within = |angle: &f64| (angle - from).rem_euclid(TURN_RAD) + from;
             let mut angle: Vec<f64> = truth.iter().map(within).collect();
-            let found = unwrap(&mut angle).expect("it begins anew");
+            let found = unwrap(&mut angle, SPIKE_SD).expect("it begins anew");
             assert!(found.is_turn && found.times > 5, "{found:?}");
             for (found, truth) in angle.iter().zip(&truth) {
                 assert!((found - truth).abs() < 1e-9);
             }
+        }
+    }
+
+    /// At rest on the seam, and then over it.
+    #[test]
+    fn a_rig_that_starts_on_the_seam_is_no_square_wave() {
+        let noise = white_noise(2000, 1e-3, 11);
+        let on_the_seam = |rad_per_sample: f64| -> [Vec<f64>; 2] {
+            let at =
+                |(k, noise): (usize, &f64)| rad_per_sample * (k as f64 - 500.0).max(0.0) + noise;
+            let truth: Vec<f64> = noise.iter().enumerate().map(at).collect();
+            let within = truth
+                .iter()
+                .map(|angle| angle.rem_euclid(TURN_RAD))
+                .collect();
+            [truth, within]
+        };
+        let [_, mut at_rest] = on_the_seam(0.0);
+        assert_eq!(unwrap(&mut at_rest, SPIKE_SD), None);
+        let [truth, mut angle] = on_the_seam(0.01);
+        assert!(unwrap(&mut angle, SPIKE_SD).is_some_and(|found| found.is_turn));
+        for (found, truth) in angle.iter().zip(&truth) {
+            assert!((found - truth).abs() < 1e-9);
+        }
+    }
+
+    /// One to three samples read anything, where the seam is crossed as well as elsewhere, and the noise goes to and fro over the seam.
+    #[test]
+    fn glitches_are_no_turns() {
+        let truth = turning();
+        let within: Vec<f64> = truth
+            .iter()
+            .map(|angle| angle.rem_euclid(TURN_RAD))
+            .collect();
+        let crosses = |k: &usize| (within[*k] - within[k - 1]).abs() > PI;
+        let seams: Vec<usize> = (1..4000).filter(crosses).collect();
+        let elsewhere = (60..4000).step_by(173);
+        let places: Vec<usize> = seams.iter().step_by(3).copied().chain(elsewhere).collect();
+        let mut angle = within.clone();
+        let mut is_glitch = [false; 4000];
+        for (number, &place) in places.iter().enumerate() {
+            let wide = 1 + number % 3;
+            let read = 0.7 * number as f64 % TURN_RAD;
+            let those = place..(place + wide).min(4000);
+            angle[those.clone()].fill(read);
+            is_glitch[those].fill(true);
+        }
+        let found = unwrap(&mut angle, SPIKE_SD).expect("it begins anew");
+        assert!(found.is_turn && found.times > 5, "{found:?}");
+        for ((found, truth), _) in angle.iter().zip(&truth).zip(is_glitch).filter(|one| !one.1) {
+            assert!((found - truth).abs() < 1e-9, "{found} {truth}");
+        }
+        for (found, truth) in angle.iter().zip(&truth) {
+            assert!((found - truth).abs() < PI + 0.3, "{found} {truth}");
         }
     }
 
@@ -125,7 +214,7 @@ mod tests {
             .map(|angle| angle.rem_euclid(2.5))
             .collect();
         let before = angle.clone();
-        let found = unwrap(&mut angle).expect("it begins anew");
+        let found = unwrap(&mut angle, SPIKE_SD).expect("it begins anew");
         assert!(!found.is_turn && (found.period_rad - 2.5).abs() < 0.02);
         assert_eq!(angle, before);
     }
@@ -155,7 +244,7 @@ mod tests {
             Vec::new(),
         ] {
             let before = angle.clone();
-            assert_eq!(unwrap(&mut angle), None);
+            assert_eq!(unwrap(&mut angle, SPIKE_SD), None);
             assert_eq!(angle, before);
         }
     }
