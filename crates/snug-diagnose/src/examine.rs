@@ -97,7 +97,7 @@ pub fn examine(
 /// What changes while the rig is measured, where that takes nearly all of what its own model leaves.
 fn changes_above_all(cases: Cases<'_>, own: &[Fitted]) -> Option<Changes> {
     let plain = PlainEquation::of(&cases)?;
-    changes(&plain, cases, own).filter(are_above_all)
+    changes(&plain, cases, own, 0).filter(are_above_all)
 }
 
 /// What a goal makes of the study's own model.

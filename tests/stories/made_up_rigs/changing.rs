@@ -80,6 +80,40 @@ fn a_vessel_that_runs_out_is_told_from_a_missing_effect() {
     assert!((found.times - 0.5).abs() < 0.12, "{found:?}");
 }
 
+/// On a spring that hardens, too, the noise of an acceleration hides what the damper does unless it is averaged.
+#[test]
+fn a_damper_that_warms_up_is_told_beside_what_is_missing() {
+    if !snug_tests::long("a damper that warms up beside a hardening spring") {
+        return;
+    }
+    const SAMPLES: usize = 6000;
+    let mut noise = Noise(53);
+    let recordings = [(); 3].map(|()| {
+        let inputs = noise.tones([0.8, 20.0], 20.0, SAMPLES);
+        let rate = |[x, v, t_s]: [f64; 3], u: f64| {
+            let damping = 40.0 * (1.0 - 0.5 * t_s / (1e-3 * SAMPLES as f64));
+            [
+                v,
+                (u - damping * v - 8000.0 * x - 3e7 * x.powi(3)) / 5.0,
+                1.0,
+            ]
+        };
+        let places = moved(&inputs, 10, rate).map(|[x, _, _]| x);
+        noise.with(&inputs, places, 2e-5)
+    });
+    let diagnosis = Rig::that_slides(recordings.into()).told(&Verb::Improve);
+    assert_eq!(
+        diagnosis.verdict,
+        Verdict::Undecided,
+        "{}",
+        diagnosis.headline
+    );
+    assert_eq!(diagnosis.added[0].effect, "cubic_stiffness");
+    let found = changes(&diagnosis).expect("it changes");
+    assert_eq!(found.what, Changing::Damping);
+    assert!((found.times - 0.5).abs() < 0.1, "{found:?}");
+}
+
 #[test]
 fn one_that_stays_as_it_is_changes_nothing() {
     let diagnosis = vessel(1.0);

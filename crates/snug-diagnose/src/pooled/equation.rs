@@ -30,6 +30,14 @@ impl<'a> PlainEquation<'a> {
         Some(Self { equation, plain })
     }
 
+    /// The same with less noise, and less of what is fast; `None` where the recordings are too short for that.
+    pub fn wider(&self) -> Option<Self> {
+        Some(Self {
+            equation: self.equation.wider()?,
+            plain: self.plain.clone(),
+        })
+    }
+
     /// The regression with the effects of a model as they act with these values of all its parameters, recording by recording.
     pub fn as_fitted(&self, effects: &[Effect], at: &[Vec<f64>]) -> Option<EquationFit> {
         let terms = self.equation.terms(effects, at)?;

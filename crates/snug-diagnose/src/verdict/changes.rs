@@ -10,6 +10,7 @@ use crate::verdict::thresholds::{ABOVE_ALL, CHANGES};
 use snug_campaign::words::changes::{Changes, Changing};
 use snug_identify::Change;
 use snug_model::{BASE_PARAMETERS, Effect};
+use std::iter::successors;
 
 const OF_BASE: [Changing; BASE_PARAMETERS.len()] =
     [Changing::Mass, Changing::Damping, Changing::Stiffness];
@@ -20,14 +21,15 @@ pub(crate) fn are_above_all(changes: &Changes) -> bool {
 }
 
 /// What a `plain` regression with the effects of the last of these models that it can follow, dry friction and an offset says of that;
-/// `None` where nothing changes that takes most of what it leaves.
+/// `None` where nothing changes that takes most of what it leaves, in averages made wider `most` times or less.
 pub(crate) fn changes(
     plain: &PlainEquation<'_>,
     cases: Cases<'_>,
     models: &[Fitted],
+    most: usize,
 ) -> Option<Changes> {
     let mut models = models.iter().rev();
-    let (effects, change) = models.find_map(|fitted| change(plain, cases, fitted))?;
+    let (effects, change) = models.find_map(|fitted| change(plain, cases, fitted, most))?;
     let (from, to) = (change.from, change.to);
     let is_one = change.taken > MOST && (to - from).abs() > CHANGES * from.abs().max(to.abs());
     let what = match change.index.checked_sub(BASE_PARAMETERS.len()) {
@@ -64,14 +66,23 @@ fn name(cases: Cases<'_>, place: usize) -> String {
     }
 }
 
-/// What changes most, and the effects among which it was looked for; `None` where the regression cannot follow the model.
+/// What changes most, and the effects among which it was looked for; `None` where the regression cannot follow the model. Averages that
+/// tell a model's numbers best may leave more noise than the change takes: it is looked for in wider ones, too.
 fn change(
     plain: &PlainEquation<'_>,
     cases: Cases<'_>,
     fitted: &Fitted,
+    most: usize,
 ) -> Option<(Vec<Effect>, Change)> {
     let at = values(cases, fitted)?;
-    let terms = plain.with_plain_terms(&fitted.effects, &at)?;
-    let (effects, terms): (Vec<Effect>, Vec<_>) = terms.into_iter().unzip();
-    Some((effects, plain.equation.change(&terms)?))
+    let found = |plain: &PlainEquation<'_>| {
+        let terms = plain.with_plain_terms(&fitted.effects, &at)?;
+        let (effects, terms): (Vec<Effect>, Vec<_>) = terms.into_iter().unzip();
+        Some((effects, plain.equation.change(&terms)?))
+    };
+    let wider = successors(plain.wider(), PlainEquation::wider).take(most);
+    let found = found(plain)
+        .into_iter()
+        .chain(wider.filter_map(|wider| found(&wider)));
+    found.max_by(|(_, a), (_, b)| a.taken.total_cmp(&b.taken))
 }

@@ -10,7 +10,7 @@ use crate::verdict::answer::{Examination, Judged, Places};
 use crate::verdict::changes::changes;
 use crate::verdict::earned::{self, leaves_a_motion};
 use crate::verdict::floor;
-use crate::verdict::thresholds::{BESIDE_EFFECTS, MOSTLY_EXPLAINED, REPEATS, WHITE};
+use crate::verdict::thresholds::{BESIDE_EFFECTS, MOSTLY_EXPLAINED, REPEATS, WHITE, WIDER};
 use snug_campaign::Verdict;
 use snug_campaign::words::explained::Explained;
 use snug_campaign::words::suspicion::{FailedFit, OtherUnits, Suspicion};
@@ -22,7 +22,7 @@ impl Examination<'_> {
         let plain = plain.as_ref();
         let of_models = || {
             let plain = plain.filter(|_| !self.path.is_interrupted())?;
-            changes(plain, self.cases, &self.path.rungs)
+            changes(plain, self.cases, &self.path.rungs, WIDER)
         };
         let changes = self.changes.clone().or_else(of_models);
         let (verdict, suspicions) = self.verdict_and_suspicions(places, plain);

@@ -41,6 +41,9 @@ pub(crate) const NEEDS_IT: f64 = 4.0;
 /// Least change from beginning to end of the recordings, over the larger of both, that is told as one \[–\]. Chosen: what a bearing that warms
 /// up loses in a minute.
 pub(crate) const CHANGES: f64 = 0.1;
+/// How often the averages in which a change is looked for are made twice as wide. Chosen: noise in an acceleration falls by a factor of 30
+/// each time.
+pub(crate) const WIDER: usize = 2;
 /// Share of what a plain regression with the study's own model leaves that a change must take for nothing else to be looked for \[–\]. Chosen:
 /// of rigs that lack nothing else it takes 95 to 99 %, 85 where a friction falls off ever slower; of one that lacks a cubic spring, too, 1.
 pub(crate) const ABOVE_ALL: f64 = 0.9;

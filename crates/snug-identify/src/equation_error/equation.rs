@@ -106,8 +106,7 @@ impl<'a> MotionEquation<'a> {
             let Some(equation) = Self::averaged(tasks, half_width) else {
                 break;
             };
-            let independent: usize = equation.records.iter().map(|one| one.independent).sum();
-            if independent < AVERAGES_PER_UNKNOWN * (BASE + effects.len()) {
+            if !equation.has_enough(effects.len()) {
                 break;
             }
             let terms: Option<Vec<Term>> = effects
@@ -147,6 +146,18 @@ impl<'a> MotionEquation<'a> {
             records,
             half_width,
         })
+    }
+
+    /// The same averaged over twice as many samples: less of the noise is left in it, and less of what is fast. `None` where the recordings
+    /// are too short for that.
+    pub fn wider(&self) -> Option<Self> {
+        Self::averaged(self.tasks, 2 * self.half_width)
+    }
+
+    /// Whether averages that share no sample are many enough for the base model and so many terms.
+    pub(super) fn has_enough(&self, terms: usize) -> bool {
+        let independent: usize = self.records.iter().map(|one| one.independent).sum();
+        independent >= AVERAGES_PER_UNKNOWN * (BASE + terms)
     }
 
     /// That of each recording by itself.
