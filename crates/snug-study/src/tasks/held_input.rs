@@ -16,8 +16,8 @@ use std::borrow::Cow;
 const DELAY: &str = "torque_delay";
 /// Effects that stand in for half a sampling interval.
 const STAND_INS: [&str; 4] = [DELAY, "torque_lag", "acceleration_lag", "second_mode"];
-/// Samples of all recordings up to which everything is searched twice. Chosen: some seconds more.
-const MOST_SAMPLES: usize = 30_000;
+/// Samples of all recordings up to which everything is searched twice. Chosen: a minute more.
+const MOST_SAMPLES: usize = 60_000;
 /// Root mean square of the error, over that with a straight input, up to which a model of fewer effects leaves as little \[–\].
 /// Chosen.
 const AS_LITTLE: f64 = 1.1;
