@@ -22,7 +22,8 @@ use std::f64::consts::TAU;
 /// What m, c, k the spectra of some records have in common, and what they explain.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SpectralStart {
-    /// m, c, k \[kg, kg/s, N/m\]; what the spectra do not show is a thousandth of what they do, never 0.
+    /// m, c, k \[kg, kg/s, N/m\]; what the spectra do not show is a thousandth of what they do, never 0, and no mass is too small to be
+    /// simulated at the interval of the samples.
     pub values: [f64; BASE],
     /// Share of the measured power about the mean that the linear model leaves \[–\].
     pub unexplained: f64,
@@ -83,16 +84,35 @@ pub fn spectral_start(tasks: &[FitTask<'_>]) -> Option<SpectralStart> {
     }
     let Response { total, left, power } = best?;
     let (angle_rad, time_s) = motion(&records, frequency, &total)?;
-    let least = LEAST_SHARE * total.iter().sum::<f64>();
+    let shown = LEAST_SHARE * total.iter().sum::<f64>();
+    let least = [
+        shown.max(simulable(&total, frequency * longest_interval_s(tasks)) - known[0]),
+        shown,
+        shown,
+    ];
     Some(SpectralStart {
         values: std::array::from_fn(|i| match parameters[i].fixed {
             true => parameters[i].value,
-            false => (total[i] - known[i]).max(least) / units[i],
+            false => (total[i] - known[i]).max(least[i]) / units[i],
         }),
         unexplained: (left / power).clamp(0.0, 1.0),
         angle_rad,
         time_s,
     })
+}
+
+/// The inertia, in multiples of the mean frequency like `total`, with which damping and stiffness are slow enough to be followed in steps
+/// of so many `radians` of that frequency: half a step to lose the speed, or a step to swing by two radians.
+fn simulable(total: &[f64; BASE], radians: f64) -> f64 {
+    let (by_damping, by_stiffness) = (total[1] * radians / 2.0, total[2] * radians * radians / 4.0);
+    by_damping.max(by_stiffness)
+}
+
+fn longest_interval_s(tasks: &[FitTask<'_>]) -> f64 {
+    let intervals = tasks
+        .iter()
+        .map(|task| task.tightening.time_base.interval_s);
+    intervals.fold(0.0, f64::max)
 }
 
 /// The best of the responses so far: what stands before Y in multiples of the mean frequency, what it leaves of which power.

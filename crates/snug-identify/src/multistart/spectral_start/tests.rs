@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use super::*;
+use crate::residual::restarts::motions_at;
 use crate::settings::IdentifySettings;
 use proptest::prelude::*;
 use snug_campaign::{Intersample, Rig, Tightening};
@@ -89,6 +90,42 @@ fn what_is_not_there_is_next_to_nothing_and_not_nothing() {
         );
         assert!(k > 0.0 && k < 0.1, "{start:?}");
     }
+}
+
+/// A damper and a spring alone, 300 kg/s and 50 N/m, under a force that changes from sample to sample and is held between: x goes on as
+/// e^(−kt/c).
+#[test]
+fn a_mass_that_is_not_seen_can_be_simulated() {
+    let rig = Rig {
+        lever_arm_m: 1.0,
+        known_inertia_kg_m2: 0.0,
+    };
+    let torque_nm: Vec<f64> = (0..SAMPLES).map(|k| (k * k % 97) as f64 - 48.0).collect();
+    let stays = f64::exp(-50.0 / 300.0 * INTERVAL_S);
+    let mut angle_rad = vec![0.0];
+    for torque_nm in &torque_nm[1..] {
+        angle_rad.push(stays * angle_rad.last().unwrap() + (1.0 - stays) * torque_nm / 50.0);
+    }
+    let motion = torque_nm.iter().zip(&angle_rad);
+    let velocity: Vec<f64> = motion
+        .map(|(torque, angle)| (torque - 50.0 * angle) / 300.0)
+        .collect();
+    let input = Input::new(&torque_nm, INTERVAL_S, Intersample::Linear);
+    let motions = motions_at(&angle_rad, &velocity, 20);
+    let tightening = Tightening::from_torque(rig, INTERVAL_S, torque_nm);
+    let task = FitTask {
+        input: Cow::Owned(input.with_restarts(20, motions)),
+        model: Cow::Owned(Model::new(rig, &[]).unwrap()),
+        tightening: Cow::Owned(tightening.with(Quantity::Velocity, velocity)),
+        ..record(TRUTH, Quantity::Velocity, AS_IT_IS)
+    };
+    let start = spectral_start(std::slice::from_ref(&task)).unwrap();
+    let mut output = vec![0.0; SAMPLES];
+    let simulated = task
+        .model
+        .output(&start.values, &task.input, Quantity::Velocity, &mut output);
+    let largest = output.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+    assert!(simulated.is_ok() && largest < 1.0, "{start:?} {largest}");
 }
 
 #[test]
