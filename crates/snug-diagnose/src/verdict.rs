@@ -18,3 +18,4 @@ pub(crate) mod thresholds;
 pub(crate) mod tightening_fits;
 pub(crate) mod trend;
 pub(crate) mod units;
+mod unsigned;

@@ -108,6 +108,25 @@ fn what_pushes_itself_away_has_no_wrong_sign() {
     );
 }
 
+/// One that is restarted again and again is predicted well enough by anything: no friction, mode or law is to stand for a stiffness below 0.
+#[test]
+fn what_is_held_near_a_magnet_is_not_pieced_together() {
+    let mut noise = Noise(35);
+    let mut recording = || {
+        let goals = noise.levels([-1e-3, 1e-3], 300, 5000);
+        let clean = held(goals, 0.1, [1800.0, 12.0], |x, v| {
+            4500.0 * x + 1e8 * x.powi(3) - 4.0 * v
+        });
+        with_noise(&mut noise, clean, 1e-6)
+    };
+    let rig = Rig::that_slides((0..3).map(|_| recording()).collect());
+    let diagnosis = rig.told(&Verb::Improve);
+    let headline = diagnosis.headline.to_string();
+    assert_eq!(diagnosis.verdict, Verdict::NotFitted, "{headline}");
+    assert!(headline.contains("pushes itself away"), "{headline}");
+    assert!(diagnosis.added.is_empty() && diagnosis.ranking.is_empty());
+}
+
 /// A pendulum that stands upright: its weight may be anything by its interval beside a stiffness that may not be below 0, and is needed.
 #[test]
 fn a_pendulum_that_is_held_upright_lacks_its_weight_and_dry_friction() {

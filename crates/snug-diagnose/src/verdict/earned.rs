@@ -7,10 +7,11 @@ use crate::ranking::rank::Candidate;
 use crate::selection::path::SelectionPath;
 use crate::selection::thresholds::MOST;
 use crate::settings::DiagnoseSettings;
-use crate::verdict::pushed_away::{may_push_away, pushed_away};
+use crate::verdict::pushed_away::{is_held_back, may_push_away, pushed_away};
 use crate::verdict::thresholds::{
     FAR_BETTER, FEW_SAMPLES, LEAST_EXPLAINED, MOST_IN_FEW, MOSTLY_EXPLAINED, SHORTFALL, WHITE,
 };
+use crate::verdict::unsigned::lost_their_sign;
 use snug_campaign::Quantity;
 use snug_campaign::words::explained::Explained;
 use snug_campaign::words::suspicion::Suspicion;
@@ -204,8 +205,11 @@ impl<'a> Changed<'a> {
 
 /// Whether a channel is not what it is declared to be: `own`, the study's own model, explains too little, and m, c, k alone would explain
 /// enough of another derivative of the angle, or most with the input's other sign or the columns swapped. What effects make of that is no rig. Of
-/// a rig that pushes itself away gravity may be what is missing.
+/// a rig that pushes itself away gravity may be what is missing, or its stiffness be held back.
 pub(crate) fn is_declared_wrong(cases: &[FitTask<'_>], own: &Fitted) -> bool {
+    if is_held_back(cases, own) {
+        return true;
+    }
     if is_a_model(share(cases, own)) {
         return false;
     }
@@ -260,6 +264,7 @@ pub(crate) fn suspicions(
     if found.is_empty() {
         found.push(match is_still(cases) {
             true => Suspicion::Still,
+            false if lost_their_sign(cases) => Suspicion::NoSign(explained.output),
             false => left_over.unwrap_or(Suspicion::NoOscillator),
         });
     }

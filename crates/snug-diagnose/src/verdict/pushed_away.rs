@@ -5,7 +5,9 @@
 //! motion tells the two apart: of a wrong sign the inertia would be negative, of such a rig the stiffness is.
 
 use crate::pooled::equation::PlainEquation;
-use crate::verdict::thresholds::{MOSTLY_EXPLAINED, NEEDS_IT};
+use crate::pooled::fitted::Fitted;
+use crate::verdict::thresholds::{MOSTLY_EXPLAINED, NEEDS_IT, SMALL_RAD};
+use snug_campaign::Quantity;
 use snug_campaign::words::suspicion::PushesAway;
 use snug_identify::{ConstraintKind, FitTask};
 use snug_model::BASE_PARAMETERS;
@@ -29,6 +31,23 @@ pub(crate) fn pushed_away(cases: &[FitTask<'_>]) -> Option<PushesAway> {
         sizes: names.zip(free.base).collect(),
         falls_in_s: (mass / -stiffness).sqrt(),
     })
+}
+
+/// Whether a rig pushes itself away that its study holds to a stiffness of 0 or more, and neither a free run follows that nor may a weight on
+/// an arm be it, which moves too little to be told from a stiffness: what effects make of that is no rig.
+pub(crate) fn is_held_back(cases: &[FitTask<'_>], own: &Fitted) -> bool {
+    own.effects.is_empty()
+        && cases
+            .iter()
+            .all(|case| case.input.is_restarted() && moves_little(case))
+        && !may_push_away(cases)
+        && pushed_away(cases).is_some()
+}
+
+/// Whether the sine of the angle is the angle.
+fn moves_little(case: &FitTask<'_>) -> bool {
+    let angle_rad = case.tightening.motion.get(Quantity::Displacement);
+    angle_rad.is_some_and(|angle_rad| angle_rad.iter().all(|angle| angle.abs() < SMALL_RAD))
 }
 
 /// Whether a fit of these recordings could have a stiffness below 0.

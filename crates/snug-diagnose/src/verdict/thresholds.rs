@@ -38,6 +38,14 @@ pub(crate) const PLAIN_PROMISE: f64 = 0.95;
 /// Times as much of that power as a regression leaves, that one without a negative stiffness must leave, before a rig is said to push itself
 /// away \[–\]: where friction or an offset is missing from both, the stiffness may come out a little below 0. Chosen.
 pub(crate) const NEEDS_IT: f64 = 4.0;
+/// Share of an output's root mean square below which it is near 0 \[–\]. Chosen.
+pub(crate) const NEAR_ZERO: f64 = 0.15;
+/// How much smoother an output must be with its sign changed where it turns about near 0 \[–\], ... Chosen.
+pub(crate) const SMOOTHER: f64 = 10.0;
+/// ... and at how many places of all recordings, for it to have lost its sign: one turns about like that by chance. Chosen.
+pub(crate) const TURNS: usize = 5;
+/// Angle \[rad\] up to which a weight on an arm is a stiffness, to 0.7 %.
+pub(crate) const SMALL_RAD: f64 = 0.2;
 /// Least change from beginning to end of the recordings, over the larger of both, that is told as one \[–\]. Chosen: what a bearing that warms
 /// up loses in a minute.
 pub(crate) const CHANGES: f64 = 0.1;

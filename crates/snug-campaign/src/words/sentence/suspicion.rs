@@ -29,6 +29,8 @@ pub enum Suspicion {
         /// Share explained then.
         share: f64,
     },
+    /// The output, which is this, lost its sign.
+    NoSign(&'static str),
     /// The rig pushes itself away from where it rests.
     PushesAway(PushesAway),
     /// Most effects cannot be tried on the rig.
@@ -183,6 +185,10 @@ impl Display for Suspicion {
                 f,
                 "Check the kind of the output: were what is declared as {declared} the {other}, mass, damping and stiffness alone would explain {}.",
                 at_most_all(*share)
+            ),
+            Self::NoSign(output) => write!(
+                f,
+                "Check whether the output has its sign: the {output} never goes below 0, but turns about there as at a wall, as of a counter that sees how fast something turns and not which way. No model follows that; measure which way, too, or put the sign into the recording."
             ),
             Self::PushesAway(pushes) => pushes.fmt(f),
             Self::HardlyTried { tried, of } => write!(

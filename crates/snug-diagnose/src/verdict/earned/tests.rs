@@ -89,6 +89,14 @@ fn swapped_columns_are_suspected() {
 }
 
 #[test]
+fn an_output_without_its_sign_is_suspected() {
+    let (torque_nm, angle_rad) = oscillator();
+    let folded = angle_rad.iter().map(|angle| angle.abs()).collect();
+    let found = suspected(declared(torque_nm, folded, Quantity::Displacement));
+    assert_eq!(found, [Suspicion::NoSign("displacement")]);
+}
+
+#[test]
 fn another_derivative_is_suspected() {
     let (torque_nm, angle_rad) = oscillator();
     let found = suspected(declared(torque_nm, angle_rad, Quantity::Acceleration));
