@@ -30,10 +30,10 @@ impl<'a> PlainEquation<'a> {
         Some(Self { equation, plain })
     }
 
-    /// The same with less noise, and less of what is fast; `None` where the recordings are too short for that.
-    pub fn wider(&self) -> Option<Self> {
+    /// The same with less noise, and less of what is fast; `None` where the recordings are too short for that and so many terms.
+    pub fn wider(&self, terms: usize) -> Option<Self> {
         Some(Self {
-            equation: self.equation.wider()?,
+            equation: self.equation.wider(terms)?,
             plain: self.plain.clone(),
         })
     }

@@ -80,7 +80,9 @@ fn change(
         let (effects, terms): (Vec<Effect>, Vec<_>) = terms.into_iter().unzip();
         Some((effects, plain.equation.change(&terms)?))
     };
-    let wider = successors(plain.wider(), PlainEquation::wider).take(most);
+    // One term more for the change.
+    let terms = fitted.effects.len() + Effect::PLAIN.len() + 1;
+    let wider = successors(plain.wider(terms), |plain| plain.wider(terms)).take(most);
     let found = found(plain)
         .into_iter()
         .chain(wider.filter_map(|wider| found(&wider)));

@@ -149,13 +149,13 @@ impl<'a> MotionEquation<'a> {
     }
 
     /// The same averaged over twice as many samples: less of the noise is left in it, and less of what is fast. `None` where the recordings
-    /// are too short for that.
-    pub fn wider(&self) -> Option<Self> {
-        Self::averaged(self.tasks, 2 * self.half_width)
+    /// are too short for that and so many terms.
+    pub fn wider(&self, terms: usize) -> Option<Self> {
+        Self::averaged(self.tasks, 2 * self.half_width).filter(|wider| wider.has_enough(terms))
     }
 
     /// Whether averages that share no sample are many enough for the base model and so many terms.
-    pub(super) fn has_enough(&self, terms: usize) -> bool {
+    fn has_enough(&self, terms: usize) -> bool {
         let independent: usize = self.records.iter().map(|one| one.independent).sum();
         independent >= AVERAGES_PER_UNKNOWN * (BASE + terms)
     }

@@ -99,10 +99,7 @@ fn find(angle_rad: &[f64]) -> Option<Wrapped> {
         jumps.iter().copied().partition(|&place| goes_on(place));
     let ways =
         |places: &[usize]| -> Vec<f64> { places.iter().map(|&place| way(place).abs()).collect() };
-    let to_and_fro = match noisy.is_empty() {
-        true => 0.0,
-        false => median(&mut ways(&noisy)),
-    };
+    let to_and_fro = median(&mut ways(&noisy));
     let farthest = ways(&seams).into_iter().fold(0.0, f64::max);
     if farthest == 0.0 || farthest < FARTHER * to_and_fro {
         return None;
