@@ -28,4 +28,5 @@ pub use residual::smoothing::{HALF_WIDTHS, smooth};
 pub use residual::tightening::TighteningResidual;
 pub use residual::whitening::Whitening;
 pub use settings::IdentifySettings;
+pub use task::decimated::means;
 pub use task::{FitTask, begin_elsewhere, begin_in_motion};

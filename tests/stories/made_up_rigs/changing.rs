@@ -13,20 +13,31 @@ fn changes(diagnosis: &Diagnosis) -> Option<&Changes> {
     })
 }
 
-/// A vessel on springs, of which mass \[kg\] and stiffness \[N/m\] go with the share of a recording that is over, recording by recording.
-fn on_springs(of: [&dyn Fn(f64) -> [f64; 2]; 3]) -> Diagnosis {
+/// What slides under tones, recording by recording; its acceleration goes with the share of the recording that is over, place, speed and force.
+fn slides(seed: u64, of: [&dyn Fn(f64, [f64; 2], f64) -> f64; 3]) -> Diagnosis {
     const SAMPLES: usize = 6000;
-    let mut noise = Noise(51);
-    let recordings = of.map(|numbers| {
+    let mut noise = Noise(seed);
+    let recordings = of.map(|acceleration| {
         let inputs = noise.tones([0.8, 20.0], 20.0, SAMPLES);
         let rate = |[x, v, t_s]: [f64; 3], u: f64| {
-            let [mass, stiffness] = numbers(t_s / (1e-3 * SAMPLES as f64));
-            [v, (u - 40.0 * v - stiffness * x) / mass, 1.0]
+            let over = t_s / (1e-3 * SAMPLES as f64);
+            [v, acceleration(over, [x, v], u), 1.0]
         };
         let places = moved(&inputs, 10, rate).map(|[x, _, _]| x);
         noise.with(&inputs, places, 2e-5)
     });
     Rig::that_slides(recordings.into()).told(&Verb::Improve)
+}
+
+/// A vessel on springs, of which mass \[kg\] and stiffness \[N/m\] go with the share of a recording that is over, recording by recording.
+fn on_springs(of: [&dyn Fn(f64) -> [f64; 2]; 3]) -> Diagnosis {
+    let [a, b, c] = of.map(|numbers| {
+        move |over: f64, [x, v]: [f64; 2], u: f64| {
+            let [mass, stiffness] = numbers(over);
+            (u - 40.0 * v - stiffness * x) / mass
+        }
+    });
+    slides(51, [&a, &b, &c])
 }
 
 /// One that runs out: what is left of its mass at the end of each recording, over that at the beginning.
@@ -86,22 +97,11 @@ fn a_damper_that_warms_up_is_told_beside_what_is_missing() {
     if !snug_tests::long("a damper that warms up beside a hardening spring") {
         return;
     }
-    const SAMPLES: usize = 6000;
-    let mut noise = Noise(53);
-    let recordings = [(); 3].map(|()| {
-        let inputs = noise.tones([0.8, 20.0], 20.0, SAMPLES);
-        let rate = |[x, v, t_s]: [f64; 3], u: f64| {
-            let damping = 40.0 * (1.0 - 0.5 * t_s / (1e-3 * SAMPLES as f64));
-            [
-                v,
-                (u - damping * v - 8000.0 * x - 3e7 * x.powi(3)) / 5.0,
-                1.0,
-            ]
-        };
-        let places = moved(&inputs, 10, rate).map(|[x, _, _]| x);
-        noise.with(&inputs, places, 2e-5)
-    });
-    let diagnosis = Rig::that_slides(recordings.into()).told(&Verb::Improve);
+    let warms_up = |over: f64, [x, v]: [f64; 2], u: f64| {
+        let damping = 40.0 * (1.0 - 0.5 * over);
+        (u - damping * v - 8000.0 * x - 3e7 * x.powi(3)) / 5.0
+    };
+    let diagnosis = slides(53, [&warms_up; 3]);
     assert_eq!(
         diagnosis.verdict,
         Verdict::Undecided,

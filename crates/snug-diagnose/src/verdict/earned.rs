@@ -7,7 +7,7 @@ use crate::ranking::rank::Candidate;
 use crate::selection::path::SelectionPath;
 use crate::selection::thresholds::MOST;
 use crate::settings::DiagnoseSettings;
-use crate::verdict::pushed_away::{is_held_back, may_push_away, pushed_away};
+use crate::verdict::pushed_away::{may_be_held_back, may_push_away, pushed_away};
 use crate::verdict::thresholds::{
     FAR_BETTER, FEW_SAMPLES, LEAST_EXPLAINED, MOST_IN_FEW, MOSTLY_EXPLAINED, SHORTFALL, WHITE,
 };
@@ -207,13 +207,15 @@ impl<'a> Changed<'a> {
 /// enough of another derivative of the angle, or most with the input's other sign or the columns swapped. What effects make of that is no rig. Of
 /// a rig that pushes itself away gravity may be what is missing, or its stiffness be held back.
 pub(crate) fn is_declared_wrong(cases: &[FitTask<'_>], own: &Fitted) -> bool {
-    if is_held_back(cases, own) {
-        return true;
-    }
-    if is_a_model(share(cases, own)) {
+    let is_a_model = is_a_model(share(cases, own));
+    let may_be_held_back = may_be_held_back(cases, own);
+    if is_a_model && !may_be_held_back {
         return false;
     }
     if pushed_away(cases).is_some() {
+        return may_be_held_back;
+    }
+    if is_a_model {
         return false;
     }
     let changed = Changed::of(cases);

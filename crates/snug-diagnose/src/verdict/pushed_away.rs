@@ -33,15 +33,14 @@ pub(crate) fn pushed_away(cases: &[FitTask<'_>]) -> Option<PushesAway> {
     })
 }
 
-/// Whether a rig pushes itself away that its study holds to a stiffness of 0 or more, and neither a free run follows that nor may a weight on
-/// an arm be it, which moves too little to be told from a stiffness: what effects make of that is no rig.
-pub(crate) fn is_held_back(cases: &[FitTask<'_>], own: &Fitted) -> bool {
+/// Whether of a rig that pushes itself away this study would hold the stiffness back to 0 or more, though neither a free run follows nor may it
+/// be a weight on an arm, which moves too little to be told from a stiffness: what effects make of that is no rig.
+pub(crate) fn may_be_held_back(cases: &[FitTask<'_>], own: &Fitted) -> bool {
     own.effects.is_empty()
         && cases
             .iter()
             .all(|case| case.input.is_restarted() && moves_little(case))
         && !may_push_away(cases)
-        && pushed_away(cases).is_some()
 }
 
 /// Whether the sine of the angle is the angle.

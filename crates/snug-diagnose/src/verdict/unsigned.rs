@@ -3,7 +3,7 @@
 //! Where a signal goes through 0, its size turns about as at a wall: with the other sign from there on it is smooth.
 
 use crate::verdict::thresholds::{NEAR_ZERO, SMOOTHER, TURNS};
-use snug_identify::FitTask;
+use snug_identify::{FitTask, means};
 
 /// Samples to either side over which it is looked whether a recording goes through 0 or turns about.
 const BESIDE: usize = 3;
@@ -13,8 +13,8 @@ const MEANS_OF: [usize; 5] = [1, 2, 4, 8, 16];
 /// Whether no recording goes below 0, and they turn about there again and again.
 pub(crate) fn lost_their_sign(cases: &[FitTask<'_>]) -> bool {
     let are_above = cases.iter().all(|case| {
-        let measured = case.measured();
-        measured.iter().all(|&y| y > -near_zero(measured))
+        let near = near_zero(case.measured());
+        case.measured().iter().all(|&y| y > -near)
     });
     let turns = |of: &usize| -> usize {
         let turns = cases.iter().map(|case| turns(&means(case.measured(), *of)));
@@ -26,12 +26,6 @@ pub(crate) fn lost_their_sign(cases: &[FitTask<'_>]) -> bool {
 fn near_zero(measured: &[f64]) -> f64 {
     let squares: f64 = measured.iter().map(|y| y * y).sum();
     NEAR_ZERO * (squares / measured.len() as f64).sqrt()
-}
-
-fn means(measured: &[f64], of: usize) -> Vec<f64> {
-    let all = measured.chunks_exact(of);
-    all.map(|some| some.iter().sum::<f64>() / of as f64)
-        .collect()
 }
 
 /// Places near 0 towards and away from which a signal runs, and at which it is smooth once its sign is changed there.

@@ -59,8 +59,8 @@ pub(crate) fn decimated_input(input: &Input, torque_nm: &[f64], factor: usize) -
         .with_zero_at(input.zero_at().map(|sample| sample / factor))
 }
 
-/// Of every `factor` samples; what is left over at the end is left out.
-pub(crate) fn means(signal: &[f64], factor: usize) -> Vec<f64> {
+/// Means of every `factor` samples, in the unit of the signal; what is left over at the end is left out.
+pub fn means(signal: &[f64], factor: usize) -> Vec<f64> {
     let parts = signal.chunks_exact(factor);
     parts
         .map(|part| part.iter().sum::<f64>() / factor as f64)

@@ -42,10 +42,8 @@ pub(crate) fn prepare(
         remarks.note("constant_channel", Some(Channel::Torque), message);
     }
     if let Some(angle_rad) = &mut signals.motion.displacement_rad {
-        tell_wrapped(
-            unwrap(angle_rad, context.settings.quality.spike_sd),
-            remarks,
-        );
+        let spike_sd = context.settings.quality.spike_sd;
+        tell_wrapped(unwrap(angle_rad, spike_sd), remarks);
     }
     mend_spikes(context, &mut signals, remarks);
     tell_dropouts(context, &signals, remarks);

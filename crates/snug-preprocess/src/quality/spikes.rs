@@ -3,6 +3,7 @@
 use super::non_finite::fill;
 use crate::noise::spread::median;
 use crate::segment::channel::Channel;
+use std::cell::OnceCell;
 use std::ops::Range;
 
 /// Widest spike \[samples\].
@@ -34,10 +35,10 @@ pub(crate) fn repair(
     threshold_sd: f64,
     explains: impl Fn(usize, f64, f64, f64) -> bool,
 ) -> Spikes {
-    let resolution = resolution(samples);
+    let coarse = OnceCell::new();
     let typical = |samples: &[f64], range| match typical_difference(samples, range) {
         typical if typical.is_finite() => typical,
-        _ => resolution,
+        _ => *coarse.get_or_init(|| resolution(samples)),
     };
     let candidates = {
         let typical = typical(samples, 0..samples.len());

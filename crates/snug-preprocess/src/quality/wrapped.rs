@@ -34,7 +34,7 @@ pub(crate) struct Wrapped {
 /// half a turn on. Glitches, which leave and come back by more than `spike_sd` standard deviations of the noise, are no turns, wherever
 /// they are; they stay, at most half a turn away.
 pub(crate) fn unwrap(angle_rad: &mut [f64], spike_sd: f64) -> Option<Wrapped> {
-    let together = put_together(angle_rad)?;
+    let together = put_together(angle_rad);
     let found = find(&without_spikes(angle_rad, &together, spike_sd))?;
     if found.is_turn {
         angle_rad.copy_from_slice(&together);
@@ -43,7 +43,7 @@ pub(crate) fn unwrap(angle_rad: &mut [f64], spike_sd: f64) -> Option<Wrapped> {
 }
 
 /// Each sample so many turns away that it is nearest to the last before it that is no glitch.
-fn put_together(angle_rad: &[f64]) -> Option<Vec<f64>> {
+fn put_together(angle_rad: &[f64]) -> Vec<f64> {
     let mut before = 0.0;
     let mut astray = WIDEST;
     let next = |&angle: &f64| {
@@ -55,7 +55,7 @@ fn put_together(angle_rad: &[f64]) -> Option<Vec<f64>> {
         }
         next
     };
-    (!angle_rad.is_empty()).then(|| angle_rad.iter().map(next).collect())
+    angle_rad.iter().map(next).collect()
 }
 
 /// The angle, which begins anew wherever it does, without the spikes that are left in it put `together`.

@@ -188,7 +188,7 @@ impl Display for Suspicion {
             ),
             Self::NoSign(output) => write!(
                 f,
-                "Check whether the output has its sign: the {output} never goes below 0, but turns about there as at a wall, as of a counter that sees how fast something turns and not which way. No model follows that; measure which way, too, or put the sign into the recording."
+                "Check whether the output has its sign: the {output} never goes below 0, but turns about there as at a wall. A sensor makes it so that tells how large it is and not which way, as a counter of pulses does of a speed: no model follows that, so measure which way, too. If the rig does hit a wall there, the sign is right."
             ),
             Self::PushesAway(pushes) => pushes.fmt(f),
             Self::HardlyTried { tried, of } => write!(
