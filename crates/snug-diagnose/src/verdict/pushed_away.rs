@@ -6,11 +6,11 @@
 
 use crate::pooled::equation::PlainEquation;
 use crate::pooled::fitted::Fitted;
-use crate::verdict::thresholds::{MOSTLY_EXPLAINED, NEEDS_IT, SMALL_RAD};
-use snug_campaign::Quantity;
+use crate::ranking::applicability::can_act;
+use crate::verdict::thresholds::{IS_A_WEIGHT, MOSTLY_EXPLAINED, NEEDS_IT};
 use snug_campaign::words::suspicion::PushesAway;
-use snug_identify::{ConstraintKind, FitTask};
-use snug_model::BASE_PARAMETERS;
+use snug_identify::{ConstraintKind, FitTask, MotionEquation, Term};
+use snug_model::{BASE_PARAMETERS, Effect, Law};
 use std::borrow::Cow;
 
 /// What a plain regression says of a rig that pushes itself away; `None` of any other, and where it explains too little.
@@ -33,20 +33,62 @@ pub(crate) fn pushed_away(cases: &[FitTask<'_>]) -> Option<PushesAway> {
     })
 }
 
-/// Whether of a rig that pushes itself away this study would hold the stiffness back to 0 or more, though neither a free run follows nor may it
-/// be a weight on an arm, which moves too little to be told from a stiffness: what effects make of that is no rig.
+/// Whether of a rig that pushes itself away this study would hold the stiffness back to 0 or more, though neither a free run follows nor is
+/// it a weight on an arm: what effects make of that is no rig.
 pub(crate) fn may_be_held_back(cases: &[FitTask<'_>], own: &Fitted) -> bool {
     own.effects.is_empty()
-        && cases
-            .iter()
-            .all(|case| case.input.is_restarted() && moves_little(case))
+        && cases.iter().all(|case| case.input.is_restarted())
         && !may_push_away(cases)
+        && !is_a_weight(cases)
 }
 
-/// Whether the sine of the angle is the angle.
-fn moves_little(case: &FitTask<'_>) -> bool {
-    let angle_rad = case.tightening.motion.get(Quantity::Displacement);
-    angle_rad.is_some_and(|angle_rad| angle_rad.iter().all(|angle| angle.abs() < SMALL_RAD))
+/// Whether the sine of the angle in place of a stiffness leaves far less of the measured acceleration, beside dry friction and an offset: a
+/// weight on an arm that stands upright. Of a motion too small for that both leave the same.
+fn is_a_weight(cases: &[FitTask<'_>]) -> bool {
+    let can_act = |case: &FitTask<'_>| can_act(Effect::GravityTorque, case);
+    if !cases.iter().all(can_act) {
+        return false;
+    }
+    let free = constrained(cases, &[]);
+    let no_spring: Vec<FitTask<'_>> = free.iter().map(without_stiffness).collect();
+    let left = |equation: &MotionEquation<'_>, effects: &[Effect]| {
+        let terms = effects.iter().map(|&effect| of_size_1(equation, effect));
+        let found = equation.fit(&terms.flatten().collect::<Vec<Term>>())?;
+        Some(1.0 - found.explained)
+    };
+    let told_apart = || {
+        let PlainEquation { equation, plain } = PlainEquation::of(&free)?;
+        let of_a_stiffness = left(&equation, &plain)?;
+        let same_averages = MotionEquation::averaged(&no_spring, equation.half_width)?;
+        let of_a_weight = left(
+            &same_averages,
+            &[&plain[..], &[Effect::GravityTorque]].concat(),
+        )?;
+        tracing::debug!(of_a_weight, of_a_stiffness, "a weight that stands upright");
+        Some(of_a_weight < IS_A_WEIGHT * of_a_stiffness)
+    };
+    told_apart().unwrap_or(false)
+}
+
+fn without_stiffness<'a>(case: &'a FitTask<'_>) -> FitTask<'a> {
+    let mut case = case.lent();
+    let mut model = case.model.clone().into_owned();
+    for parameter in model
+        .parameters_mut()
+        .iter_mut()
+        .filter(|one| one.name == BASE_PARAMETERS[2])
+    {
+        (parameter.fixed, parameter.value) = (true, 0.0);
+    }
+    case.model = Cow::Owned(model);
+    case
+}
+
+/// What an effect does whose first parameter is 1 and all others 0.
+fn of_size_1(equation: &MotionEquation<'_>, effect: Effect) -> Option<Term> {
+    let mut size = vec![0.0; effect.description().parameters.len()];
+    *size.first_mut()? = 1.0;
+    equation.term(effect, &size)
 }
 
 /// Whether a fit of these recordings could have a stiffness below 0.
@@ -84,6 +126,16 @@ mod tests {
 
     /// Two sines, and the torque that moves this inertia, damping and stiffness so.
     fn moved(base: [f64; 3], torque_unit: f64) -> FitTask<'static> {
+        moved_against(base, 1.0, torque_unit, |angle| base[2] * angle)
+    }
+
+    /// The same in so many of another unit's angles, with another law in place of the stiffness.
+    fn moved_against(
+        base: [f64; 3],
+        angle_unit: f64,
+        torque_unit: f64,
+        law: impl Fn(f64) -> f64,
+    ) -> FitTask<'static> {
         let (mut torque_nm, mut angle_rad) = (Vec::new(), Vec::new());
         for sample in 0..6000 {
             let (x, y) = (
@@ -93,9 +145,9 @@ mod tests {
             let angle = x.sin() + 0.5 * y.sin();
             let velocity = 5.0 * x.cos() + 5.5 * y.cos();
             let acceleration = -25.0 * x.sin() - 60.5 * y.sin();
-            let torque = base[0] * acceleration + base[1] * velocity + base[2] * angle;
+            let torque = base[0] * acceleration + base[1] * velocity + law(angle);
             torque_nm.push(torque_unit * torque);
-            angle_rad.push(angle);
+            angle_rad.push(angle_unit * angle);
         }
         let input = Input::new(&torque_nm, INTERVAL_S, Intersample::Linear);
         let tightening = Tightening::from_torque(RIG, INTERVAL_S, torque_nm);
@@ -131,5 +183,18 @@ mod tests {
         assert_eq!(pushed_away(&[moved([0.4, 1.9, 30.0], 1.0)]), None);
         assert_eq!(pushed_away(&[moved([0.4, 1.9, 30.0], -1.0)]), None);
         assert_eq!(pushed_away(&[moved([0.4, 1.9, 0.0], 1.0)]), None);
+    }
+
+    #[test]
+    fn a_weight_is_told_by_the_sine_of_the_angle_in_whatever_unit_that_is_none() {
+        let base = [0.4, 1.9, -30.0];
+        let weight = |angle: f64| -30.0 * angle.sin();
+        assert!(is_a_weight(&[moved_against(base, 1.0, 1.0, weight)]));
+        for unit in [1e-6, 1.0, 1e6] {
+            let magnet = |angle: f64| -30.0 * angle * (1.0 + 0.1 * angle * angle);
+            assert!(!is_a_weight(&[moved_against(base, unit, 1.0, magnet)]));
+            let straight = |angle: f64| -30.0 * angle;
+            assert!(!is_a_weight(&[moved_against(base, unit, 1.0, straight)]));
+        }
     }
 }

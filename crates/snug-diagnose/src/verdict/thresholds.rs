@@ -44,8 +44,9 @@ pub(crate) const NEAR_ZERO: f64 = 0.15;
 pub(crate) const SMOOTHER: f64 = 10.0;
 /// ... and at how many places of all recordings, for it to have lost its sign: one turns about like that by chance. Chosen.
 pub(crate) const TURNS: usize = 5;
-/// Angle \[rad\] up to which a weight on an arm is a stiffness, to 0.7 %.
-pub(crate) const SMALL_RAD: f64 = 0.2;
+/// Share of what a stiffness below 0 leaves of the measured acceleration, below which the sine of the angle tells a weight on an arm \[–\].
+/// Chosen.
+pub(crate) const IS_A_WEIGHT: f64 = 0.5;
 /// Least change from beginning to end of the recordings, over the larger of both, that is told as one \[–\]. Chosen: what a bearing that warms
 /// up loses in a minute.
 pub(crate) const CHANGES: f64 = 0.1;
