@@ -77,3 +77,24 @@ fn a_drive_that_begins_elsewhere_and_is_misread_lacks_what_it_lacks_from_0() {
         diagnosis.reasons
     );
 }
+
+/// A counter of pulses sees how fast a drive on an elastic belt turns, and not which way: no effect is to stand for that.
+#[test]
+fn a_counter_that_sees_no_direction_is_told_before_a_search() {
+    let mut noise = Noise(47);
+    let mut recording = || {
+        let inputs = noise.levels([-3.0, 3.0], 300, 4000);
+        let rate = |[x, v]: [f64; 2], u: f64| [v, (u - 0.08 * v - 12.0 * x) / 0.01];
+        let speeds = moved(&inputs, 6, rate).map(|[_, v]| v.abs());
+        noise.with(&inputs, speeds, 0.005)
+    };
+    let rig = Rig {
+        recordings: (0..3).map(|_| recording()).collect(),
+        declared: [TORQUE, "Velocity", "RadianPerSecond"],
+        fitted: "Velocity",
+    };
+    let diagnosis = rig.told(&Verb::Improve);
+    assert_eq!(diagnosis.verdict, Verdict::NotFitted);
+    assert!(says(&diagnosis, "has its sign"), "{:?}", diagnosis.reasons);
+    assert!(diagnosis.added.is_empty() && diagnosis.ranking.is_empty());
+}

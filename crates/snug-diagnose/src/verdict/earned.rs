@@ -204,8 +204,9 @@ impl<'a> Changed<'a> {
 }
 
 /// Whether a channel is not what it is declared to be: `own`, the study's own model, explains too little, and m, c, k alone would explain
-/// enough of another derivative of the angle, or most with the input's other sign or the columns swapped. What effects make of that is no rig. Of
-/// a rig that pushes itself away gravity may be what is missing, or its stiffness be held back.
+/// enough of another derivative of the angle, or most with the input's other sign or the columns swapped, or a speed lost its sign (a place may
+/// be held back by a wall). What effects make of that is no rig. Of a rig that pushes itself away gravity may be what is missing, or its
+/// stiffness be held back.
 pub(crate) fn is_declared_wrong(cases: &[FitTask<'_>], own: &Fitted) -> bool {
     let is_a_model = is_a_model(share(cases, own));
     let may_be_held_back = may_be_held_back(cases, own);
@@ -223,6 +224,13 @@ pub(crate) fn is_declared_wrong(cases: &[FitTask<'_>], own: &Fitted) -> bool {
     changed.derivatives().next().is_some()
         || changed.sign().as_ref().is_some_and(explains_most)
         || changed.swapped().as_ref().is_some_and(explains_most)
+        || are_speeds(cases) && lost_their_sign(cases)
+}
+
+fn are_speeds(cases: &[FitTask<'_>]) -> bool {
+    cases
+        .iter()
+        .all(|case| case.quantity() == Quantity::Velocity)
 }
 
 /// Whether no torque acts in any recording, and nothing is known of what moves, so that ratios show only.
