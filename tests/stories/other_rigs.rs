@@ -1,11 +1,12 @@
 //! Rigs that are no nutrunner, described in a study file: an electronic oscillator and a pendulum.
 
 use crate::campaign::{run_study, study_file};
-use snug_campaign::Rejection;
 use snug_campaign::words::headline::Headline;
+use snug_campaign::{Rejection, Verdict};
 use snug_identify::Simulation;
 use snug_study::{Outcome, RunSettings, Study, Verb, diagnose};
 use std::sync::atomic::AtomicBool;
+use std::time::Instant;
 use tempfile::TempDir;
 
 /// Root-mean-square errors in a free run \[V\], on multisine test, arrow without extrapolation, full arrow: published for linear
@@ -49,6 +50,42 @@ fn silverbox_is_predicted_as_well_as_published() {
             );
         }
     }
+}
+
+/// What is told of it, within two minutes on two cores.
+#[test]
+fn silverbox_lacks_a_cubic_spring_and_an_offset() {
+    if !snug_tests::long("what Silverbox lacks") {
+        return;
+    }
+    let Some(data) = snug_tests::data("Silverbox") else {
+        return;
+    };
+    let mut study = Study::read(&study_file("silverbox.ron")).unwrap();
+    study.set_data(&data.join("silverbox/SNLS80mV.csv"));
+    let (out, began) = (tempfile::tempdir().unwrap(), Instant::now());
+    let (settings, never) = (RunSettings::new(out.path()), AtomicBool::new(false));
+    let outcome = diagnose(&study, &Verb::Improve, &settings, &|_| (), &never).unwrap();
+    let took_s = began.elapsed().as_secs_f64();
+    let diagnosis = outcome.result.diagnosis.unwrap();
+    let added: Vec<&str> = diagnosis
+        .added
+        .iter()
+        .map(|one| one.effect.as_str())
+        .collect();
+    assert_eq!(
+        added[..2],
+        ["cubic_stiffness", "torque_offset"],
+        "{}",
+        diagnosis.headline
+    );
+    assert_eq!(
+        diagnosis.verdict,
+        Verdict::Adequate,
+        "{}",
+        diagnosis.headline
+    );
+    assert!(took_s < 120.0, "{took_s} s");
 }
 
 fn volts_are_no_torques(outcome: &Outcome, out: &TempDir) {

@@ -1,15 +1,19 @@
 //! Long records at a lower rate, to look for effects in: what moves slowly for its rate says as much in a fraction of the samples.
 
+use crate::data::cases::{Cases, Tally};
 use crate::data::machine::is_machine;
+use crate::data::simulation::{Asked, simulate};
+use crate::pooled::equation::values;
 use crate::pooled::fitted::Fitted;
 use crate::pooled::long_record::take_long;
 use crate::pooled::thresholds::{
-    ENOUGH_TO_SEARCH, FEWEST_BETWEEN_RESTARTS, LOST, SHORTEST_DECIMATED, WHITE,
+    ENOUGH_TO_SEARCH, FEWEST_BETWEEN_RESTARTS, GRIDS, LOST, LOST_OF_GRID, SHORTEST_DECIMATED, WHITE,
 };
 use snug_identify::FitTask;
+use snug_model::Model;
 
-/// The records at the lowest rate that is needed, where they take long and hardly anything is lost; `fitted` is the study's own model at
-/// the full rate, whose error is what effects are looked for in.
+/// The records at the lowest rate that is needed, or on the coarsest grid, where they take long and hardly anything is lost; `fitted` is the
+/// study's own model at the full rate, whose error is what effects are looked for in.
 pub(crate) fn decimated(records: &[FitTask<'_>], fitted: &Fitted) -> Option<Vec<FitTask<'static>>> {
     let is_possible = fitted.are_stretches() && !fitted.is_weighted;
     if !is_possible || !take_long(records) || !records.iter().all(is_machine) {
@@ -26,8 +30,50 @@ pub(crate) fn decimated(records: &[FitTask<'_>], fitted: &Fitted) -> Option<Vec<
     let halves = std::iter::successors(Some(most), |factor| Some(factor / 2));
     let factor = halves
         .take_while(|&factor| factor >= 2)
-        .find(|&factor| keeps_what_matters(records, fitted, factor))?;
-    Some(records.iter().map(|one| one.decimated(factor)).collect())
+        .find(|&factor| keeps_what_matters(records, fitted, factor));
+    let slow = || factor.map(|factor| records.iter().map(|one| one.decimated(factor)).collect());
+    slow().or_else(|| on_coarser_grid(records, fitted))
+}
+
+/// The records on the coarsest grid of their inputs on which the model ends hardly elsewhere; `None` where that is the one they have.
+fn on_coarser_grid(records: &[FitTask<'_>], fitted: &Fitted) -> Option<Vec<FitTask<'static>>> {
+    let finest = records.iter().map(|one| one.input.substeps()).min()?;
+    let as_fitted = |records: &[FitTask<'_>]| -> Option<Vec<Vec<f64>>> {
+        let models: Result<Vec<Model>, _> = (records.iter())
+            .map(|one| one.model_with(&fitted.effects))
+            .collect();
+        let models = models.ok()?;
+        let values = values(Cases::new(records, &Tally::default()), fitted)?;
+        let asked = records.iter().zip(&values).enumerate();
+        let asked = asked.map(|(member, (one, values))| Asked {
+            member,
+            input: &one.input,
+            values,
+        });
+        let mut simulated = Vec::new();
+        simulate(
+            records,
+            &models,
+            &asked.collect::<Vec<_>>(),
+            &[],
+            &mut simulated,
+        );
+        Some(simulated.into_iter().map(|one| one.output).collect())
+    };
+    let exact = as_fitted(records)?;
+    let coarser = GRIDS.into_iter().filter(|&substeps| substeps < finest);
+    let mut coarser = coarser.map(|substeps| -> Vec<FitTask<'static>> {
+        records.iter().map(|one| one.on_grid(substeps)).collect()
+    });
+    coarser.find(|coarser| {
+        let Some(rough) = as_fitted(coarser) else {
+            return false;
+        };
+        let pairs = exact.iter().flatten().zip(rough.iter().flatten());
+        let lost: f64 = pairs.map(|(exact, rough)| (exact - rough).powi(2)).sum();
+        tracing::debug!(share = lost / fitted.squares(), "lost on a coarser grid");
+        lost <= LOST_OF_GRID * fitted.squares()
+    })
 }
 
 /// Whether what means over `factor` samples lose of the output is little beside the error, or white.
@@ -69,6 +115,12 @@ fn between_means(signal: &[f64], factor: usize) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::data::clusters::Clusters;
+    use crate::pooled::fit::fit_effects;
+    use crate::tests::made_up::on_machine;
+    use snug_campaign::{Intersample, Quantity};
+    use snug_model::{Input, Scale};
+    use std::borrow::Cow;
 
     fn correlation(lost: &[f64]) -> f64 {
         let squares: f64 = lost.iter().map(|x| x * x).sum();
@@ -104,5 +156,56 @@ mod tests {
             .collect();
         let lost = between_means(&noise, 8);
         assert!(correlation(&lost).abs() < WHITE + 0.125);
+    }
+
+    /// What a machine of 0.4 kg m², 1.9 Nm s/rad and 30 Nm/rad is moved by along two sines, beside dry friction, and fitted without that.
+    fn with_friction(interval_s: f64, friction_nm: f64) -> (FitTask<'static>, Fitted) {
+        let scale = Scale::Rig {
+            torque_nm: 15.0,
+            angle_rad: 0.8,
+            time_s: 0.15,
+        };
+        let (mut torque_nm, mut measured) = (Vec::new(), Vec::new());
+        for sample in 0..1500 {
+            let (x, y) = (
+                5.0 * interval_s * f64::from(sample),
+                11.0 * interval_s * f64::from(sample),
+            );
+            let (angle, velocity) = (x.sin() + 0.5 * y.sin(), 5.0 * x.cos() + 5.5 * y.cos());
+            let acceleration = -25.0 * x.sin() - 60.5 * y.sin();
+            let friction = friction_nm * velocity.signum();
+            torque_nm.push(0.4 * acceleration + 1.9 * velocity + 30.0 * angle + friction);
+            measured.push(velocity);
+        }
+        let input = Input::new(&torque_nm, interval_s, Intersample::BandLimited);
+        let task = on_machine(scale, interval_s, torque_nm, Quantity::Velocity, measured);
+        let task = FitTask {
+            input: Cow::Owned(input),
+            ..task
+        };
+        let tally = Tally::default();
+        let cases = [task.lent()];
+        let cases = Cases::new(&cases, &tally);
+        let clusters = Clusters::of(&cases);
+        let fitted = fit_effects(cases, &[], None, clusters).expect("it can be fitted");
+        (task, fitted)
+    }
+
+    /// From sample to sample the faster sine goes on by 0.055 rad, or by 1.1, where little but that is left, too.
+    #[test]
+    fn a_grid_is_as_coarse_as_the_motion_allows() {
+        let substeps = |(task, fitted): &(FitTask<'_>, Fitted)| {
+            let coarser = on_coarser_grid(&[task.lent()], fitted);
+            coarser.map(|coarser| coarser[0].input.substeps())
+        };
+        let slow = with_friction(5e-3, 2.0);
+        assert_eq!(substeps(&slow), Some(2));
+        let fast = with_friction(0.1, 1e-3);
+        assert_ne!(substeps(&fast), Some(2));
+        let (mut straight, fitted) = slow;
+        let torque_nm = straight.input.logged_nm();
+        let input = Input::new(torque_nm, 5e-3, Intersample::Linear);
+        straight.input = Cow::Owned(input);
+        assert_eq!(substeps(&(straight, fitted)), None);
     }
 }

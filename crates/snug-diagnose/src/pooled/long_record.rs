@@ -4,7 +4,7 @@ use crate::error::DiagnoseError;
 use crate::pooled::equation::regression_start;
 use crate::pooled::model::{PooledModel, Start};
 use crate::pooled::thresholds::{
-    A_FEW_STEPS, BEGINNING, SHORTEST_BEGINNING, SIEVE, SIEVED, SOON, TRIAL_OF_A_START,
+    A_FEW_STEPS, BEGINNING, SAME_END, SHORTEST_BEGINNING, SIEVE, SIEVED, SOON, TRIAL_OF_A_START,
 };
 use snug_identify::{FitTask, TighteningResidual, convex_set};
 use snug_least_squares::{DenseResidual, PooledFit, PooledSettings, Settings, solve};
@@ -25,7 +25,7 @@ pub(crate) fn best_of(
     }
     let beginnings: Vec<FitTask<'_>> = pooled.cases.iter().map(beginning).collect();
     let mut there = PooledModel::new(pooled.cases.others(&beginnings), &pooled.effects)?;
-    let start = Start::at(&lowest(&mut there, &starts, settings)?);
+    let start = sieved(&mut there, &starts)?;
     pooled.fit(&start, &A_FEW_STEPS)
 }
 
@@ -90,11 +90,18 @@ fn lowest(
     starts: &[Start],
     settings: &PooledSettings,
 ) -> Result<PooledFit, DiagnoseError> {
+    let best = sieved(pooled, starts)?;
+    pooled.fit(&best, settings)
+}
+
+/// Takes a few steps from each start and follows those that led lowest, and elsewhere, farther: where the lowest led.
+fn sieved(pooled: &mut PooledModel<'_>, starts: &[Start]) -> Result<Start, DiagnoseError> {
     let mut sieved = ends(pooled, starts, &SIEVE)?;
+    sieved.dedup_by(|other, lower| other.cost() <= (1.0 + SAME_END) * lower.cost());
     sieved.truncate(SIEVED);
     let sieved: Vec<Start> = sieved.iter().map(Start::at).collect();
     let best = &ends(pooled, &sieved, &TRIAL_OF_A_START)?[0];
-    pooled.fit(&Start::at(best), settings)
+    Ok(Start::at(best))
 }
 
 /// Where fits from the starts end, the lowest first; an error where none has an end.

@@ -9,7 +9,8 @@ use crate::ranking::paired_gain::gains;
 use crate::ranking::pairs::Pair;
 use crate::ranking::rank::{Candidate, Ranking, rank};
 use crate::selection::model_selection::{ModelSelection, Step};
-use crate::selection::path::{SelectionPath, least_share};
+use crate::selection::path::{SelectionPath, least_share, misfit};
+use crate::selection::thresholds::SMALL;
 use snug_model::Effect;
 
 /// A pair, fitted: both, and the second as a step from the first, which stands at `seed` in the ranking.
@@ -23,6 +24,10 @@ impl ModelSelection<'_> {
     /// The two effects of the last ranking's promising pairs that explain most and are justified, as two steps.
     pub fn two_at_once(&self, path: &SelectionPath) -> Result<Option<Vec<Step>>, DiagnoseError> {
         let (current, ranking) = (path.last(), &path.ranking);
+        if !current.is_weighted && misfit(current) < SMALL * misfit(&path.rungs[0]) {
+            // All that is left would be told as small.
+            return Ok(None);
+        }
         let mut best: Option<Both> = None;
         let beyond_chance = |pair: &&Pair| pair.p_family <= self.settings.level;
         for &pair in ranking.pairs.iter().filter(beyond_chance) {

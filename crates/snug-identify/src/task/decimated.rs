@@ -7,6 +7,16 @@ use snug_model::Input;
 use std::borrow::Cow;
 
 impl FitTask<'_> {
+    /// The same with a band-limited input simulated on a grid `substeps` times as fine as the samples.
+    pub fn on_grid(&self, substeps: usize) -> FitTask<'static> {
+        FitTask {
+            input: Cow::Owned(self.input.on_grid(substeps)),
+            model: Cow::Owned(self.model.clone().into_owned()),
+            settings: Cow::Owned(self.settings.clone().into_owned()),
+            tightening: Cow::Owned(self.tightening.clone().into_owned()),
+        }
+    }
+
     /// The same with every `factor` samples replaced by their mean, which stands for the middle of them; what is left over at the end is
     /// left out, and nothing is known of the noise. The torque runs straight from mean to mean, and a model that takes up the measured
     /// motion does so about as often.

@@ -18,6 +18,14 @@ impl Restarts {
         self.apart
     }
 
+    /// The same motions, `apart` grid points from one to the next.
+    pub(crate) fn moved_apart(&self, apart: usize) -> Self {
+        Self {
+            apart,
+            motions: self.motions.clone(),
+        }
+    }
+
     pub(crate) fn is_empty(&self) -> bool {
         self.apart == 0
     }

@@ -76,6 +76,24 @@ impl Input {
         }
     }
 
+    /// The same band-limited input as it was logged, on a grid `substeps` times as fine as the samples: coarser, it is simulated sooner and
+    /// less exactly. Any other has one grid point a sample and stays as it is.
+    pub fn on_grid(&self, substeps: usize) -> Self {
+        if self.substeps == 1 {
+            return self.clone();
+        }
+        let apart = self.restarts.apart() / self.substeps;
+        Self {
+            grid: snug_signal::straight_pieces(&self.logged, substeps),
+            grid_interval_s: self.interval_s() / substeps as f64,
+            substeps,
+            restarts: self.restarts.moved_apart(apart * substeps),
+            between: OnceLock::new(),
+            slopes: OnceLock::new(),
+            ..self.clone()
+        }
+    }
+
     /// The same input with every value replaced by the mean over it and `reach` samples on either side.
     ///
     /// What is computed from it knows the torque's course, but hardly the noise of any one sample.
@@ -257,13 +275,12 @@ impl Input {
     pub fn before(&self, delay_s: f64) -> Vec<Earlier> {
         let slopes = (self.slopes)
             .get_or_init(|| slope::slopes(&self.grid, self.grid_interval_s, self.substeps));
-        let fine_interval_s =
-            self.grid_interval_s * self.substeps as f64 / BAND_LIMITED_SUBSTEPS as f64;
         let is_straight = self.substeps == 1 && !self.held;
         let (fine, step) = match is_straight {
             true => (self.between(), BAND_LIMITED_SUBSTEPS),
             false => (self.grid.as_slice(), 1),
         };
+        let fine_interval_s = self.grid_interval_s / step as f64;
         // A delay is the same part of an interval before every grid point.
         let then = Position::new(-delay_s / self.grid_interval_s);
         let then_in_fine = Position::new(-delay_s / fine_interval_s);
@@ -357,6 +374,7 @@ pub struct Earlier {
 mod tests {
     use super::*;
     use crate::numeric::even_noise::even_noise;
+    use std::f64::consts::TAU;
 
     fn power(values: impl Iterator<Item = f64>) -> f64 {
         let (mut sum, mut count) = (0.0, 0);
@@ -381,6 +399,33 @@ mod tests {
             (there - 1.0).abs() < 0.03 && (shifted / there - 1.0).abs() < 0.02,
             "{there} {shifted}"
         );
+    }
+
+    /// A sine of 20 samples, now and 2.3 samples ago.
+    #[test]
+    fn a_band_limited_input_is_the_same_on_a_coarser_grid() {
+        let sine = |sample: f64| (TAU * sample / 20.0).sin();
+        let samples: Vec<f64> = (0..400).map(|k| sine(f64::from(k))).collect();
+        let input = Input::new(&samples, 0.01, Intersample::BandLimited)
+            .with_restarts(50, vec![[1.0, 2.0]; 8]);
+        for substeps in [2, 4, 8] {
+            let coarser = input.on_grid(substeps);
+            assert_eq!(coarser.substeps(), substeps);
+            assert!((coarser.interval_s() - 0.01).abs() < 1e-15);
+            assert_eq!(coarser.grid_nm().len(), 399 * substeps + 1);
+            assert_eq!(coarser.samples_between_restarts(), Some(50));
+            assert_eq!(coarser.restart_at(50 * substeps), Some([1.0, 2.0]));
+            for (late, delay_s) in [(0.0, 0.0), (2.3, 0.023)] {
+                let earlier = coarser.before(delay_s);
+                for sample in 100..300 {
+                    let found = earlier[sample * substeps].torque_nm;
+                    let expected = sine(sample as f64 - late);
+                    assert!((found - expected).abs() < 0.01, "{found} {expected}");
+                }
+            }
+        }
+        let straight = Input::new(&samples, 0.01, Intersample::Linear);
+        assert_eq!(straight.on_grid(4).substeps(), 1);
     }
 
     #[test]
