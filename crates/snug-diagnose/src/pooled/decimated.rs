@@ -7,66 +7,71 @@ use crate::pooled::equation::values;
 use crate::pooled::fitted::Fitted;
 use crate::pooled::long_record::take_long;
 use crate::pooled::thresholds::{
-    ENOUGH_TO_SEARCH, FEWEST_BETWEEN_RESTARTS, GRIDS, LOST, LOST_OF_GRID, SHORTEST_DECIMATED, WHITE,
+    AS_FAR, AS_MUCH, ENOUGH_TO_SEARCH, FEWEST_BETWEEN_RESTARTS, GRIDS, LOST, LOST_OF_GRID,
+    MOST_TO_SEARCH, SHORTEST_DECIMATED, WHITE,
 };
 use snug_identify::FitTask;
 use snug_model::Model;
 
-/// The records at the lowest rate that is needed, or on the coarsest grid, where they take long and hardly anything is lost; `fitted` is the
-/// study's own model at the full rate, whose error is what effects are looked for in.
+/// The records at the lowest rate that is needed, or on the coarsest grid, and no more of them than says the same, where they take long and
+/// hardly anything is lost; `fitted` is the study's own model at the full rate, whose error is what effects are looked for in.
 pub(crate) fn decimated(records: &[FitTask<'_>], fitted: &Fitted) -> Option<Vec<FitTask<'static>>> {
     let is_possible = fitted.are_stretches() && !fitted.is_weighted;
     if !is_possible || !take_long(records) || !records.iter().all(is_machine) {
         return None;
     }
-    let samples: usize = records.iter().map(|one| one.measured().len()).sum();
+    let slow = at_lower_rate(records, fitted).or_else(|| on_coarser_grid(records, fitted));
+    let there = slow.as_deref().unwrap_or(records);
+    let share = MOST_TO_SEARCH as f64 / count(there) as f64;
+    match share < 1.0 && is_alike(records, fitted, share) {
+        true => Some(
+            there
+                .iter()
+                .map(|one| one.beginning(part(one, share)))
+                .collect(),
+        ),
+        false => slow,
+    }
+}
+
+fn count(records: &[FitTask<'_>]) -> usize {
+    records.iter().map(|one| one.measured().len()).sum()
+}
+
+/// Samples of a record's first part, a `share` of those that are scored.
+fn part(record: &FitTask<'_>, share: f64) -> usize {
+    let unscored = record.unscored();
+    unscored + (share * record.measured().len().saturating_sub(unscored) as f64).ceil() as usize
+}
+
+fn at_lower_rate(records: &[FitTask<'_>], fitted: &Fitted) -> Option<Vec<FitTask<'static>>> {
     let shortest = records.iter().map(|one| one.measured().len()).min()?;
     let apart = records
         .iter()
         .filter_map(|one| one.input.samples_between_restarts());
-    let most = (samples / ENOUGH_TO_SEARCH)
+    let most = (count(records) / ENOUGH_TO_SEARCH)
         .min(shortest / SHORTEST_DECIMATED)
         .min(apart.min().unwrap_or(usize::MAX) / FEWEST_BETWEEN_RESTARTS);
     let halves = std::iter::successors(Some(most), |factor| Some(factor / 2));
     let factor = halves
         .take_while(|&factor| factor >= 2)
-        .find(|&factor| keeps_what_matters(records, fitted, factor));
-    let slow = || factor.map(|factor| records.iter().map(|one| one.decimated(factor)).collect());
-    slow().or_else(|| on_coarser_grid(records, fitted))
+        .find(|&factor| keeps_what_matters(records, fitted, factor))?;
+    Some(records.iter().map(|one| one.decimated(factor)).collect())
 }
 
 /// The records on the coarsest grid of their inputs on which the model ends hardly elsewhere; `None` where that is the one they have.
 fn on_coarser_grid(records: &[FitTask<'_>], fitted: &Fitted) -> Option<Vec<FitTask<'static>>> {
     let finest = records.iter().map(|one| one.input.substeps()).min()?;
-    let as_fitted = |records: &[FitTask<'_>]| -> Option<Vec<Vec<f64>>> {
-        let models: Result<Vec<Model>, _> = (records.iter())
-            .map(|one| one.model_with(&fitted.effects))
-            .collect();
-        let models = models.ok()?;
-        let values = values(Cases::new(records, &Tally::default()), fitted)?;
-        let asked = records.iter().zip(&values).enumerate();
-        let asked = asked.map(|(member, (one, values))| Asked {
-            member,
-            input: &one.input,
-            values,
-        });
-        let mut simulated = Vec::new();
-        simulate(
-            records,
-            &models,
-            &asked.collect::<Vec<_>>(),
-            &[],
-            &mut simulated,
-        );
-        Some(simulated.into_iter().map(|one| one.output).collect())
-    };
-    let exact = as_fitted(records)?;
+    if GRIDS.iter().all(|&substeps| substeps >= finest) {
+        return None;
+    }
+    let exact = simulated(records, fitted)?;
     let coarser = GRIDS.into_iter().filter(|&substeps| substeps < finest);
     let mut coarser = coarser.map(|substeps| -> Vec<FitTask<'static>> {
         records.iter().map(|one| one.on_grid(substeps)).collect()
     });
     coarser.find(|coarser| {
-        let Some(rough) = as_fitted(coarser) else {
+        let Some(rough) = simulated(coarser, fitted) else {
             return false;
         };
         let pairs = exact.iter().flatten().zip(rough.iter().flatten());
@@ -74,6 +79,55 @@ fn on_coarser_grid(records: &[FitTask<'_>], fitted: &Fitted) -> Option<Vec<FitTa
         tracing::debug!(share = lost / fitted.squares(), "lost on a coarser grid");
         lost <= LOST_OF_GRID * fitted.squares()
     })
+}
+
+/// What the model says of each record.
+fn simulated(records: &[FitTask<'_>], fitted: &Fitted) -> Option<Vec<Vec<f64>>> {
+    let models: Result<Vec<Model>, _> = (records.iter())
+        .map(|one| one.model_with(&fitted.effects))
+        .collect();
+    let models = models.ok()?;
+    let values = values(Cases::new(records, &Tally::default()), fitted)?;
+    let asked = records.iter().zip(&values).enumerate();
+    let asked: Vec<Asked<'_>> = asked
+        .map(|(member, (one, values))| Asked {
+            member,
+            input: &one.input,
+            values,
+        })
+        .collect();
+    let mut simulated = Vec::new();
+    simulate(records, &models, &asked, &[], &mut simulated);
+    Some(simulated.into_iter().map(|one| one.output).collect())
+}
+
+/// Whether that share of every record, from its beginning on, moves as far as the whole, as much, and misses the model by as much.
+fn is_alike(records: &[FitTask<'_>], fitted: &Fitted, share: f64) -> bool {
+    let Some(simulated) = simulated(records, fitted) else {
+        return false;
+    };
+    let (mut whole, mut first) = ([0.0_f64; 3], [0.0_f64; 3]);
+    for (record, simulated) in records.iter().zip(&simulated) {
+        let pairs = record.measured().iter().zip(simulated).enumerate();
+        for (sample, (measured, simulated)) in pairs.skip(record.unscored()) {
+            let square = measured * measured;
+            let says = [square, (measured - simulated).powi(2)];
+            let is_first = sample < part(record, share);
+            for sums in [Some(&mut whole), is_first.then_some(&mut first)]
+                .into_iter()
+                .flatten()
+            {
+                sums[0] += says[0];
+                sums[1] += says[1];
+                sums[2] = sums[2].max(square);
+            }
+        }
+    }
+    let as_much = |index: usize| {
+        let ratio = first[index] / (share * whole[index]);
+        (1.0 / AS_MUCH..=AS_MUCH).contains(&ratio)
+    };
+    as_much(0) && as_much(1) && first[2] >= AS_FAR * AS_FAR * whole[2]
 }
 
 /// Whether what means over `factor` samples lose of the output is little beside the error, or white.
@@ -207,5 +261,25 @@ mod tests {
         let input = Input::new(torque_nm, 5e-3, Intersample::Linear);
         straight.input = Cow::Owned(input);
         assert_eq!(substeps(&(straight, fitted)), None);
+    }
+
+    #[test]
+    fn a_beginning_that_moves_less_than_the_whole_does_not_stand_for_it() {
+        let (mut task, fitted) = with_friction(5e-3, 2.0);
+        // The simulation begins at rest.
+        task.settings.to_mut().unscored_samples = 400;
+        assert!(is_alike(&[task.lent()], &fitted, 0.5));
+        let mut as_much_and_farther = task.lent();
+        let motion = &mut as_much_and_farther.tightening.to_mut().motion;
+        let measured = motion.velocity_rad_per_s.as_mut().expect("it was measured");
+        measured[1200] *= 2.0;
+        assert!(!is_alike(&[as_much_and_farther], &fitted, 0.5));
+        let motion = &mut task.tightening.to_mut().motion;
+        let measured = motion.velocity_rad_per_s.as_mut().expect("it was measured");
+        measured[750..].iter_mut().for_each(|speed| *speed *= 1.1);
+        assert!(
+            !is_alike(&[task.lent()], &fitted, 0.5),
+            "it misses the model by more"
+        );
     }
 }
