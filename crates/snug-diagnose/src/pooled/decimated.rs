@@ -1,4 +1,5 @@
-//! Long records at a lower rate, to look for effects in: what moves slowly for its rate says as much in a fraction of the samples.
+//! Long records at a lower rate, on a coarser grid or in part, to look for effects in: what moves slowly for its rate, or goes on as it began, says
+//! as much in a fraction of the points.
 
 use crate::data::cases::{Cases, Tally};
 use crate::data::machine::is_machine;
