@@ -3,16 +3,16 @@
 
 use crate::data::cases::{Cases, Tally};
 use crate::data::machine::is_machine;
-use crate::data::simulation::{Asked, simulate};
-use crate::pooled::equation::values;
+use crate::data::simulation::Asked;
+use crate::pooled::equation::values_at;
 use crate::pooled::fitted::Fitted;
-use crate::pooled::long_record::take_long;
+use crate::pooled::long_record::{samples, take_long};
+use crate::pooled::model::PooledModel;
 use crate::pooled::thresholds::{
     AS_FAR, AS_MUCH, ENOUGH_TO_SEARCH, FEWEST_BETWEEN_RESTARTS, GRIDS, LOST, LOST_OF_GRID,
     MOST_TO_SEARCH, SHORTEST_DECIMATED, WHITE,
 };
 use snug_identify::FitTask;
-use snug_model::Model;
 
 /// The records at the lowest rate that is needed, or on the coarsest grid, and no more of them than says the same, where they take long and
 /// hardly anything is lost; `fitted` is the study's own model at the full rate, whose error is what effects are looked for in.
@@ -23,7 +23,7 @@ pub(crate) fn decimated(records: &[FitTask<'_>], fitted: &Fitted) -> Option<Vec<
     }
     let slow = at_lower_rate(records, fitted).or_else(|| on_coarser_grid(records, fitted));
     let there = slow.as_deref().unwrap_or(records);
-    let share = MOST_TO_SEARCH as f64 / count(there) as f64;
+    let share = MOST_TO_SEARCH as f64 / samples(there) as f64;
     match share < 1.0 && is_alike(records, fitted, share) {
         true => Some(
             there
@@ -33,10 +33,6 @@ pub(crate) fn decimated(records: &[FitTask<'_>], fitted: &Fitted) -> Option<Vec<
         ),
         false => slow,
     }
-}
-
-fn count(records: &[FitTask<'_>]) -> usize {
-    records.iter().map(|one| one.measured().len()).sum()
 }
 
 /// Samples of a record's first part, a `share` of those that are scored.
@@ -50,7 +46,7 @@ fn at_lower_rate(records: &[FitTask<'_>], fitted: &Fitted) -> Option<Vec<FitTask
     let apart = records
         .iter()
         .filter_map(|one| one.input.samples_between_restarts());
-    let most = (count(records) / ENOUGH_TO_SEARCH)
+    let most = (samples(records) / ENOUGH_TO_SEARCH)
         .min(shortest / SHORTEST_DECIMATED)
         .min(apart.min().unwrap_or(usize::MAX) / FEWEST_BETWEEN_RESTARTS);
     let halves = std::iter::successors(Some(most), |factor| Some(factor / 2));
@@ -63,16 +59,17 @@ fn at_lower_rate(records: &[FitTask<'_>], fitted: &Fitted) -> Option<Vec<FitTask
 /// The records on the coarsest grid of their inputs on which the model ends hardly elsewhere; `None` where that is the one they have.
 fn on_coarser_grid(records: &[FitTask<'_>], fitted: &Fitted) -> Option<Vec<FitTask<'static>>> {
     let finest = records.iter().map(|one| one.input.substeps()).min()?;
-    if GRIDS.iter().all(|&substeps| substeps >= finest) {
-        return None;
-    }
-    let exact = simulated(records, fitted)?;
-    let coarser = GRIDS.into_iter().filter(|&substeps| substeps < finest);
-    let mut coarser = coarser.map(|substeps| -> Vec<FitTask<'static>> {
+    let mut grids = GRIDS
+        .into_iter()
+        .filter(|&substeps| substeps < finest)
+        .peekable();
+    grids.peek()?;
+    let exact = outputs(records, fitted)?;
+    let mut coarser = grids.map(|substeps| -> Vec<FitTask<'static>> {
         records.iter().map(|one| one.on_grid(substeps)).collect()
     });
     coarser.find(|coarser| {
-        let Some(rough) = simulated(coarser, fitted) else {
+        let Some(rough) = outputs(coarser, fitted) else {
             return false;
         };
         let pairs = exact.iter().flatten().zip(rough.iter().flatten());
@@ -83,52 +80,57 @@ fn on_coarser_grid(records: &[FitTask<'_>], fitted: &Fitted) -> Option<Vec<FitTa
 }
 
 /// What the model says of each record.
-fn simulated(records: &[FitTask<'_>], fitted: &Fitted) -> Option<Vec<Vec<f64>>> {
-    let models: Result<Vec<Model>, _> = (records.iter())
-        .map(|one| one.model_with(&fitted.effects))
-        .collect();
-    let models = models.ok()?;
-    let values = values(Cases::new(records, &Tally::default()), fitted)?;
+fn outputs(records: &[FitTask<'_>], fitted: &Fitted) -> Option<Vec<Vec<f64>>> {
+    let tally = Tally::default();
+    let cases = Cases::new(records, &tally);
+    let pooled = PooledModel::shared_by(cases, &fitted.effects, &fitted.sharing).ok()?;
+    let values = values_at(&pooled, &fitted.start(&pooled));
     let asked = records.iter().zip(&values).enumerate();
-    let asked: Vec<Asked<'_>> = asked
-        .map(|(member, (one, values))| Asked {
-            member,
-            input: &one.input,
-            values,
-        })
-        .collect();
-    let mut simulated = Vec::new();
-    simulate(records, &models, &asked, &[], &mut simulated);
-    Some(simulated.into_iter().map(|one| one.output).collect())
+    let asked = asked.map(|(member, (one, values))| Asked {
+        member,
+        input: &one.input,
+        values,
+    });
+    Some(pooled.outputs(&asked.collect::<Vec<_>>()))
+}
+
+/// What samples of records say of them.
+#[derive(Default)]
+struct Sums {
+    moved: f64,
+    missed: f64,
+    farthest: f64,
+}
+
+impl Sums {
+    fn add(&mut self, measured: f64, simulated: f64) {
+        self.moved += measured * measured;
+        self.missed += (measured - simulated).powi(2);
+        self.farthest = self.farthest.max(measured.abs());
+    }
 }
 
 /// Whether that share of every record, from its beginning on, moves as far as the whole, as much, and misses the model by as much.
 fn is_alike(records: &[FitTask<'_>], fitted: &Fitted, share: f64) -> bool {
-    let Some(simulated) = simulated(records, fitted) else {
+    let Some(simulated) = outputs(records, fitted) else {
         return false;
     };
-    let (mut whole, mut first) = ([0.0_f64; 3], [0.0_f64; 3]);
+    let (mut whole, mut first) = (Sums::default(), Sums::default());
     for (record, simulated) in records.iter().zip(&simulated) {
+        let end = part(record, share);
         let pairs = record.measured().iter().zip(simulated).enumerate();
-        for (sample, (measured, simulated)) in pairs.skip(record.unscored()) {
-            let square = measured * measured;
-            let says = [square, (measured - simulated).powi(2)];
-            let is_first = sample < part(record, share);
-            for sums in [Some(&mut whole), is_first.then_some(&mut first)]
-                .into_iter()
-                .flatten()
-            {
-                sums[0] += says[0];
-                sums[1] += says[1];
-                sums[2] = sums[2].max(square);
+        for (sample, (&measured, &simulated)) in pairs.skip(record.unscored()) {
+            whole.add(measured, simulated);
+            if sample < end {
+                first.add(measured, simulated);
             }
         }
     }
-    let as_much = |index: usize| {
-        let ratio = first[index] / (share * whole[index]);
-        (1.0 / AS_MUCH..=AS_MUCH).contains(&ratio)
-    };
-    as_much(0) && as_much(1) && first[2] >= AS_FAR * AS_FAR * whole[2]
+    let is_as_much =
+        |first: f64, whole: f64| (1.0 / AS_MUCH..=AS_MUCH).contains(&(first / (share * whole)));
+    is_as_much(first.moved, whole.moved)
+        && is_as_much(first.missed, whole.missed)
+        && first.farthest >= AS_FAR * whole.farthest
 }
 
 /// Whether what means over `factor` samples lose of the output is little beside the error, or white.
@@ -172,9 +174,9 @@ mod tests {
     use super::*;
     use crate::data::clusters::Clusters;
     use crate::pooled::fit::fit_effects;
-    use crate::tests::made_up::on_machine;
-    use snug_campaign::{Intersample, Quantity};
-    use snug_model::{Input, Scale};
+    use crate::tests::made_up::machine_sampled;
+    use snug_campaign::Intersample;
+    use snug_model::Input;
     use std::borrow::Cow;
 
     fn correlation(lost: &[f64]) -> f64 {
@@ -213,27 +215,11 @@ mod tests {
         assert!(correlation(&lost).abs() < WHITE + 0.125);
     }
 
-    /// What a machine of 0.4 kg m², 1.9 Nm s/rad and 30 Nm/rad is moved by along two sines, beside dry friction, and fitted without that.
+    /// The machine with dry friction, its input band-limited, fitted without that.
     fn with_friction(interval_s: f64, friction_nm: f64) -> (FitTask<'static>, Fitted) {
-        let scale = Scale::Rig {
-            torque_nm: 15.0,
-            angle_rad: 0.8,
-            time_s: 0.15,
-        };
-        let (mut torque_nm, mut measured) = (Vec::new(), Vec::new());
-        for sample in 0..1500 {
-            let (x, y) = (
-                5.0 * interval_s * f64::from(sample),
-                11.0 * interval_s * f64::from(sample),
-            );
-            let (angle, velocity) = (x.sin() + 0.5 * y.sin(), 5.0 * x.cos() + 5.5 * y.cos());
-            let acceleration = -25.0 * x.sin() - 60.5 * y.sin();
-            let friction = friction_nm * velocity.signum();
-            torque_nm.push(0.4 * acceleration + 1.9 * velocity + 30.0 * angle + friction);
-            measured.push(velocity);
-        }
-        let input = Input::new(&torque_nm, interval_s, Intersample::BandLimited);
-        let task = on_machine(scale, interval_s, torque_nm, Quantity::Velocity, measured);
+        let task = machine_sampled(interval_s, friction_nm);
+        let torque_nm = task.input.logged_nm();
+        let input = Input::new(torque_nm, interval_s, Intersample::BandLimited);
         let task = FitTask {
             input: Cow::Owned(input),
             ..task
@@ -273,11 +259,11 @@ mod tests {
         let mut as_much_and_farther = task.lent();
         let motion = &mut as_much_and_farther.tightening.to_mut().motion;
         let measured = motion.velocity_rad_per_s.as_mut().expect("it was measured");
-        measured[1200] *= 2.0;
+        measured[2513] *= 2.0;
         assert!(!is_alike(&[as_much_and_farther], &fitted, 0.5));
         let motion = &mut task.tightening.to_mut().motion;
         let measured = motion.velocity_rad_per_s.as_mut().expect("it was measured");
-        measured[750..].iter_mut().for_each(|speed| *speed *= 1.1);
+        measured[1500..].iter_mut().for_each(|speed| *speed *= 1.1);
         assert!(
             !is_alike(&[task.lent()], &fitted, 0.5),
             "it misses the model by more"

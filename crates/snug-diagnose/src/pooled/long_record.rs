@@ -31,11 +31,12 @@ pub(crate) fn best_of(
 
 /// Whether the records together take so long to simulate that not every candidate is followed to its end.
 pub(crate) fn take_long(records: &[FitTask<'_>]) -> bool {
-    records
-        .iter()
-        .map(|case| case.measured().len())
-        .sum::<usize>()
-        > SOON
+    samples(records) > SOON
+}
+
+/// Samples of all records together.
+pub(crate) fn samples(records: &[FitTask<'_>]) -> usize {
+    records.iter().map(|one| one.measured().len()).sum()
 }
 
 /// What comes first and holds enough of the motion.

@@ -89,7 +89,11 @@ pub(crate) fn noisy(number: usize, effects: &[Effect], sizes: &[f64]) -> FitTask
 /// A machine of 0.4 kg m², 1.9 Nm s/rad and 30 Nm/rad whose velocity is written down, a sum of two sines, with the torque that this
 /// takes beside dry friction of `friction_nm`: 15 s at 200 Hz.
 pub(crate) fn machine_with_friction(friction_nm: f64) -> FitTask<'static> {
-    const INTERVAL_S: f64 = 5e-3;
+    machine_sampled(5e-3, friction_nm)
+}
+
+/// The same with 3000 samples every `interval_s`.
+pub(crate) fn machine_sampled(interval_s: f64, friction_nm: f64) -> FitTask<'static> {
     let scale = Scale::Rig {
         torque_nm: 15.0,
         angle_rad: 0.8,
@@ -97,7 +101,7 @@ pub(crate) fn machine_with_friction(friction_nm: f64) -> FitTask<'static> {
     };
     let (mut torque_nm, mut measured) = (Vec::new(), Vec::new());
     for sample in 0..3000 {
-        let t = f64::from(sample) * INTERVAL_S;
+        let t = f64::from(sample) * interval_s;
         let (x, y) = (5.0 * t, 11.0 * t);
         let angle = x.sin() + 0.5 * y.sin();
         let velocity = 5.0 * x.cos() + 5.5 * y.cos();
@@ -106,7 +110,7 @@ pub(crate) fn machine_with_friction(friction_nm: f64) -> FitTask<'static> {
         torque_nm.push(0.4 * acceleration + 1.9 * velocity + 30.0 * angle + friction);
         measured.push(velocity);
     }
-    on_machine(scale, INTERVAL_S, torque_nm, Quantity::Velocity, measured)
+    on_machine(scale, interval_s, torque_nm, Quantity::Velocity, measured)
 }
 
 /// A recording of a machine of this scale, on an arm of 1 m.

@@ -7,7 +7,7 @@ use crate::ranking::rank::Candidate;
 use crate::selection::path::SelectionPath;
 use crate::selection::thresholds::MOST;
 use crate::settings::DiagnoseSettings;
-use crate::verdict::pushed_away::{may_be_held_back, may_push_away, pushed_away};
+use crate::verdict::pushed_away::{is_a_weight, may_be_held_back, may_push_away, pushed_away};
 use crate::verdict::thresholds::{
     FAR_BETTER, FEW_SAMPLES, LEAST_EXPLAINED, MOST_IN_FEW, MOSTLY_EXPLAINED, SHORTFALL, WHITE,
 };
@@ -214,7 +214,7 @@ pub(crate) fn is_declared_wrong(cases: &[FitTask<'_>], own: &Fitted) -> bool {
         return false;
     }
     if pushed_away(cases).is_some() {
-        return may_be_held_back;
+        return may_be_held_back && !is_a_weight(cases);
     }
     if is_a_model {
         return false;

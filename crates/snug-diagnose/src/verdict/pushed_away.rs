@@ -33,18 +33,17 @@ pub(crate) fn pushed_away(cases: &[FitTask<'_>]) -> Option<PushesAway> {
     })
 }
 
-/// Whether of a rig that pushes itself away this study would hold the stiffness back to 0 or more, though neither a free run follows nor is
-/// it a weight on an arm: what effects make of that is no rig.
+/// Whether of a rig that pushes itself away this study would hold the stiffness back to 0 or more, though a free run does not follow it: what
+/// effects make of that is no rig, unless it [is a weight on an arm](is_a_weight).
 pub(crate) fn may_be_held_back(cases: &[FitTask<'_>], own: &Fitted) -> bool {
     own.effects.is_empty()
         && cases.iter().all(|case| case.input.is_restarted())
         && !may_push_away(cases)
-        && !is_a_weight(cases)
 }
 
 /// Whether the sine of the angle in place of a stiffness leaves far less of the measured acceleration, beside dry friction and an offset: a
 /// weight on an arm that stands upright. Of a motion too small for that both leave the same.
-fn is_a_weight(cases: &[FitTask<'_>]) -> bool {
+pub(crate) fn is_a_weight(cases: &[FitTask<'_>]) -> bool {
     let can_act = |case: &FitTask<'_>| can_act(Effect::GravityTorque, case);
     if !cases.iter().all(can_act) {
         return false;
