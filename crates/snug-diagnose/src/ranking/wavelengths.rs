@@ -17,6 +17,7 @@ use snug_campaign::Quantity;
 use snug_identify::{FitTask, Modulation, integral};
 use snug_least_squares::matrix::{SymmetricMatrix, inner_product as dot};
 use snug_model::{Effect, Instant, Law, PlausibleRange};
+use std::borrow::Cow;
 
 /// Parameters of `effect` with which a refit may begin, the most promising first; none where no wavelength is among them.
 pub(crate) fn starts(cases: Cases<'_>, current: &Fitted, effect: Effect) -> Vec<Vec<f64>> {
@@ -24,11 +25,11 @@ pub(crate) fn starts(cases: Cases<'_>, current: &Fitted, effect: Effect) -> Vec<
         return Vec::new();
     };
     let some = cases.some(&current.spread(FEW));
-    let ranges = some[0].model.ranges(effect);
-    let mut best: Vec<Peak> = (HALF_WIDTHS_OF_BALANCE.iter())
-        .filter_map(|&half_width| peaks(&some, effect, place, &ranges, half_width))
-        .flatten()
+    let records: Vec<Record> = (some.iter())
+        .filter_map(|case| Record::of(case, SAMPLES_OF_BALANCE / some.len()))
         .collect();
+    let ranges = some[0].model.ranges(effect);
+    let mut best = peaks(&records, effect, place, &ranges);
     best.sort_by(|a, b| b.share.total_cmp(&a.share));
     let mut starts: Vec<Vec<f64>> = Vec::new();
     for peak in best {
@@ -48,55 +49,50 @@ struct Peak {
     values: Vec<f64>,
 }
 
-/// The highest peaks of what wavelengths explain of balances averaged over `half_width` samples to either side.
-fn peaks(
-    some: &[FitTask<'_>],
-    effect: Effect,
-    place: usize,
-    ranges: &[PlausibleRange],
-    half_width: usize,
-) -> Option<Vec<Peak>> {
-    let balances: Vec<Balance> = (some.iter())
-        .filter_map(|case| Balance::of(case, half_width, SAMPLES_OF_BALANCE / some.len()))
-        .collect();
-    let reach = balances.iter().map(Balance::reach).fold(0.0, f64::max);
+/// The highest peaks of what wavelengths explain of the balances of each width, width by width.
+fn peaks(records: &[Record], effect: Effect, place: usize, ranges: &[PlausibleRange]) -> Vec<Peak> {
+    let reach = records.iter().map(Record::reach).fold(0.0, f64::max);
     let (shortest, longest) = (ranges[place].minimum, ranges[place].maximum);
     let step = 1.0 / (PER_WAVE * reach);
     let count = ((1.0 / shortest - 1.0 / longest) / step).ceil();
     if !(reach > 0.0 && count >= 1.0) {
-        return None;
+        return Vec::new();
     }
-    let waves = Wave::of(effect, place, balances[0].lever_arm_m);
-    let explained = |wave_number: f64| explain(&balances, &waves, place, wave_number);
+    let waves = Wave::of(effect, place, records[0].lever_arm_m);
+    let explained =
+        |widths: &[usize], wave_number: f64| explain(records, widths, &waves, place, wave_number);
     let at = |index: f64| 1.0 / longest + step * index;
-    let grid: Vec<Peak> = (0..(count as usize).min(WAVELENGTHS))
+    let has_balance = |width: &usize| records.iter().any(|one| one.balances[*width].is_some());
+    let widths: Vec<usize> = (0..HALF_WIDTHS_OF_BALANCE.len())
+        .filter(has_balance)
+        .collect();
+    let grid: Vec<Vec<Peak>> = (0..(count as usize).min(WAVELENGTHS))
         .into_par_iter()
-        .map(|index| explained(at(index as f64)))
+        .map(|index| explained(&widths, at(index as f64)))
         .collect();
-    let mut highest: Vec<usize> = (0..grid.len())
-        .filter(|&index| {
+    let mut found = Vec::new();
+    for (number, &width) in widths.iter().enumerate() {
+        let share = |index: usize| grid[index][number].share;
+        let is_highest = |&index: &usize| {
             let beside = [index.wrapping_sub(1), index + 1];
-            let lower = |other: &usize| {
-                grid.get(*other)
-                    .is_none_or(|o| o.share <= grid[index].share)
-            };
-            beside.iter().all(lower)
-        })
-        .collect();
-    highest.sort_by(|&a, &b| grid[b].share.total_cmp(&grid[a].share));
-    let finer = highest.into_iter().take(PEAKS).filter_map(|index| {
-        let offsets = (0..=2 * FINER).map(|part| part as f64 / FINER as f64 - 1.0);
-        let near = offsets.map(|offset| at((index as f64 + offset).max(0.0)));
-        near.map(explained)
-            .max_by(|a, b| a.share.total_cmp(&b.share))
-    });
-    let mut found: Vec<Peak> = finer.collect();
+            let mut known = beside.iter().filter(|other| **other < grid.len());
+            known.all(|&other| share(other) <= share(index))
+        };
+        let mut highest: Vec<usize> = (0..grid.len()).filter(is_highest).collect();
+        highest.sort_by(|&a, &b| share(b).total_cmp(&share(a)));
+        found.extend(highest.into_iter().take(PEAKS).filter_map(|index| {
+            let offsets = (0..=2 * FINER).map(|part| part as f64 / FINER as f64 - 1.0);
+            let near = offsets.map(|offset| at((index as f64 + offset).max(0.0)));
+            near.flat_map(|wave_number| explained(&[width], wave_number))
+                .max_by(|a, b| a.share.total_cmp(&b.share))
+        }));
+    }
     for peak in &mut found {
         for (value, range) in peak.values.iter_mut().zip(ranges) {
             *value = value.clamp(range.limits.0, range.limits.1);
         }
     }
-    Some(found)
+    found
 }
 
 /// One wave of the force that size number `size` alone, of 1, makes.
@@ -160,45 +156,158 @@ impl InWave {
     }
 }
 
-/// What an effect of these waves explains of the balances with so many waves per metre, its sizes those that explain most.
-fn explain(balances: &[Balance], waves: &[Wave], place: usize, wave_number: f64) -> Peak {
-    let mut values = vec![0.0; waves.len() + 1];
-    values[place] = 1.0 / wave_number;
-    let mut squares = vec![vec![0.0; waves.len()]; waves.len()];
-    let (mut scores, mut whole) = (vec![0.0; waves.len()], 0.0);
-    for balance in balances {
-        let places = balance.x_m.iter().map(|x_m| x_m * wave_number);
-        let places: Vec<InWave> = places.map(InWave::after).collect();
-        let columns: Vec<Vec<f64>> = (waves.iter())
-            .map(|wave| balance.of_force(places.iter().map(|place| wave.at(place))))
+/// What an effect of these waves explains with so many waves per metre, its sizes those that explain most, of the balances of each width.
+fn explain(
+    records: &[Record],
+    widths: &[usize],
+    waves: &[Wave],
+    place: usize,
+    wave_number: f64,
+) -> Vec<Peak> {
+    let mut normals: Vec<Normal> = widths.iter().map(|_| Normal::new(waves.len())).collect();
+    for record in records {
+        // The force at every sample is the same for every width.
+        let places: Vec<InWave> = (record.x_m.iter())
+            .map(|x_m| InWave::after(x_m * wave_number))
             .collect();
-        for (i, column) in columns.iter().enumerate() {
-            scores[i] += dot(column, &balance.left_nm);
-            for (j, other) in columns.iter().enumerate() {
-                squares[i][j] += dot(column, other);
+        let forces: Vec<Vec<f64>> = (waves.iter())
+            .map(|wave| places.iter().map(|place| wave.at(place)).collect())
+            .collect();
+        for (normal, &width) in normals.iter_mut().zip(widths) {
+            if let Some(balance) = &record.balances[width] {
+                normal.add(balance, &forces, record.lever_arm_m);
             }
         }
-        whole += dot(&balance.left_nm, &balance.left_nm);
     }
-    let information = SymmetricMatrix::new(waves.len(), squares.concat());
-    let Some(sizes) = information.solve_scaled(&scores) else {
-        return Peak { share: 0.0, values };
-    };
-    for (wave, &size) in waves.iter().zip(&sizes) {
-        values[wave.size] = size;
+    let solved = normals.into_iter().map(|normal| {
+        let mut values = vec![0.0; waves.len() + 1];
+        values[place] = 1.0 / wave_number;
+        normal.solved(values, waves)
+    });
+    solved.collect()
+}
+
+/// Normal equations of the sizes of an effect.
+struct Normal {
+    squares: Vec<Vec<f64>>,
+    scores: Vec<f64>,
+    /// What there is to explain \[(Nm)²\].
+    whole: f64,
+}
+
+impl Normal {
+    fn new(sizes: usize) -> Self {
+        Self {
+            squares: vec![vec![0.0; sizes]; sizes],
+            scores: vec![0.0; sizes],
+            whole: 0.0,
+        }
     }
-    let share = dot(&sizes, &scores).abs() / whole.max(f64::MIN_POSITIVE);
-    Peak {
-        share: if share.is_finite() { share } else { 0.0 },
-        values,
+
+    /// Adds a balance, in which size number i makes force number i.
+    fn add(&mut self, balance: &Balance, forces: &[Vec<f64>], lever_arm_m: f64) {
+        let columns: Vec<Vec<f64>> = (forces.iter())
+            .map(|force| balance.of_force(force, lever_arm_m))
+            .collect();
+        for (i, column) in columns.iter().enumerate() {
+            self.scores[i] += dot(column, &balance.left_nm);
+            for (j, other) in columns.iter().enumerate() {
+                self.squares[i][j] += dot(column, other);
+            }
+        }
+        self.whole += dot(&balance.left_nm, &balance.left_nm);
+    }
+
+    /// The sizes that explain most, put into `values`.
+    fn solved(self, mut values: Vec<f64>, waves: &[Wave]) -> Peak {
+        let information = SymmetricMatrix::new(waves.len(), self.squares.concat());
+        let Some(sizes) = information.solve_scaled(&self.scores) else {
+            return Peak { share: 0.0, values };
+        };
+        for (wave, &size) in waves.iter().zip(&sizes) {
+            values[wave.size] = size;
+        }
+        let share = dot(&sizes, &self.scores).abs() / self.whole.max(f64::MIN_POSITIVE);
+        Peak {
+            share: if share.is_finite() { share } else { 0.0 },
+            values,
+        }
+    }
+}
+
+/// What was measured of one tightening, and its balances of torques.
+struct Record {
+    lever_arm_m: f64,
+    /// Displacement of the grip at every sample \[m\].
+    x_m: Vec<f64>,
+    /// One for each of [`HALF_WIDTHS_OF_BALANCE`] that the record is long enough for.
+    balances: Vec<Option<Balance>>,
+}
+
+impl Record {
+    /// Balances at no more than `most` places; nothing where angle or velocity are not known.
+    fn of(case: &FitTask<'_>, most: usize) -> Option<Self> {
+        let interval_s = case.tightening.time_base.interval_s;
+        let known = |quantity| case.tightening.motion.get(quantity);
+        let velocity = known(Quantity::Velocity);
+        let angle = match (known(Quantity::Displacement), velocity) {
+            (Some(angle), _) => Cow::Borrowed(angle),
+            (None, Some(velocity)) => Cow::Owned(integral(velocity, interval_s)),
+            _ => return None,
+        };
+        let measured = Measured {
+            torque_nm: &case.tightening.torque_nm,
+            angle: &angle,
+            velocity,
+            acceleration: known(Quantity::Acceleration),
+            first: case.unscored(),
+            interval_s,
+        };
+        let balances = HALF_WIDTHS_OF_BALANCE
+            .iter()
+            .map(|&half_width| Balance::of(&measured, half_width, most))
+            .collect();
+        let lever_arm_m = case.model.rig().lever_arm_m;
+        Some(Self {
+            lever_arm_m,
+            x_m: angle[..measured.end()]
+                .iter()
+                .map(|angle| lever_arm_m * angle)
+                .collect(),
+            balances,
+        })
+    }
+
+    /// How far the grip moves \[m\].
+    fn reach(&self) -> f64 {
+        let all = self.x_m.iter().copied().filter(|x| x.is_finite());
+        let (low, high) = all.fold((f64::MAX, f64::MIN), |(low, high), x| {
+            (low.min(x), high.max(x))
+        });
+        high - low
+    }
+}
+
+/// The signals of one tightening, in SI units.
+struct Measured<'a> {
+    torque_nm: &'a [f64],
+    angle: &'a [f64],
+    velocity: Option<&'a [f64]>,
+    acceleration: Option<&'a [f64]>,
+    /// First sample that is scored.
+    first: usize,
+    interval_s: f64,
+}
+
+impl Measured<'_> {
+    /// Behind the last sample of which torque and angle are known.
+    fn end(&self) -> usize {
+        self.angle.len().min(self.torque_nm.len())
     }
 }
 
 /// The balance of torques of one tightening, averaged here and there.
 struct Balance {
-    lever_arm_m: f64,
-    /// Displacement of the grip at every sample \[m\].
-    x_m: Vec<f64>,
     weights: Modulation,
     /// First sample of every place.
     places: Vec<usize>,
@@ -209,24 +318,16 @@ struct Balance {
 }
 
 impl Balance {
-    /// At no more than `most` places; nothing where angle or velocity are not known.
-    fn of(case: &FitTask<'_>, half_width: usize, most: usize) -> Option<Self> {
-        let weights = Modulation::new(half_width, case.tightening.time_base.interval_s);
-        let (lever_arm_m, torque_nm) = (case.model.rig().lever_arm_m, &case.tightening.torque_nm);
-        let known = |quantity| case.tightening.motion.get(quantity);
-        let acceleration = known(Quantity::Acceleration);
-        let velocity = known(Quantity::Velocity);
-        let summed;
-        let angle = match (known(Quantity::Displacement), velocity) {
-            (Some(angle), _) => angle,
-            (None, Some(velocity)) => {
-                summed = integral(velocity, case.tightening.time_base.interval_s);
-                &summed
-            }
-            _ => return None,
-        };
-        let first = case.unscored();
-        let end = angle.len().min(torque_nm.len());
+    /// At no more than `most` places.
+    fn of(measured: &Measured<'_>, half_width: usize, most: usize) -> Option<Self> {
+        let weights = Modulation::new(half_width, measured.interval_s);
+        let &Measured {
+            torque_nm,
+            angle,
+            velocity,
+            acceleration,
+            ..
+        } = measured;
         let length = weights.of_value.len();
         let hop = (2 * half_width / 3).max(1);
         let is_known = |place: &usize| {
@@ -237,7 +338,7 @@ impl Balance {
             };
             of(angle) && velocity.is_none_or(of) && acceleration.is_none_or(of)
         };
-        let places: Vec<usize> = (first..(end + 1).saturating_sub(length))
+        let places: Vec<usize> = (measured.first..(measured.end() + 1).saturating_sub(length))
             .step_by(hop)
             .filter(is_known)
             .take(most)
@@ -259,11 +360,6 @@ impl Balance {
         let mut left_nm = mean(torque_nm, &weights.of_value);
         let smooth = smooth([of_angle, of_velocity, of_acceleration]);
         let mut balance = Self {
-            lever_arm_m,
-            x_m: angle[..end]
-                .iter()
-                .map(|angle| lever_arm_m * angle)
-                .collect(),
             weights,
             places,
             explained: Vec::new(),
@@ -288,21 +384,11 @@ impl Balance {
         }
     }
 
-    /// How far the grip moves \[m\].
-    fn reach(&self) -> f64 {
-        let all = self.x_m.iter().copied().filter(|x| x.is_finite());
-        let (low, high) = all.fold((f64::MAX, f64::MIN), |(low, high), x| {
-            (low.min(x), high.max(x))
-        });
-        high - low
-    }
-
     /// The torque \[Nm\] of a force, averaged, without what every model may explain.
-    fn of_force(&self, force_n: impl Iterator<Item = f64>) -> Vec<f64> {
-        let force: Vec<f64> = force_n.collect();
+    fn of_force(&self, force_n: &[f64], lever_arm_m: f64) -> Vec<f64> {
         let weight = &self.weights.of_value;
         let mean =
-            |&place: &usize| self.lever_arm_m * dot(&force[place..place + weight.len()], weight);
+            |&place: &usize| lever_arm_m * dot(&force_n[place..place + weight.len()], weight);
         let mut column: Vec<f64> = self.places.iter().map(mean).collect();
         self.project(&mut column);
         column
