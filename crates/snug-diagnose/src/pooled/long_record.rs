@@ -9,17 +9,21 @@ use crate::pooled::thresholds::{
 use snug_identify::{FitTask, TighteningResidual, convex_set};
 use snug_least_squares::{DenseResidual, PooledFit, PooledSettings, Settings, solve};
 
-/// Fits from each of `starts`, and with their sizes from where the study's own mass, damping and stiffness begin; the
-/// lowest cost goes on to the end. Where the records [take long](take_long) to simulate, that is done on their beginnings, and
-/// from where it leads a few steps are taken on the whole.
+/// Fits from each of `starts`; the lowest cost goes on to the end. Where the records [take long](take_long) to simulate, that is done on
+/// their beginnings, and from where it leads a few steps are taken on the whole.
 ///
-/// A model without the effect may have been led far off by what it lacks, to where no step leads back.
+/// A model without the effect may be led far astray by what it lacks, to where no step leads back: the same sizes are begun with where
+/// the study's own mass, damping and stiffness begin, too.
 pub(crate) fn best_of(
     pooled: &mut PooledModel<'_>,
     starts: &[Start],
+    is_astray: bool,
     settings: &PooledSettings,
 ) -> Result<PooledFit, DiagnoseError> {
-    let starts = with_own_afresh(pooled, starts);
+    let starts = match is_astray {
+        true => with_own_afresh(pooled, starts),
+        false => starts.to_vec(),
+    };
     if !take_long(&pooled.cases) {
         return lowest(pooled, &starts, settings);
     }

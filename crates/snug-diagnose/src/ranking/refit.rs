@@ -2,6 +2,7 @@
 
 use crate::data::cases::Cases;
 use crate::data::clusters::Clusters;
+use crate::data::power::power;
 use crate::error::DiagnoseError;
 use crate::library::is_unlisted;
 use crate::pooled::equation::{with_base, with_shapes_of};
@@ -9,14 +10,14 @@ use crate::pooled::fitted::Fitted;
 use crate::pooled::long_record;
 use crate::pooled::model::{PooledModel, Start, pick};
 use crate::pooled::parameter_place::{effect_of, first_parameter};
-use crate::pooled::thresholds::A_FEW_STEPS;
+use crate::pooled::thresholds::{A_FEW_STEPS, SIEVED};
 use crate::ranking::first_ranking::Promise;
 use crate::ranking::resonances;
 use crate::ranking::sensitivity::Column;
 use crate::ranking::simulable::simulable;
 use crate::ranking::thresholds::{
-    CANDIDATE, FARTHER, FEW, FREELY, GLANCE, LED, LED_REACH, LEFT_BEHIND, LITTLE, MOST_ROUNDS,
-    ROUGH_REFIT, WORTH_A_START,
+    CANDIDATE, CANDIDATE_OF_LONG, FARTHER, FEW, FREELY, GLANCE, LED, LED_REACH, LEFT_BEHIND,
+    LITTLE, MOST_ROUNDS, NEARLY_NONE, ROUGH_REFIT, WORTH_A_START,
 };
 use crate::ranking::wavelengths;
 use crate::settings::DiagnoseSettings;
@@ -40,10 +41,12 @@ pub(crate) fn refit(
     effects.push(effect);
     let mut read_off = wavelengths::starts(cases, current, effect);
     read_off.extend(resonances::starts(cases, current, effect));
+    let is_astray = may_be_astray(&cases, current);
     // A term describes; which of its starts promises most is near enough to begin with.
     let most = match is_unlisted(effect) || !read_off.is_empty() {
         true => 1,
-        false => settings.starts,
+        false if is_astray => settings.starts,
+        false => settings.starts.min(SIEVED),
     };
     let starts = promising(effect, columns, most);
     let mut pooled = PooledModel::shared_by(cases, &effects, &current.sharing)?;
@@ -52,7 +55,7 @@ pub(crate) fn refit(
     let mut starts: Vec<Start> = (read_off.iter().map(Vec::as_slice).chain(starts))
         .map(begun)
         .collect();
-    if !clusters.are_whole() {
+    if !clusters.are_whole() && is_astray {
         // What the model lacks may have led its mass and damping so far off that the rig passes other waves than it did.
         starts.extend(with_shapes_of(&pooled, &starts[..read_off.len()]));
     }
@@ -85,7 +88,10 @@ fn led_by(
             let usual = current.start(pooled);
             long_record::to_the_end(pooled, &usual)
         }
-        starts if !clusters.are_whole() => long_record::best_of(pooled, starts, &CANDIDATE),
+        starts if !clusters.are_whole() => {
+            let is_astray = may_be_astray(&pooled.cases, current);
+            long_record::best_of(pooled, starts, is_astray, &CANDIDATE)
+        }
         // Beside an effect that lets go, what another one changes moves every instant of contact.
         [only]
             if !current.is_at_floor()
@@ -109,6 +115,13 @@ fn led_by(
     }
 }
 
+/// Whether what the model lacks may have led it so far off that no step leads back. Of records that take long nobody asks where the model
+/// explains nearly all.
+pub(crate) fn may_be_astray(records: &[FitTask<'_>], current: &Fitted) -> bool {
+    let explains_all = !current.is_weighted && current.squares() < NEARLY_NONE * power(records);
+    !(explains_all && long_record::take_long(records))
+}
+
 /// How far a candidate is followed from one start: beside a model that leaves but noise nothing is led astray, and a few steps tell all
 /// that could be gained.
 fn steps(current: &Fitted) -> &'static PooledSettings {
@@ -129,14 +142,18 @@ pub(super) fn possible(
     }
 }
 
-/// A candidate of records that take long, from where a few steps led.
+/// A candidate of a few long records, from where a few steps led.
 pub(crate) fn followed(
     cases: Cases<'_>,
     fitted: &Fitted,
     clusters: Clusters,
 ) -> Result<Fitted, DiagnoseError> {
     let mut pooled = PooledModel::shared_by(cases, &fitted.effects, &fitted.sharing)?;
-    let end = pooled.fit(&fitted.start(&pooled), &CANDIDATE)?;
+    let settings = match long_record::take_long(&pooled.cases) {
+        true => &CANDIDATE_OF_LONG,
+        false => &CANDIDATE,
+    };
+    let end = pooled.fit(&fitted.start(&pooled), settings)?;
     Ok(Fitted::new(&pooled, end, &clusters))
 }
 

@@ -5,6 +5,7 @@ use crate::pooled::fit::fit_effects;
 use crate::pooled::fitted::Fitted;
 use crate::selection::model_selection::ModelSelection;
 use crate::selection::path::SelectionPath;
+use rayon::prelude::*;
 
 impl ModelSelection<'_> {
     /// `path` with every model fitted to all samples from where it ended, the study's own as `compared` where that is better, and what
@@ -30,7 +31,7 @@ impl ModelSelection<'_> {
             }
         }
         let before = slow.squares();
-        let rungs: Result<Vec<Fitted>, _> = path.rungs.iter().map(at_full_rate).collect();
+        let rungs: Result<Vec<Fitted>, _> = path.rungs.par_iter().map(at_full_rate).collect();
         path.rungs = rungs?;
         let known = compared.rungs.into_iter();
         for (rung, known) in path.rungs.iter_mut().zip(known) {

@@ -176,17 +176,25 @@ impl Examination<'_> {
     fn places(&self) -> Result<Places, DiagnoseError> {
         let (first, last) = (&self.path.rungs[0], self.path.last());
         let (cases, seed) = (self.question.cases, self.settings.seed);
-        let sight = TighteningFits::of(cases, first)?;
+        let is_longer = last.effects != first.effects;
+        let (sight, last_sight) = rayon::join(
+            || TighteningFits::of(cases, first),
+            || {
+                is_longer
+                    .then(|| TighteningFits::of(cases, last))
+                    .transpose()
+            },
+        );
+        let (sight, last_sight) = (sight?, last_sight?);
         let base = sight.seen();
         let told = |seen: &[Seen<'_>]| {
             let explained = earned::explained(cases, last, seen);
             let left_over = earned::left_over(cases, explained.as_ref(), seen);
             (explained, left_over)
         };
-        let (final_location, (explained, left_over)) = match last.effects == first.effects {
-            true => (None, told(&base)),
-            false => {
-                let sight = TighteningFits::of(cases, last)?;
+        let (final_location, (explained, left_over)) = match &last_sight {
+            None => (None, told(&base)),
+            Some(sight) => {
                 let seen = sight.seen();
                 (Some(locate(&seen, seed)), told(&seen))
             }
