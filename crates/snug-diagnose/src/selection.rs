@@ -2,6 +2,7 @@
 
 pub(crate) mod backward_elimination;
 mod differing;
+mod escape;
 pub(crate) mod forward_selection;
 pub(crate) mod full_rate;
 pub(crate) mod model_selection;

@@ -24,6 +24,9 @@ pub struct DiagnoseSettings {
     pub seed: u64,
     /// Whether recordings move loads that differ a hundredfold, which otherwise looks like a unit that is wrong; default false.
     pub loads_differ: bool,
+    /// Whether the model is to predict: an effect then counts by what it takes of what is left, too, however little that is of all.
+    /// Default false; a study that keeps ranges or files for validation asks for it.
+    pub for_prediction: bool,
 }
 
 impl Default for DiagnoseSettings {
@@ -37,6 +40,7 @@ impl Default for DiagnoseSettings {
             control_campaigns: 200,
             seed: 0,
             loads_differ: false,
+            for_prediction: false,
         }
     }
 }

@@ -140,6 +140,7 @@ pub(crate) fn climbed(
     };
     let mut search = study.diagnosis.search.clone();
     search.seed = search.seed.wrapping_add(study.seed);
+    search.for_prediction |= study.validation.keeps_any();
     let question = Question {
         cases: &cases,
         effects: effects(study, &study.model.effects, &cases)?,
@@ -203,7 +204,9 @@ impl Search<'_> {
         if is_open && let Some((held, study)) = self.held_at_once(study, question)? {
             return Ok((held, Some(study)));
         }
-        let straight = self.examined(question)?;
+        let mut straight = self.examined(question)?;
+        let not_tried = held_input::not_tried(study, cases, &straight.diagnosis);
+        straight.diagnosis.reasons.extend(not_tried);
         if !is_open || straight.diagnosis.interrupted {
             return Ok((straight, None));
         }

@@ -13,10 +13,9 @@ use crate::ranking::applicability::candidates;
 use crate::ranking::by_group::{by_group, explains_more};
 use crate::ranking::paired_gain::gains;
 use crate::ranking::rank::{Candidate, Ranking, rank};
-use crate::selection::path::{Addition, SelectionPath, justified, misfit, twins};
+use crate::selection::path::{Addition, SelectionPath, justified, laws_may_matter, misfit, twins};
 use crate::selection::thresholds::{
-    ENOUGH_AHEAD, EQUAL, ESCAPED, JUST_AS_MUCH, LITTLE_LEFT, MOST_EFFECTS, MOST_ESCAPES, MUCH_LEFT,
-    SEEDS,
+    ENOUGH_AHEAD, EQUAL, JUST_AS_MUCH, LITTLE_LEFT, MOST_EFFECTS, MUCH_LEFT, SEEDS,
 };
 use crate::settings::DiagnoseSettings;
 use snug_least_squares::PooledSettings;
@@ -112,70 +111,23 @@ impl ModelSelection<'_> {
         Ok(())
     }
 
-    pub fn rank(
-        &self,
-        current: &Fitted,
-        control_campaigns: usize,
-    ) -> Result<Ranking, DiagnoseError> {
-        self.watch.begin(&format!(
-            "ranking what is missing beside {}",
-            list(&current.effects)
-        ))?;
-        let all = candidates(&self.cases, current, self.custom)?;
+    /// Ranks what is missing beside the last model.
+    pub(super) fn rank(&self, path: &SelectionPath) -> Result<Ranking, DiagnoseError> {
+        let current = path.last();
+        let beside = list(&current.effects);
+        (self.watch).begin(&format!("ranking what is missing beside {beside}"))?;
+        let mut all = candidates(&self.cases, current, self.custom)?;
+        let laws_may_matter = laws_may_matter(&path.rungs[0], current);
+        all.retain(|effect| laws_may_matter || !is_unlisted(*effect));
         rank(
             self.cases,
             current,
             &all,
             self.clusters,
             self.settings,
-            control_campaigns,
+            self.settings.control_campaigns,
             self.watch,
         )
-    }
-
-    /// Ranks what is missing beside the last model. Where a candidate's end leads that model itself to a better place, the place
-    /// is the model's, and all are judged by it: credit belongs to what an effect adds, not to the way out of a poor minimum.
-    /// Beside rounding nothing is looked for.
-    pub fn rank_last(&self, path: &mut SelectionPath) -> Result<(), DiagnoseError> {
-        if path.last().is_exact {
-            return Ok(());
-        }
-        let campaigns = self.settings.control_campaigns;
-        path.ranking = self.rank(path.last(), campaigns)?;
-        for _ in 0..MOST_ESCAPES {
-            let Some(better) = self.elsewhere(path.last(), &path.ranking)? else {
-                break;
-            };
-            path.replace_last(better);
-            path.ranking = self.rank(path.last(), campaigns)?;
-        }
-        path.doubt_what_was_taken_out();
-        Ok(())
-    }
-
-    /// The model of `current` from where its best extensions ended, if that is plainly a better place. Many tightenings lead each
-    /// other; a few long records do not.
-    fn elsewhere(
-        &self,
-        current: &Fitted,
-        ranking: &Ranking,
-    ) -> Result<Option<Fitted>, DiagnoseError> {
-        if self.clusters.are_whole() {
-            return Ok(None);
-        }
-        let mut best: Option<Fitted> = None;
-        for candidate in ranking.candidates.iter().take(SEEDS) {
-            self.watch.go_on()?;
-            let from = Some(&candidate.fitted);
-            let Ok(fitted) = fit_effects(self.cases, &current.effects, from, self.clusters) else {
-                continue;
-            };
-            let known = best.as_ref().unwrap_or(current).squares();
-            if fitted.squares() < ESCAPED * known {
-                best = Some(fitted);
-            }
-        }
-        Ok(best)
     }
 
     /// The same effects, fitted from there to the end; sizes that differed between groups are one again where what was added makes

@@ -9,7 +9,8 @@ use crate::ranking::kin::is_simpler;
 use crate::ranking::paired_gain::agreement;
 use crate::ranking::rank::{Candidate, Ranking};
 use crate::selection::thresholds::{
-    AS_MUCH, EQUAL, GOOD_PART, MATTERS, MOST, NO_OTHER, PLAINLY_MORE, PROMISING_P, SMALL, TRIFLE,
+    AS_MUCH, EQUAL, GOOD_PART, MATTERS, MOST, NO_OTHER, OF_PREDICTIONS, PLAINLY_MORE, PROMISING_P,
+    SMALL, TRIFLE,
 };
 use crate::settings::DiagnoseSettings;
 use snug_model::Effect;
@@ -301,11 +302,16 @@ pub(crate) fn justified(
     let share = |index: usize, of: &Fitted| all[index].gain_beside(current) / of.squares();
     let matters = |index: &usize| share(*index, current) >= current.smallest_gain(settings);
     // What takes most of the rest leaves the other sizes wrong while it is missing, however little that is beside the beginning.
-    let takes_most = |index: usize| !is_unlisted(all[index].effect) && share(index, current) > MOST;
+    let of_the_rest = match settings.for_prediction {
+        true => OF_PREDICTIONS,
+        false => MOST,
+    };
+    let takes_much =
+        |index: usize| !is_unlisted(all[index].effect) && share(index, current) > of_the_rest;
     let is_enough = |index: &usize| {
         current.is_weighted
             || share(*index, first) >= least_share(all[*index].effect)
-            || takes_most(*index)
+            || takes_much(*index)
     };
     match (0..all.len()).find(supported) {
         Some(best) => {
@@ -334,6 +340,12 @@ pub(crate) fn justified(
             })
         }
     }
+}
+
+/// Whether `current` leaves so much of what the study's own model `first` left that a law in no catalogue could still be told. Where the
+/// noise is known, any may.
+pub(crate) fn laws_may_matter(first: &Fitted, current: &Fitted) -> bool {
+    current.is_weighted || current.squares() >= MATTERS * first.squares()
 }
 
 /// Share of what the study's own model left that an effect must take away where the noise is not known.

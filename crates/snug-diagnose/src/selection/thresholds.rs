@@ -45,6 +45,8 @@ pub(crate) const MATTERS: f64 = 0.1;
 /// The same below which an effect of the catalogue is not added any more \[–\], unless it takes `MOST` of what is left: a fan's air was
 /// told 6 % too thin without the friction of its bearing, which takes three quarters of the rest and 0.03 % of all. Chosen.
 pub(crate) const TRIFLE: f64 = 0.001;
+/// Share of what is left that one below it must take where the model is to predict \[–\]. Chosen: 5 % of the error with which it predicts.
+pub(crate) const OF_PREDICTIONS: f64 = 0.1;
 /// Effects a model can be extended by before the search is called off. Chosen.
 pub(crate) const MOST_EFFECTS: usize = 5;
 /// Share of the misfit left by one effect beyond which two are tried together \[–\]. Chosen.

@@ -5,8 +5,8 @@ use crate::data::machine::is_machine;
 use crate::library::{declaration, in_words, named};
 use crate::pooled::fitted::Fitted;
 use crate::ranking::rank::Candidate;
-use crate::selection::path::{Addition, Attempt, Stop, least_share};
-use crate::selection::thresholds::{NEARLY_ALL, SMALL};
+use crate::selection::path::{Addition, Attempt, Stop, laws_may_matter, least_share};
+use crate::selection::thresholds::{MATTERS, NEARLY_ALL, SMALL};
 use crate::settings::DiagnoseSettings;
 use crate::verdict::changes::are_above_all;
 use snug_campaign::words::changes::Changes;
@@ -232,8 +232,19 @@ pub(crate) fn reasons(situation: &Situation<'_>) -> Vec<Reason> {
     if !situation.impossible.is_empty() {
         reasons.push(Reason::NotSimulated(all_named(situation.impossible)));
     }
+    reasons.extend(laws_left_out(situation));
     reasons.extend(what_would_decide(situation));
     reasons
+}
+
+/// That laws in no catalogue were not ranked beside the last model, if so.
+fn laws_left_out(situation: &Situation<'_>) -> Option<Reason> {
+    let (before, after) = (situation.before, situation.after);
+    let was_ranked = !situation.ranking.is_empty();
+    (was_ranked && !laws_may_matter(before, after)).then(|| Reason::LawsLeftOut {
+        left: after.squares() / before.squares(),
+        least: MATTERS,
+    })
 }
 
 /// `None` where that is rounding, of which the headline says enough.

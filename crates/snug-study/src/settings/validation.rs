@@ -20,6 +20,11 @@ pub struct ValidationSettings {
 }
 
 impl ValidationSettings {
+    /// Whether anything is kept.
+    pub(crate) fn keeps_any(&self) -> bool {
+        !(self.ranges.is_empty() && self.files.is_empty())
+    }
+
     /// Whether a file is kept as a whole.
     pub(crate) fn keeps(&self, file: &Path) -> bool {
         let name = name_of(file);

@@ -39,10 +39,28 @@ const HALF_AN_INTERVAL: std::ops::RangeInclusive<f64> = 0.35..=0.65;
 
 /// Whether the study leaves it open, and so few samples were recorded that a search may be made again with a held input.
 pub(crate) fn is_open(study: &Study, cases: &[FitTask<'_>]) -> bool {
-    let samples: usize = cases.iter().map(|case| case.measured().len()).sum();
-    study.model.intersample.is_none()
-        && matches!(study.model.scale, Scale::Rig { .. })
-        && samples <= MOST_SAMPLES
+    is_unsaid(study) && samples(cases) <= MOST_SAMPLES
+}
+
+/// What is told where the study leaves it open and a search found a delay that looks like a held input, but so many samples were recorded
+/// that it is not made again.
+pub(crate) fn not_tried(
+    study: &Study,
+    cases: &[FitTask<'_>],
+    diagnosis: &Diagnosis,
+) -> Option<Reason> {
+    let interval_s = cases.first()?.tightening.time_base.interval_s;
+    let looks_like_it = is_unsaid(study) && is_half_an_interval_late(diagnosis, interval_s);
+    (looks_like_it && samples(cases) > MOST_SAMPLES).then_some(Reason::HeldNotTried)
+}
+
+/// Whether the study says nothing of how a machine's input runs between samples.
+fn is_unsaid(study: &Study) -> bool {
+    study.model.intersample.is_none() && matches!(study.model.scale, Scale::Rig { .. })
+}
+
+fn samples(cases: &[FitTask<'_>]) -> usize {
+    cases.iter().map(|case| case.measured().len()).sum()
 }
 
 /// Whether the study's own model leaves somewhat less with a held input, so that it is worth to be looked into before the search.

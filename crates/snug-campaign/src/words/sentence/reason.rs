@@ -7,7 +7,7 @@ use crate::words::chance::by_chance;
 use crate::words::effect_name::Named;
 use crate::words::effect_name::effect_name;
 use crate::words::grammar::{capitalised, counted, joined};
-use crate::words::number::whole_percent;
+use crate::words::number::{short, significant, whole_percent};
 use crate::words::sentence::changes::Changes;
 use crate::words::sentence::headline::Left;
 use crate::words::sentence::said::written_as_said;
@@ -117,6 +117,13 @@ pub enum Reason {
     },
     /// Effects that this rig cannot be simulated with.
     NotSimulated(Vec<Named>),
+    /// Laws that are in no catalogue were not tried beside the last model, which leaves too little for one to be told.
+    LawsLeftOut {
+        /// Share of the squared error with which it began \[–\].
+        left: f64,
+        /// The same from which a law is told \[–\].
+        least: f64,
+    },
     /// What would decide.
     WouldDecide {
         /// The best candidate.
@@ -144,6 +151,8 @@ pub enum Reason {
     },
     /// Whether the input is held was still being tried when the search was ended.
     HeldUndecided,
+    /// What was found looks like a held input, which so many samples keep from being tried.
+    HeldNotTried,
     /// Tightenings that could not be judged by the common measure.
     LeftOut {
         /// How many.
@@ -190,6 +199,7 @@ pub enum Reason {
 }
 
 /// Said where a search with a held input was ended.
+const HELD_NOT_TRIED: &str = "The delay that was found is about half a sampling interval, which is what an input looks like that is held from sample to sample, as a controller's is. Of so many samples that was not tried: state `model: (intersample: ZeroOrder)` in the study where it is held, `Linear` where it runs straight.";
 const HELD_UNDECIDED: &str = "It was ended while the same was tried with an input that is held from sample to sample: part of what was found may be half a sampling interval (`model.intersample` in the study says which input it is).";
 
 written_as_said!(Reason);
@@ -239,6 +249,7 @@ impl Display for Reason {
                 "Not tried, because this rig cannot be simulated with any size that was begun with: {}.",
                 joined(&spoken(effects))
             ),
+            Self::LawsLeftOut { left, least } => laws_left_out(f, *left, *least),
             Self::WouldDecide {
                 effect,
                 p_family,
@@ -251,6 +262,7 @@ impl Display for Reason {
                 is_half_an_interval,
             } => held(f, spared, *is_half_an_interval),
             Self::HeldUndecided => f.write_str(HELD_UNDECIDED),
+            Self::HeldNotTried => f.write_str(HELD_NOT_TRIED),
             Self::LeftOut {
                 left_out,
                 all,
@@ -321,6 +333,14 @@ fn whose(f: &mut Formatter<'_>, effect: &Named, parameter: &EffectParameter) -> 
         sizes.factor.plural(),
         parameter.size().name,
         sizes.sentence(&parameter.unit)
+    )
+}
+
+fn laws_left_out(f: &mut Formatter<'_>, left: f64, least: f64) -> fmt::Result {
+    let (left, least) = (significant(100.0 * left, 2), short(100.0 * least));
+    write!(
+        f,
+        "Simple forces that are in no catalogue were not tried beside this model: it leaves {left}\u{a0}% of the squared error with which this began, and one is told from {least}\u{a0}% on."
     )
 }
 

@@ -95,6 +95,44 @@ fn what_is_a_trifle_of_what_the_first_model_left_ends_the_selection() {
     assert_eq!(justified(&both, &current, &first, &settings()), Ok(1));
 }
 
+/// 15 % of what is left, which is 0.015 % of all, are 8 % of the error with which it predicts.
+#[test]
+fn what_is_left_counts_too_for_a_model_that_is_to_predict() {
+    let [first, current] = [100_000.0, 100.0].map(|squares| model(squares).unweighted());
+    let predicts = DiagnoseSettings {
+        for_prediction: true,
+        ..settings()
+    };
+    let of = |effect: Effect, mean: f64, settings: &DiagnoseSettings| {
+        let ranking = ranking(vec![candidate(effect, 0.001, &clear(mean))]);
+        justified(&ranking, &current, &first, settings).is_ok()
+    };
+    assert!(of(QuadraticDamping, 15.0, &predicts));
+    assert!(!of(QuadraticDamping, 15.0, &settings()));
+    assert!(
+        !of(QuadraticDamping, 5.0, &predicts),
+        "too little of what is left"
+    );
+    assert!(
+        !of(term("x_v_law"), 15.0, &predicts),
+        "it is in no catalogue"
+    );
+}
+
+/// A law in no catalogue is told from 10 % of what the first model left on.
+#[test]
+fn laws_in_no_catalogue_are_asked_for_while_enough_is_left() {
+    let of = |left: f64| {
+        let [first, current] = [100.0, left].map(|squares| model(squares).unweighted());
+        laws_may_matter(&first, &current)
+    };
+    assert!(of(100.0) && of(10.1) && !of(9.9));
+    assert!(
+        laws_may_matter(&model(1e4), &model(1.0)),
+        "the noise is known"
+    );
+}
+
 #[test]
 fn a_size_that_may_be_nothing_supports_nothing() {
     let mut inert = candidate(CubicStiffness, 0.001, &clear(50.0));
