@@ -63,13 +63,22 @@ impl Changes {
         };
         format!("{when} {what} {how}")
     }
+
+    /// Whether it is the time between input and output, which is no matter of the rig.
+    fn is_delay(&self) -> bool {
+        matches!(&self.what, Changing::Size(effect) if effect.effect == "torque_delay")
+    }
 }
 
 impl Display for Changes {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let why = match self.after {
-            None => "It may warm up, empty or wear",
-            Some(_) => "Something may be put on, come off, break or be set otherwise",
+        let why = match (self.is_delay(), self.after) {
+            (true, None) => {
+                "Input and output may be logged by two clocks, of which one goes faster"
+            }
+            (true, Some(_)) => "One of input and output may have lost samples there",
+            (false, None) => "It may warm up, empty or wear",
+            (false, Some(_)) => "Something may be put on, come off, break or be set otherwise",
         };
         write!(
             f,
@@ -103,6 +112,28 @@ mod tests {
         let said = "at once, after about 50 % of r1.csv and r3.csv, the mass grows to";
         assert!(at_once.contains(said), "{at_once}");
         assert!(at_once.contains("put on"), "{at_once}");
+    }
+
+    #[test]
+    fn a_delay_that_changes_is_no_matter_of_the_rig() {
+        let said = |after: Option<f64>| {
+            let delay = Changing::Size(Named::alone("torque_delay".to_owned(), None));
+            let changes = Changes {
+                what: delay,
+                times: -1.0,
+                taken: 0.9,
+                after,
+                only_in: Vec::new(),
+            };
+            changes.to_string()
+        };
+        assert!(
+            said(None).contains("logged by two clocks"),
+            "{}",
+            said(None)
+        );
+        assert!(said(Some(0.4)).contains("lost samples"));
+        assert!(!said(None).contains("wear"));
     }
 
     #[test]
