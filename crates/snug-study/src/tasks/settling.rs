@@ -180,7 +180,8 @@ impl Sizes {
             sizes.time_s = time_s.map_or(sizes.time_s, |time_s| sizes.time_s.min(time_s));
         }
         if is_undriven {
-            sizes.torque_nm = cases[0].known_torque(sizes.angle_rad, sizes.time_s)?;
+            let first = cases.first()?;
+            sizes.torque_nm = first.known_torque(sizes.angle_rad, sizes.time_s)?;
         }
         let all = [sizes.torque_nm, sizes.angle_rad, sizes.time_s];
         let sane = |size: &f64| size.is_finite() && *size > 0.0;
