@@ -242,6 +242,44 @@ fn a_diagnosis_of_nothing_says_what_was_left_out() {
     assert!(out.path().join("findings.json").is_file());
 }
 
+/// A shaker whose accelerometer ends at 6 m/s²: no recording can be judged, which every verb says with its reason.
+#[test]
+fn a_rig_of_which_no_recording_can_be_used_is_told_why() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut rows = "force,acceleration\n".to_owned();
+    for k in 0..2000 {
+        let force = (0.05 * f64::from(k)).sin() + (0.31 * f64::from(k)).sin();
+        rows.push_str(&format!("{force},{}\n", (8.0 * force).clamp(-6.0, 6.0)));
+    }
+    std::fs::write(folder.path().join("shaker.csv"), rows).unwrap();
+    let text = format!(
+        r#"(
+            source: (path: {:?}, format: Csv(
+                channels: [
+                    (column: Name("force"), signal: Force, unit: Newton),
+                    (column: Name("acceleration"), signal: Acceleration, unit: MetrePerSecondSquared),
+                ],
+                sampling: Rate(hz: 1000.0),
+            )),
+            preprocess: (window: Whole, rig: (lever_arm_m: 1.0, known_inertia: Fixed(0.0))),
+            identify: (fitted_output: Acceleration),
+        )"#,
+        folder.path()
+    );
+    let study = Study::parse(&text, Path::new("shaker.ron")).unwrap();
+    let (outcome, _out) = run_study(&study).unwrap();
+    let told = left_out(&outcome, "shaker.csv");
+    assert!(told.iter().any(|one| one.code == "saturation"), "{told:?}");
+    let out = tempfile::tempdir().unwrap();
+    let (settings, never) = (RunSettings::new(out.path()), AtomicBool::new(false));
+    let refused = diagnose(&study, &Verb::Improve, &settings, &|_| (), &never);
+    let why = refused.map(|_| ()).unwrap_err().to_string();
+    assert!(
+        why.contains("shaker.csv") && why.contains("end of its range"),
+        "{why}"
+    );
+}
+
 #[test]
 fn a_value_that_is_not_allowed_is_told_with_line_and_column() {
     let folder = tempfile::tempdir().unwrap();

@@ -62,7 +62,9 @@ fn nothing_to_compare(
         // The outcome says of the first why it could not be used.
         (0, _) | (_, Some(_)) => Ok(outcome),
         (_, None) => Err(DiagnoseError::NothingToCompare {
-            reason: "each is faulty, kept for validation or too short; findings.json says which are faulty".into(),
+            reason: outcome
+                .first_left_out()
+                .unwrap_or_else(|| "each is kept for validation or too short".to_owned()),
         }
         .into()),
     }

@@ -60,21 +60,25 @@ impl Outcome {
         if estimates.any(|one| matches!(one.status, Converged | ConvergedAtConstraint)) {
             return None;
         }
-        let mut left_out =
-            (self.result.findings.iter()).filter(|finding| finding.severity == Severity::LeftOut);
-        let Some(first) = left_out.next() else {
-            return Some(
-                "nothing was identified: no fit found an optimum; the column status of \
-                 tightenings.csv says how each ended"
-                    .to_owned(),
-            );
-        };
+        Some(match self.first_left_out() {
+            Some(first) => format!("nothing was identified: {first}"),
+            None => "nothing was identified: no fit found an optimum; the column status of \
+                     tightenings.csv says how each ended"
+                .to_owned(),
+        })
+    }
+
+    /// What was left out first, and how much more; `None` where nothing was.
+    pub(crate) fn first_left_out(&self) -> Option<String> {
+        let findings = self.result.findings.iter();
+        let mut left_out = findings.filter(|finding| finding.severity == Severity::LeftOut);
+        let first = left_out.next()?;
         let more = match left_out.count() {
             0 => String::new(),
             some => format!(" (and {some} more)"),
         };
         Some(format!(
-            "nothing was identified: {}: {}{more}; findings.json says everything",
+            "{}: {}{more}; findings.json says everything",
             first.file, first.message
         ))
     }

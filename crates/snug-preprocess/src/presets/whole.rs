@@ -2,7 +2,7 @@
 
 use crate::prepared::Prepared;
 use crate::quality::wrapped::{Wrapped, unwrap};
-use crate::quality::{catching_up, spikes};
+use crate::quality::{catching_up, saturation, spikes};
 use crate::segment::channel::Channel;
 use crate::segment::context::Context;
 use crate::segment::integration::complete;
@@ -18,6 +18,10 @@ const KICKED: usize = 4;
 
 /// Share of a recording's samples that may be mended \[–\]: more are no faults of a sensor that come now and then. Chosen.
 const MOST_MENDED: f64 = 0.02;
+
+/// Share of a recording's samples that may stand at the limit of a sensor \[–\]. Chosen: of a rig whose acceleration is cut off at 0.55 of its
+/// peak a search took five effects, none of which was there.
+const MOST_AT_LIMIT: f64 = 0.01;
 
 /// What a rig's inertia keeps from jumping there and back.
 const OF_MOTION: [Quantity; 2] = [Quantity::Displacement, Quantity::Velocity];
@@ -47,13 +51,14 @@ pub(crate) fn prepare(
     }
     mend_spikes(context, &mut signals, remarks);
     tell_dropouts(context, &signals, remarks);
+    tell_saturation(context, source, &signals, remarks);
     complete(&mut signals.motion, context.interval_s);
     let peak = peak_torque_nm(&signals.torque_nm);
     Ok(Prepared {
         tightening: context.tightening(remarks, signals, 0, peak),
         thesis_checks: None,
         zero_sample: None,
-        data_quality_rejects: false,
+        data_quality_rejects: remarks.rejects(),
     })
 }
 
@@ -112,6 +117,40 @@ fn tell_dropouts(context: &Context<'_>, signals: &Signals, remarks: &mut Remarks
             );
             remarks.note("dropout", Some(channel), message);
         }
+    }
+}
+
+/// Says where an acceleration ends at the limit of its sensor; where it is what is fitted, and does so often, that keeps the recording from
+/// being judged. A displacement or velocity may rest at its largest value: at a stop, or as fast as a motor turns.
+fn tell_saturation(
+    context: &Context<'_>,
+    source: Quantity,
+    signals: &Signals,
+    remarks: &mut Remarks,
+) {
+    let Some(samples) = &signals.motion.acceleration_rad_per_s2 else {
+        return;
+    };
+    let Some(limit) = saturation::find(samples, context.settings.quality.saturated_samples) else {
+        return;
+    };
+    let channel = Channel::Motion(Quantity::Acceleration);
+    let what = format!(
+        "{} stays at one largest or smallest value for {} of {} samples, {} in a row, as a sensor does at the end of its range",
+        channel.name(),
+        limit.samples,
+        samples.len(),
+        limit.longest_run
+    );
+    let share = limit.samples as f64 / samples.len() as f64;
+    if source == Quantity::Acceleration && share > MOST_AT_LIMIT {
+        let message = format!(
+            "{what}: no model follows it there, and the recording is kept out of what is compared and counted; measure in a wider range, or drive the rig less"
+        );
+        remarks.reject("saturation", Some(channel), message);
+    } else {
+        let message = format!("{what}; it is taken as it is");
+        remarks.note("saturation", Some(channel), message);
     }
 }
 

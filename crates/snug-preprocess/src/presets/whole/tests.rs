@@ -99,3 +99,30 @@ fn whole_segments_stay_as_measured() {
     let result = preprocess(&recording, &settings, Quantity::Acceleration).unwrap();
     assert_eq!(codes(&result), ["missing_channel"]);
 }
+
+/// A swing of 314 samples stands at 0.98 of its amplitude for 20 in a row, 6 % of it; one swing among many that are half as large does for
+/// less than 1 % of all.
+#[test]
+fn an_acceleration_at_the_end_of_its_sensor_s_range_is_told() {
+    let told = |limit: f64, swings: usize, fitted: Quantity| {
+        let mut recording = recording(&[51], 0.0);
+        let swing = |k: usize| {
+            let size = if k < swings * 314 { 1.0 } else { 0.5 };
+            (size * (0.02 * k as f64).sin()).clamp(-limit, limit)
+        };
+        recording.torque_nm = (0..SEGMENT).map(|k| (0.01 * k as f64).sin()).collect();
+        recording.motion = Motion {
+            acceleration_rad_per_s2: Some((0..SEGMENT).map(swing).collect()),
+            displacement_rad: Some((0..SEGMENT).map(|k| (0.02 * k as f64).sin()).collect()),
+            ..Default::default()
+        };
+        let mut result = preprocess(&recording, &whole(), fitted).unwrap();
+        let is_told = codes(&result).contains(&"saturation".to_owned());
+        (is_told, result.tightenings.remove(0).data_quality_rejects)
+    };
+    let all = SEGMENT / 314;
+    assert_eq!(told(2.0, all, Quantity::Acceleration), (false, false));
+    assert_eq!(told(0.98, all, Quantity::Acceleration), (true, true));
+    assert_eq!(told(0.98, all, Quantity::Displacement), (true, false));
+    assert_eq!(told(0.98, 1, Quantity::Acceleration), (true, false));
+}
