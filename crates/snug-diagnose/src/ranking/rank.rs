@@ -29,7 +29,6 @@ use crate::settings::DiagnoseSettings;
 use rayon::prelude::*;
 use snug_identify::FitTask;
 use snug_model::{Effect, Law};
-use std::cmp::Reverse;
 
 /// A candidate after its refit.
 #[derive(Debug, Clone)]
@@ -141,7 +140,6 @@ pub(crate) fn rank(
     watch: &Watch<'_>,
 ) -> Result<Ranking, DiagnoseError> {
     cases.tally().ranking();
-    let candidates = &longest_first(candidates);
     watch.pieces(Pieces::Of(candidates.len()));
     let pooled = PooledModel::shared_by(cases, &current.effects, &current.sharing)?;
     let control = Control {
@@ -199,17 +197,6 @@ pub(crate) fn rank(
         columns,
         control,
     })
-}
-
-/// Those first that take longest to refit: no core is left with one of them when the others are done.
-fn longest_first(candidates: &[Effect]) -> Vec<Effect> {
-    let mut sorted = candidates.to_vec();
-    let is_read_off =
-        |effect: &Effect| effect.wavelength().is_some() || effect.resonance().is_some();
-    sorted.sort_by_key(|effect| {
-        Reverse((is_read_off(effect), effect.description().parameters.len()))
-    });
-    sorted
 }
 
 /// A refitted candidate beside what was left without it.

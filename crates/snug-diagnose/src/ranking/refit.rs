@@ -10,7 +10,7 @@ use crate::pooled::fitted::Fitted;
 use crate::pooled::long_record;
 use crate::pooled::model::{PooledModel, Start, pick};
 use crate::pooled::parameter_place::{effect_of, first_parameter};
-use crate::pooled::thresholds::{A_FEW_STEPS, SIEVED};
+use crate::pooled::thresholds::A_FEW_STEPS;
 use crate::ranking::first_ranking::Promise;
 use crate::ranking::resonances;
 use crate::ranking::sensitivity::Column;
@@ -41,12 +41,10 @@ pub(crate) fn refit(
     effects.push(effect);
     let mut read_off = wavelengths::starts(cases, current, effect);
     read_off.extend(resonances::starts(cases, current, effect));
-    let is_astray = may_be_astray(&cases, current);
     // A term describes; which of its starts promises most is near enough to begin with.
     let most = match is_unlisted(effect) || !read_off.is_empty() {
         true => 1,
-        false if is_astray => settings.starts,
-        false => settings.starts.min(SIEVED),
+        false => settings.starts,
     };
     let starts = promising(effect, columns, most);
     let mut pooled = PooledModel::shared_by(cases, &effects, &current.sharing)?;
@@ -55,7 +53,8 @@ pub(crate) fn refit(
     let mut starts: Vec<Start> = (read_off.iter().map(Vec::as_slice).chain(starts))
         .map(begun)
         .collect();
-    if !clusters.are_whole() && is_astray {
+    let is_astray = may_be_astray(&cases, current);
+    if is_astray {
         // What the model lacks may have led its mass and damping so far off that the rig passes other waves than it did.
         starts.extend(with_shapes_of(&pooled, &starts[..read_off.len()]));
     }
@@ -64,7 +63,7 @@ pub(crate) fn refit(
     let nothing: Vec<Start> = (nothing.iter())
         .map(|values| simulable(begun(values)))
         .collect();
-    let end = led_by(&mut pooled, current, &starts, clusters);
+    let end = led_by(&mut pooled, current, &starts, is_astray, clusters);
     let mut end = no_worse(&mut pooled, current, &nothing, end)?;
     if !clusters.are_whole() {
         end = as_promised(&mut pooled, current, promise, end)?;
@@ -72,11 +71,12 @@ pub(crate) fn refit(
     Ok(Fitted::new(&pooled, end, &clusters))
 }
 
-/// Where the starts lead to, all of the effect's parameters free.
+/// Where the starts lead to, all of the effect's parameters free; `current` may have been led astray.
 fn led_by(
     pooled: &mut PooledModel<'_>,
     current: &Fitted,
     starts: &[Start],
+    is_astray: bool,
     clusters: Clusters,
 ) -> Result<PooledFit, DiagnoseError> {
     match starts {
@@ -89,7 +89,6 @@ fn led_by(
             long_record::to_the_end(pooled, &usual)
         }
         starts if !clusters.are_whole() => {
-            let is_astray = may_be_astray(&pooled.cases, current);
             long_record::best_of(pooled, starts, is_astray, &CANDIDATE)
         }
         // Beside an effect that lets go, what another one changes moves every instant of contact.
@@ -115,11 +114,11 @@ fn led_by(
     }
 }
 
-/// Whether what the model lacks may have led it so far off that no step leads back. Of records that take long nobody asks where the model
-/// explains nearly all.
+/// Whether what the model lacks may have led it so far off that no step leads back: a few long records, unless they take long and it
+/// explains nearly all of them. Many tightenings lead each other.
 pub(crate) fn may_be_astray(records: &[FitTask<'_>], current: &Fitted) -> bool {
-    let explains_all = !current.is_weighted && current.squares() < NEARLY_NONE * power(records);
-    !(explains_all && long_record::take_long(records))
+    let explains_all = || !current.is_weighted && current.squares() < NEARLY_NONE * power(records);
+    current.are_stretches() && !(long_record::take_long(records) && explains_all())
 }
 
 /// How far a candidate is followed from one start: beside a model that leaves but noise nothing is led astray, and a few steps tell all

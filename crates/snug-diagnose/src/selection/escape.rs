@@ -54,12 +54,12 @@ impl ModelSelection<'_> {
     /// that take most of the misfit, all of it from a few tightenings: these were led astray.
     fn ways_out<'r>(&self, current: &Fitted, ranking: &'r Ranking) -> Vec<&'r Candidate> {
         let best = ranking.candidates.iter().take(SEEDS);
+        let is_astray = may_be_astray(&self.cases, current);
         let is_of_few =
             |one: &&Candidate| one.gain() > MOST * misfit(current) && one.clearness() < EQUAL;
         match self.clusters.are_whole() {
             true => best.filter(is_of_few).collect(),
-            false if may_be_astray(&self.cases, current) => best.collect(),
-            false => Vec::new(),
+            false => best.filter(|_| is_astray).collect(),
         }
     }
 }
@@ -67,11 +67,7 @@ impl ModelSelection<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::data::cases::{Cases, Tally};
-    use crate::data::watch::Watch;
-    use crate::pooled::sharing::Sharing;
-    use crate::tests::made_up::{WHOLE, candidate, exact, quick, ranking};
-    use snug_identify::FitTask;
+    use crate::tests::made_up::{candidate, ranking, with_selection};
     use snug_model::Effect::{self, Backlash, CubicStiffness, SecondMass, TorqueDelay};
 
     /// Of the misfit of six tightenings, 300 beyond the noise, all in the last.
@@ -84,19 +80,7 @@ mod tests {
             candidate(TorqueDelay, 1.0, &[0.0, 0.0, 0.0, 0.0, 0.0, 140.0]),
             candidate(Backlash, 1.0, &[0.0, 0.0, 0.0, 0.0, 0.0, 280.0]),
         ]);
-        let (cases, tally) = ([exact(0, &[], &[])], Tally::default());
-        let cases: &[FitTask<'_>] = &cases;
-        let settings = quick(0);
-        let selection = ModelSelection {
-            cases: Cases::new(cases, &tally),
-            own: &[],
-            sharing: &Sharing::default(),
-            custom: &[],
-            clusters: WHOLE,
-            settings: &settings,
-            watch: &Watch::new(&|_| ()),
-        };
-        let ways = selection.ways_out(&current, &tried);
+        let ways = with_selection(&[], |selection| selection.ways_out(&current, &tried));
         let effects: Vec<Effect> = ways.iter().map(|one| one.effect).collect();
         assert_eq!(effects, [SecondMass]);
     }

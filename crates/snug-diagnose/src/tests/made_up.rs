@@ -1,10 +1,13 @@
 //! Made-up tightenings, candidates and rankings for tests: of a few numbers, small enough to be worked out by hand.
 
+use crate::data::cases::{Cases, Tally};
 use crate::data::clusters::Clusters;
 use crate::data::watch::Watch;
 use crate::library::terms;
 use crate::pooled::fitted::Fitted;
+use crate::pooled::sharing::Sharing;
 use crate::ranking::rank::{Candidate, Ranking};
+use crate::selection::model_selection::ModelSelection;
 use crate::settings::DiagnoseSettings;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
@@ -150,6 +153,23 @@ pub(crate) fn ranking(candidates: Vec<Candidate>) -> Ranking {
         candidates,
         ..Ranking::default()
     }
+}
+
+/// Runs `look` with a search among `cases`.
+pub(crate) fn with_selection<T>(
+    cases: &[FitTask<'_>],
+    look: impl FnOnce(&ModelSelection<'_>) -> T,
+) -> T {
+    let (tally, settings, watch) = (Tally::default(), DiagnoseSettings::default(), silent());
+    look(&ModelSelection {
+        cases: Cases::new(cases, &tally),
+        own: &[],
+        sharing: &Sharing::default(),
+        custom: &[],
+        clusters: WHOLE,
+        settings: &settings,
+        watch: &watch,
+    })
 }
 
 /// Settings without control campaigns: so many sign flips, one start.

@@ -240,8 +240,9 @@ pub(crate) fn reasons(situation: &Situation<'_>) -> Vec<Reason> {
 /// That laws in no catalogue were not ranked beside the last model, if so.
 fn laws_left_out(situation: &Situation<'_>) -> Option<Reason> {
     let (before, after) = (situation.before, situation.after);
-    let was_ranked = !situation.ranking.is_empty();
-    (was_ranked && !laws_may_matter(before, after)).then(|| Reason::LawsLeftOut {
+    let were_others_only =
+        !situation.ranking.is_empty() && !situation.ranking.iter().any(|one| one.unlisted);
+    (were_others_only && !laws_may_matter(before, after)).then(|| Reason::LawsLeftOut {
         left: after.squares() / before.squares(),
         least: MATTERS,
     })

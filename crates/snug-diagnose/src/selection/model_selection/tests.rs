@@ -1,27 +1,11 @@
 //! What is chosen from rankings of a few numbers, and a pair that is in simulated data.
 
 use super::*;
-use crate::data::cases::Tally;
-use crate::pooled::sharing::Sharing;
-use crate::tests::made_up::{WHOLE, candidate, close, noisy, ranking, silent, term};
+use crate::tests::made_up::{WHOLE, candidate, close, noisy, ranking, term, with_selection};
 use snug_identify::FitTask;
 use snug_model::Effect::{
     CoulombFriction, CubicStiffness, QuadraticDamping, QuadraticStiffness, TorqueOffset,
 };
-
-/// Runs `look` with a search among `cases`.
-fn with_selection<T>(cases: &[FitTask<'_>], look: impl FnOnce(&ModelSelection<'_>) -> T) -> T {
-    let (tally, settings, watch) = (Tally::default(), DiagnoseSettings::default(), silent());
-    look(&ModelSelection {
-        cases: Cases::new(cases, &tally),
-        own: &[],
-        sharing: &Sharing::default(),
-        custom: &[],
-        clusters: WHOLE,
-        settings: &settings,
-        watch: &watch,
-    })
-}
 
 /// Eight tightenings with 100 residuals each of which the model leaves 300, 200 of it beyond the noise.
 fn current() -> Fitted {
