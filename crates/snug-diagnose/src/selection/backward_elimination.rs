@@ -185,10 +185,8 @@ fn is_as_good(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::data::cases::{Cases, Tally};
-    use crate::pooled::sharing::Sharing;
     use crate::selection::path::Addition;
-    use crate::tests::made_up::{WHOLE, custom_force, noisy, quick, silent};
+    use crate::tests::made_up::{WHOLE, custom_force, noisy, quick, with_selection};
     use snug_identify::FitTask;
     use snug_model::Effect::{
         CoulombFriction, CubicStiffness, QuadraticDamping, StribeckFriction, TorqueDelay,
@@ -218,29 +216,21 @@ mod tests {
             made_with.map(|(_, size)| size),
         );
         let cases: Vec<FitTask> = (0..8).map(|n| noisy(n, &made_with, &sizes)).collect();
-        let (tally, watch) = (Tally::default(), silent());
-        let settings = quick(99);
-        let selection = ModelSelection {
-            cases: Cases::new(&cases, &tally),
-            own: &[],
-            sharing: &Sharing::default(),
-            custom: &[],
-            clusters: WHOLE,
-            settings: &settings,
-            watch: &watch,
-        };
-        let fitted = fit_effects(selection.cases, effects, None, WHOLE).expect("it can be fitted");
-        let mut path = SelectionPath::only(fitted);
-        path.additions = (effects.iter())
-            .map(|&effect| Addition {
-                effect,
-                p_family: 0.01,
-                heldout_gain: 0.1,
-                share_of_first: 0.1,
-                twins: twins.to_vec(),
-            })
-            .collect();
-        look(&selection, &mut path)
+        with_selection(&cases, &quick(99), |selection| {
+            let fitted =
+                fit_effects(selection.cases, effects, None, WHOLE).expect("it can be fitted");
+            let mut path = SelectionPath::only(fitted);
+            path.additions = (effects.iter())
+                .map(|&effect| Addition {
+                    effect,
+                    p_family: 0.01,
+                    heldout_gain: 0.1,
+                    share_of_first: 0.1,
+                    twins: twins.to_vec(),
+                })
+                .collect();
+            look(selection, &mut path)
+        })
     }
 
     #[test]

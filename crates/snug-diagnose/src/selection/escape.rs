@@ -67,6 +67,7 @@ impl ModelSelection<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::settings::DiagnoseSettings;
     use crate::tests::made_up::{candidate, ranking, with_selection};
     use snug_model::Effect::{self, Backlash, CubicStiffness, SecondMass, TorqueDelay};
 
@@ -80,7 +81,9 @@ mod tests {
             candidate(TorqueDelay, 1.0, &[0.0, 0.0, 0.0, 0.0, 0.0, 140.0]),
             candidate(Backlash, 1.0, &[0.0, 0.0, 0.0, 0.0, 0.0, 280.0]),
         ]);
-        let ways = with_selection(&[], |selection| selection.ways_out(&current, &tried));
+        let ways = with_selection(&[], &DiagnoseSettings::default(), |selection| {
+            selection.ways_out(&current, &tried)
+        });
         let effects: Vec<Effect> = ways.iter().map(|one| one.effect).collect();
         assert_eq!(effects, [SecondMass]);
     }

@@ -158,16 +158,17 @@ pub(crate) fn ranking(candidates: Vec<Candidate>) -> Ranking {
 /// Runs `look` with a search among `cases`.
 pub(crate) fn with_selection<T>(
     cases: &[FitTask<'_>],
+    settings: &DiagnoseSettings,
     look: impl FnOnce(&ModelSelection<'_>) -> T,
 ) -> T {
-    let (tally, settings, watch) = (Tally::default(), DiagnoseSettings::default(), silent());
+    let (tally, watch) = (Tally::default(), silent());
     look(&ModelSelection {
         cases: Cases::new(cases, &tally),
         own: &[],
         sharing: &Sharing::default(),
         custom: &[],
         clusters: WHOLE,
-        settings: &settings,
+        settings,
         watch: &watch,
     })
 }

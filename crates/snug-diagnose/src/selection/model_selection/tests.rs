@@ -19,7 +19,7 @@ fn clear(mean: f64) -> [f64; 8] {
 
 /// The effects that are to be added beside `ranking`, none of which is looked at together with another.
 fn chosen(ranking: &Ranking, room: usize) -> Vec<Effect> {
-    let steps = with_selection(&[], |selection| {
+    let steps = with_selection(&[], &DiagnoseSettings::default(), |selection| {
         selection.choose(&current(), ranking, 0, room)
     });
     let steps = steps.expect("nothing is fitted");
@@ -33,7 +33,7 @@ fn one_effect_that_leaves_nothing_but_noise_is_added_alone() {
         candidate(QuadraticStiffness, 0.002, &clear(188.0)),
         candidate(QuadraticDamping, 0.002, &clear(20.0)),
     ]);
-    let steps = with_selection(&[], |selection| {
+    let steps = with_selection(&[], &DiagnoseSettings::default(), |selection| {
         selection.choose(&current(), &ranking, 0, 5)
     });
     let steps = steps.expect("nothing is fitted");
@@ -128,7 +128,7 @@ fn of_a_pair_the_one_that_explains_more_by_itself_comes_first() {
         )
     };
     let order = |seed: usize, second: Effect| -> Vec<Effect> {
-        let steps = with_selection(&[], |selection| {
+        let steps = with_selection(&[], &DiagnoseSettings::default(), |selection| {
             selection.larger_first(&current(), &ranking, seed, both(second))
         });
         assert_eq!(
@@ -148,7 +148,7 @@ fn of_a_pair_the_one_that_explains_more_by_itself_comes_first() {
 #[test]
 fn two_are_tried_together_where_one_leaves_much() {
     let left = |misfit: f64| Fitted::made_up(&[], &[100.0 + misfit / 8.0; 8], 100);
-    with_selection(&[], |selection| {
+    with_selection(&[], &DiagnoseSettings::default(), |selection| {
         assert!(selection.leaves_much(&left(33.0), &current()));
         assert!(!selection.leaves_much(&left(31.0), &current()));
         assert!(
@@ -172,7 +172,7 @@ fn two_are_tried_together_where_one_leaves_much() {
 fn two_effects_that_are_both_in_the_data_are_added_as_a_pair() {
     let both = [CubicStiffness, CoulombFriction];
     let cases: Vec<FitTask> = (0..8).map(|n| noisy(n, &both, &[4e6, 8.0])).collect();
-    with_selection(&cases, |selection| {
+    with_selection(&cases, &DiagnoseSettings::default(), |selection| {
         let base = fit_effects(selection.cases, &[], None, WHOLE).expect("it can be fitted");
         let tried = [CubicStiffness, CoulombFriction, QuadraticDamping];
         let ranking = rank(
