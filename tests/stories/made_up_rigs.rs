@@ -5,9 +5,11 @@ mod drives;
 mod encoder;
 mod ended;
 mod free_motion;
+mod held;
 mod rig;
 mod unheld;
 
+use held::pendulum;
 use rig::{Noise, Rig, TORQUE, moved};
 use snug_campaign::{Diagnosis, Verdict};
 use snug_study::Verb;
@@ -102,39 +104,6 @@ fn a_screw_s_ripple_comes_first_of_eight_recordings() {
     let [sine, cosine, wavelength] = [0, 1, 2].map(|index| first.parameters[index].value);
     assert!((sine.hypot(cosine) - 10.0).abs() < 0.3, "{sine} {cosine}");
     assert!((wavelength - 0.006).abs() < 3e-5, "{wavelength}");
-}
-
-/// The noise of a pendulum's encoder [rad].
-const OF_THE_PENDULUM: f64 = 1.75e-3;
-
-/// A pendulum that swings to 80°, turned by a torque that a controller holds from sample to sample.
-fn pendulum() -> Rig {
-    let mut noise = Noise(7);
-    let mut recording = || -> Vec<[f64; 2]> {
-        let levels: Vec<f64> = (0..12).map(|_| 12.0 * noise.even() - 6.0).collect();
-        let inputs: Vec<f64> = (0..1500).map(|k| levels[k / 130]).collect();
-        let rate = |[x, v]: [f64; 2], u: f64| [v, (u - 0.025 * v - 8.0 * x.sin()) / 0.012];
-        let angles = moved(&inputs, 20, rate).map(|[x, _]| x);
-        noise.with(&inputs, angles, OF_THE_PENDULUM)
-    };
-    Rig::that_turns((0..3).map(|_| recording()).collect())
-}
-
-/// Taken as running straight between samples it leaves four times the noise, and nothing stands in for that. With it held the rig is known
-/// to its noise.
-#[test]
-fn a_pendulum_driven_by_a_held_torque_is_known_to_its_noise() {
-    let diagnosis = pendulum().told(&Verb::Improve);
-    let names = names(&diagnosis);
-    assert_eq!(names, ["gravity_torque"], "{}", diagnosis.headline);
-    let weight = &diagnosis.added[0].parameters[0];
-    let (low, high) = (weight.low.unwrap(), weight.high.unwrap());
-    assert!((weight.value + 8.0).abs() < 0.02, "{weight:?}");
-    assert!(low <= -8.0 && -8.0 <= high, "{weight:?}");
-    let left = diagnosis.ladder.last().unwrap().rms_fitted_output;
-    assert!(left < 1.05 * OF_THE_PENDULUM, "{left}");
-    let headline = diagnosis.headline.to_string();
-    assert!(!headline.contains("still a motion"), "{headline}");
 }
 
 /// A positioner that sticks and slips: what stands in for its dry friction first, a law of the root of the speed, may be nothing beside it

@@ -213,7 +213,7 @@ impl Search<'_> {
             return Ok((straight, None));
         }
         let last = with_last_model(study, &straight);
-        if !held_input::is_worth_it(&straight.diagnosis, &last, cases)? {
+        if !held_input::is_worth_it(&straight.diagnosis, study, &last, cases)? {
             return Ok((straight, None));
         }
         let (held_study, cases) = held_input::held(study, cases)?;

@@ -1,8 +1,9 @@
 //! Searches that are ended on the way, by a time or by Ctrl-C: what was found by then is told as that.
 
+use super::held::pendulum;
 use super::rig::Rig;
+use super::says;
 use super::unheld::joint;
-use super::{pendulum, says};
 use snug_campaign::{Diagnosis, Verdict};
 use snug_study::{ProgressEvent, Verb};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};

@@ -90,14 +90,18 @@ fn best_gain(diagnosis: &Diagnosis) -> f64 {
     supported.map(|one| one.heldout_gain).fold(0.0, f64::max)
 }
 
-/// Whether a search that found `diagnosis`, whose last model is that of `last`, is worth to be made again with a held input: that model,
-/// its stand-ins for half a sampling interval nothing, leaves less with that input where it has such a stand-in, and plainly less where it
-/// has none.
+/// Whether a search that found `diagnosis`, whose last model is that of `last`, is worth to be made again with a held input: the study's
+/// own model needs nothing then, or that last model, its stand-ins for half a sampling interval nothing, leaves less with that input where
+/// it has such a stand-in, and plainly less where it has none.
 pub(crate) fn is_worth_it(
     diagnosis: &Diagnosis,
+    study: &Study,
     last: &Study,
     cases: &[FitTask<'_>],
 ) -> Result<bool, StudyError> {
+    if !diagnosis.added.is_empty() && needs_nothing(study, last, cases)? {
+        return Ok(true);
+    }
     let rest = with_no_stand_in(last, cases)?;
     let straight = with_settled(&rest, cases.iter().map(FitTask::lent).collect())?;
     let (_, held) = held(&rest, cases)?;
@@ -106,6 +110,17 @@ pub(crate) fn is_worth_it(
         None => PLAINLY_LESS * PLAINLY_LESS,
     };
     Ok(leaves_less(&held, &straight, least))
+}
+
+/// Whether with a held input the study's own model leaves less than with a straight one, and as little as the last model does with that:
+/// any effect that does what a hold does may have been found, not only a delay.
+fn needs_nothing(study: &Study, last: &Study, cases: &[FitTask<'_>]) -> Result<bool, StudyError> {
+    let (_, held) = held(study, cases)?;
+    let last = with_settled(last, cases.iter().map(FitTask::lent).collect())?;
+    Ok(
+        leaves_less(&held, cases, SOMEWHAT_LESS)
+            && leaves_less(&held, &last, AS_LITTLE * AS_LITTLE),
+    )
 }
 
 /// Whether less than `share` of what is left `without` is left `with` a held input.
@@ -188,11 +203,12 @@ pub(crate) fn speaks_for_it(
     let is_the_hold = fewer <= more
         && with <= AS_LITTLE * without
         && is_half_an_interval_late(straight, interval_s);
-    let is_needed = |effect: &&str| !stand_ins(held).any(|other| other == *effect);
+    let is_needed = |effect: &str| held.added.iter().any(|other| other.effect == effect);
+    let found = straight.added.iter().map(|one| &one.effect);
     (!held.interrupted && (is_simpler || is_better || is_the_hold)).then(|| Reason::Held {
-        spared: stand_ins(straight)
-            .filter(is_needed)
-            .map(str::to_owned)
+        spared: found
+            .filter(|effect| is_simpler && !is_needed(effect))
+            .cloned()
             .collect(),
         is_half_an_interval: is_the_hold && !is_simpler && !is_better,
     })
