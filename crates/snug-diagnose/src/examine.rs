@@ -15,6 +15,8 @@ use crate::settings::DiagnoseSettings;
 use crate::verdict::answer::{Answer, Examination};
 use crate::verdict::changes::{are_above_all, changes};
 use crate::verdict::earned::is_declared_wrong;
+use crate::verdict::earned::leaves_noise;
+use crate::verdict::tightening_fits::TighteningFits;
 use crate::verdict::units::in_other_units;
 use snug_campaign::words::changes::Changes;
 
@@ -58,7 +60,7 @@ pub fn examine(
         false => &question.goal,
     };
     let changes = match goal {
-        Goal::Diagnose | Goal::Improve => changes_above_all(counted, &compared.rungs),
+        Goal::Diagnose | Goal::Improve => changes_above_all(counted, &compared.rungs)?,
         Goal::Compare | Goal::Add(_) | Goal::ImproveFrom(_) => None,
     };
     let goal = match changes.is_some() {
@@ -94,10 +96,15 @@ pub fn examine(
     .answer()
 }
 
-/// What changes while the rig is measured, where that takes nearly all of what its own model leaves.
-fn changes_above_all(cases: Cases<'_>, own: &[Fitted]) -> Option<Changes> {
-    let plain = PlainEquation::of(&cases)?;
-    changes(&plain, cases, own, 0).filter(are_above_all)
+/// What changes while the rig is measured, where that takes nearly all of what its own model leaves, and a simulation misses it.
+fn changes_above_all(cases: Cases<'_>, own: &[Fitted]) -> Result<Option<Changes>, DiagnoseError> {
+    let plain = PlainEquation::of(&cases);
+    let found = plain.and_then(|plain| changes(&plain, cases, own, 0));
+    let (Some(found), Some(last)) = (found.filter(are_above_all), own.last()) else {
+        return Ok(None);
+    };
+    let fits = TighteningFits::of(&cases, last)?;
+    Ok((!leaves_noise(&cases, &fits.seen())).then_some(found))
 }
 
 /// What a goal makes of the study's own model.

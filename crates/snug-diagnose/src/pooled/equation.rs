@@ -52,6 +52,12 @@ impl<'a> PlainEquation<'a> {
         self.equation.fit(&terms)
     }
 
+    /// The regression of mass, damping, stiffness, dry friction and an offset alone.
+    pub fn with_friction(&self) -> Option<EquationFit> {
+        let terms = (self.plain.iter()).map(|&effect| self.equation.term(effect, &[1.0]));
+        self.equation.fit(&terms.collect::<Option<Vec<_>>>()?)
+    }
+
     /// What each of these effects adds as they act with these values of all parameters, and what dry friction and an offset of size 1 do.
     pub fn with_plain_terms(
         &self,
@@ -75,9 +81,8 @@ impl<'a> PlainEquation<'a> {
 /// Where both leave nothing but noise, that says nothing.
 pub(crate) fn is_one_with_friction(cases: &[FitTask<'_>]) -> bool {
     let all = || {
-        let PlainEquation { equation, plain } = PlainEquation::of(cases)?;
-        let terms = plain.iter().map(|&effect| equation.term(effect, &[1.0]));
-        let together = equation.fit(&terms.collect::<Option<Vec<_>>>()?)?;
+        let plain = PlainEquation::of(cases)?;
+        let (equation, together) = (&plain.equation, plain.with_friction()?);
         let left = |alone: &MotionEquation<'_>| -> f64 {
             let left = alone.fit(&[]).map_or(1.0, |fit| 1.0 - fit.explained);
             left * alone.power()

@@ -81,6 +81,8 @@ pub(super) struct Places {
     pub(super) explained: Option<Explained>,
     /// What no model could explain of it, if that is nearly all.
     pub(super) left_over: Option<Suspicion>,
+    /// Whether what it leaves is white noise.
+    pub(super) leaves_noise: bool,
 }
 
 /// The verdict, with what goes into its words.
@@ -190,9 +192,9 @@ impl Examination<'_> {
         let told = |seen: &[Seen<'_>]| {
             let explained = earned::explained(cases, last, seen);
             let left_over = earned::left_over(cases, explained.as_ref(), seen);
-            (explained, left_over)
+            (explained, left_over, earned::leaves_noise(cases, seen))
         };
-        let (final_location, (explained, left_over)) = match &last_sight {
+        let (final_location, (explained, left_over, leaves_noise)) = match &last_sight {
             None => (None, told(&base)),
             Some(sight) => {
                 let seen = sight.seen();
@@ -206,6 +208,7 @@ impl Examination<'_> {
             drift: drifts(&base),
             explained,
             left_over,
+            leaves_noise,
         })
     }
 

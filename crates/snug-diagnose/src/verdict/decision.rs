@@ -21,7 +21,9 @@ impl Examination<'_> {
         let plain = PlainEquation::of(&self.cases);
         let plain = plain.as_ref();
         let of_models = || {
-            let plain = plain.filter(|_| !self.path.is_interrupted())?;
+            // What no simulation misses did not change.
+            let is_known = !self.path.is_interrupted() && !places.leaves_noise;
+            let plain = plain.filter(|_| is_known)?;
             changes(plain, self.cases, &self.path.rungs, WIDER)
         };
         let changes = self.changes.clone().or_else(of_models);

@@ -2,6 +2,7 @@
 
 use crate::data::power::power;
 use crate::locate::Seen;
+use crate::pooled::equation::PlainEquation;
 use crate::pooled::fitted::Fitted;
 use crate::ranking::rank::Candidate;
 use crate::selection::path::SelectionPath;
@@ -12,10 +13,11 @@ use crate::verdict::thresholds::{
     FAR_BETTER, FEW_SAMPLES, LEAST_EXPLAINED, MOST_IN_FEW, MOSTLY_EXPLAINED, SHORTFALL, WHITE,
 };
 use crate::verdict::unsigned::lost_their_sign;
+use crate::verdict::white_noise::is_white_noise;
 use snug_campaign::Quantity;
 use snug_campaign::words::explained::Explained;
 use snug_campaign::words::suspicion::Suspicion;
-use snug_identify::{FitTask, spectral_start};
+use snug_identify::{EquationFit, FitTask, spectral_start};
 use std::borrow::Cow;
 
 /// Share of the fitted output's power that `fitted` explains, all tightenings together \[–\]; `None` where the noise is known and
@@ -76,10 +78,19 @@ fn left(quantity: Quantity, one: &Seen<'_>) -> Option<Vec<f64>> {
 
 /// Correlation of neighbouring samples of what is left \[–\]; 0 where nothing is.
 fn neighbours(quantity: Quantity, seen: &[Seen<'_>]) -> f64 {
-    let all: Vec<Vec<f64>> = (seen.iter())
+    correlation(&left_of_all(quantity, seen))
+}
+
+/// Whether what is left is white noise, however long it is looked at.
+pub(crate) fn leaves_noise(cases: &[FitTask<'_>], seen: &[Seen<'_>]) -> bool {
+    let quantity = cases.first().map(FitTask::quantity);
+    quantity.is_some_and(|quantity| is_white_noise(&left_of_all(quantity, seen)))
+}
+
+fn left_of_all(quantity: Quantity, seen: &[Seen<'_>]) -> Vec<Vec<f64>> {
+    (seen.iter())
         .filter_map(|one| left(quantity, one))
-        .collect();
-    correlation(&all)
+        .collect()
 }
 
 /// Of neighbouring samples, in any of the recordings \[–\]; 0 where nothing is.
@@ -136,7 +147,8 @@ fn promised(cases: &[FitTask<'_>]) -> Option<f64> {
     spectral_start(cases).map(|start| 1.0 - start.unexplained)
 }
 
-/// How well m, c, k alone explain the records with a channel changed, where that is far better than as they are.
+/// How well m, c, k alone explain the records with a channel changed, where that is far better than as they are, dry friction and an
+/// offset beside them in a plain regression.
 struct Changed<'a> {
     cases: &'a [FitTask<'a>],
     as_it_is: f64,
@@ -144,9 +156,13 @@ struct Changed<'a> {
 
 impl<'a> Changed<'a> {
     fn of(cases: &'a [FitTask<'a>]) -> Self {
+        let alone = promised(cases).unwrap_or(0.0);
+        let regressed = PlainEquation::of(cases).and_then(|plain| plain.with_friction());
+        let regressed = regressed.filter(EquationFit::is_driven);
+        tracing::debug!(alone, ?regressed, "the channels as they are declared");
         Self {
             cases,
-            as_it_is: promised(cases).unwrap_or(0.0),
+            as_it_is: regressed.map_or(alone, |found| found.explained.max(alone)),
         }
     }
 

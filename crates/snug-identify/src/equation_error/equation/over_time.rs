@@ -34,7 +34,7 @@ pub struct Change {
     pub from: f64,
     /// What it is at the end of each, in the same unit.
     pub to: f64,
-    /// Share \[–\] of the squares left without the change that it takes.
+    /// Share \[–\] of the squares left without the change, or of the torque's own where these are fewer, that it takes.
     pub taken: f64,
     /// Where in these recordings it changes at once, from −1 at the beginning to 1 at the end \[–\]; `None` where it does so evenly.
     pub at: Option<f64>,
@@ -50,7 +50,8 @@ impl MotionEquation<'_> {
         }
         let left: Vec<Vec<f64>> = self.records.iter().map(|one| one.torque.clone()).collect();
         let constant = self.of_torque(terms);
-        let (sizes, before) = self.regressed(&left, &constant)?;
+        let (sizes, without) = self.regressed(&left, &constant)?;
+        let before = without.min(squares(&left));
         let rest = rest(&left, &constant, &sizes);
         let with_change = |index: usize, at: Option<f64>, recordings: &[usize]| {
             let mut columns = constant.clone();
@@ -222,6 +223,11 @@ fn rest(left: &[Vec<f64>], columns: &[Column], sizes: &[f64]) -> Vec<Vec<f64>> {
 
 fn most(changes: impl Iterator<Item = Change>) -> Option<Change> {
     changes.max_by(|a, b| a.taken.total_cmp(&b.taken))
+}
+
+/// What no regression at all leaves: one by instruments that tell nothing may leave more.
+fn squares(left: &[Vec<f64>]) -> f64 {
+    left.iter().map(|one| dot(one, one)).sum()
 }
 
 fn is_driven_alike(record: &AveragedRecord) -> bool {

@@ -425,7 +425,35 @@ fn what_changes_at_once_is_told_from_what_does_so_evenly() {
     );
 }
 
-/// Under a torque that grows, friction is a smaller part of it at the end, and nothing is said.
+/// Torque and motion that have nothing to do with each other: what instruments make of it may leave more than there is, and a change takes
+/// little of what there is.
+#[test]
+fn a_torque_that_moves_nothing_has_no_change() {
+    let smooth = |seed: f64| -> Vec<f64> {
+        let noise: Vec<f64> = (0..SAMPLES + 20)
+            .map(|sample| noise(sample, seed))
+            .collect();
+        noise
+            .windows(20)
+            .take(SAMPLES)
+            .map(|some| some.iter().sum())
+            .collect()
+    };
+    let mut tasks = Made::default().tasks();
+    for (task, seed) in tasks.iter_mut().zip([7.0, 8.0]) {
+        let task = task.tightening.to_mut();
+        task.torque_nm = smooth(seed);
+        task.motion.set(Quantity::Velocity, smooth(seed + 50.0));
+    }
+    for half_width in [16, 32, 64, 128] {
+        let equation = MotionEquation::averaged(&tasks, half_width).unwrap();
+        let terms = Effect::PLAIN.iter();
+        let terms: Option<Vec<Term>> = terms.map(|&one| equation.term(one, &[1.0])).collect();
+        let found = equation.change(&terms.unwrap());
+        assert!(found.is_none_or(|found| found.taken < 0.02), "{half_width}");
+    }
+}
+
 /// One that broke off says nothing itself, and keeps the others from nothing.
 #[test]
 fn a_recording_that_broke_off_takes_nothing_from_the_others() {
@@ -451,6 +479,7 @@ fn a_recording_that_broke_off_takes_nothing_from_the_others() {
     );
 }
 
+/// Under a torque that grows, friction is a smaller part of it at the end, and nothing is said.
 #[test]
 fn what_is_driven_harder_at_the_end_says_nothing() {
     let made = Made::default();
