@@ -8,6 +8,8 @@ pub enum Kind {
     Mechanical,
     /// Muscles and nerves.
     Muscular,
+    /// How a drive gives what it is told.
+    Drive,
     /// Sensors and their alignment.
     Measurement,
     /// Change from tightening to tightening.
@@ -22,6 +24,7 @@ impl Kind {
         match self {
             Self::Mechanical => "mechanical",
             Self::Muscular => "muscular",
+            Self::Drive => "drive",
             Self::Measurement => "measurement",
             Self::Trend => "trend",
             Self::Custom => "custom",

@@ -13,6 +13,7 @@ use snug_campaign::Quantity;
 
 pub mod acceleration_bias;
 pub mod acceleration_lag;
+pub mod actuator_lag;
 pub mod asymmetric_viscous_friction;
 pub mod backlash;
 pub mod bouc_wen;
@@ -68,6 +69,7 @@ macro_rules! catalogue {
                 second_mode::SecondMode,
                 gravity_torque::GravityTorque,
                 torque_limit::TorqueLimit,
+                actuator_lag::ActuatorLag,
                 stretch_reflex::StretchReflex,
                 voluntary_push::VoluntaryPush,
                 co_contraction::CoContraction,

@@ -133,6 +133,9 @@ macro_rules! hooks {
                 /// How the logged torque relates to the torque that acts.
                 fn logged_torque() -> LoggedTorque<N>;
 
+                /// Time constant \[s\] of the first-order lag through which a drive gives the torque that it is told.
+                fn actuator_lag_s() -> N;
+
                 /// Initial angle \[rad\] and angular velocity \[rad/s\]; without it, at rest.
                 fn initial() -> (N, N);
             }
@@ -171,7 +174,8 @@ macro_rules! declare_law {
         ///
         /// ```text
         /// F = limit(k (1 + Σ stiffening) d + c dd/dt + Σ force + Σ delayed)     d = deflection(x − Σ support)
-        /// T = y(t − Σ delay) + Σ lag · y'(t − Σ delay) − Σ offset + Σ torque    y: logged torque
+        /// u = y(t − Σ delay) + Σ lag · y'(t − Σ delay) − Σ offset               y: logged torque
+        /// T = q + Σ torque                                                      q' Σ actuator lag = u − q
         /// a = measure(lagged(α' + Σ cross_sensitivity, Σ acceleration lag))        α' = α + Σ relative_motion
         /// ```
         pub trait Law {

@@ -1,6 +1,6 @@
 //! Rigs of which an engineer would name the drive, or that a controller holds them where they would not stay.
 
-use super::rig::{Noise, Rig, moved};
+use super::rig::{Noise, Rig, TORQUE, moved, moved_from};
 use super::{names, says};
 use snug_campaign::{Diagnosis, Verdict};
 use snug_study::Verb;
@@ -49,6 +49,67 @@ fn a_dead_band_is_told_as_an_input_that_hardly_acts_while_small() {
         headline.contains("an input that hardly acts as long as it is smaller than b"),
         "{headline}"
     );
+}
+
+/// A motor whose current takes 20 ms to rise, with dry friction: the lag comes before the friction, as no sensor's does.
+#[test]
+fn a_motor_whose_current_rises_slowly_lacks_that_and_dry_friction() {
+    let mut noise = Noise(29);
+    let mut recording = || {
+        let inputs = noise.levels([-2.0, 2.0], 100, 4000);
+        let rate = |[v, torque]: [f64; 2], u: f64| {
+            let friction = 0.3 * (v / 0.01).tanh();
+            [(torque - 0.1 * v - friction) / 0.05, (u - torque) / 0.02]
+        };
+        let speeds = moved(&inputs, 20, rate).map(|[v, _]| v);
+        noise.with(&inputs, speeds, 0.01)
+    };
+    let rig = Rig {
+        recordings: (0..4).map(|_| recording()).collect(),
+        declared: [TORQUE, "Velocity", "RadianPerSecond"],
+        fitted: "Velocity",
+    };
+    let diagnosis = rig.told(&Verb::Improve);
+    let mut names = names(&diagnosis);
+    names.sort_unstable();
+    let headline = &diagnosis.headline;
+    assert_eq!(names, ["actuator_lag", "coulomb_friction"], "{headline}");
+    for one in &diagnosis.added {
+        let (found, size) = match one.effect.as_str() {
+            "actuator_lag" => (one.parameters[0].value, 0.02),
+            _ => (one.parameters[0].value, 0.3),
+        };
+        assert!((found / size - 1.0).abs() < 0.05, "{found} {headline}");
+    }
+}
+
+/// A motor that is held to a place by its controller: what pushes it there looks like what moves a speed, and dry friction explains all of
+/// it as a place.
+#[test]
+fn a_servo_in_its_loop_lacks_dry_friction_and_is_no_speed() {
+    let mut noise = Noise(31);
+    let mut recording = || -> Vec<[f64; 2]> {
+        let wanted = noise.levels([-1.0, 1.0], 500, 4000);
+        let (mut state, mut sum) = ([0.0, 0.0], 0.0);
+        let mut rows = Vec::new();
+        for place in wanted {
+            let seen = state[0] + 2e-3 * noise.draw();
+            sum += 1e-3 * (place - seen);
+            let input = (30.0 * (place - seen) + 20.0 * sum - 1.2 * state[1]).clamp(-10.0, 10.0);
+            rows.push([input, seen]);
+            let rate =
+                |[_, v]: [f64; 2], u: f64| [v, (u - 0.3 * v - 1.5 * (v / 2e-3).tanh()) / 0.05];
+            state = moved_from(state, input, 80, rate);
+        }
+        rows
+    };
+    let rig = Rig::that_turns((0..4).map(|_| recording()).collect());
+    let diagnosis = rig.told(&Verb::Improve);
+    let headline = &diagnosis.headline;
+    assert_eq!(names(&diagnosis), ["coulomb_friction"], "{headline}");
+    // Restarted from noise again and again, it is known to a twelfth.
+    let friction = diagnosis.added[0].parameters[0].value;
+    assert!((friction / 1.5 - 1.0).abs() < 0.1, "{friction} {headline}");
 }
 
 /// The force factor of a magnet falls by the square of how far its coil leaves it, by a quarter at 0.1 rad here.

@@ -90,19 +90,30 @@ pub fn moved<const N: usize>(
     steps: u32,
     rate: impl Fn([f64; N], f64) -> [f64; N],
 ) -> impl Iterator<Item = [f64; N]> {
+    let mut state = [0.0; N];
+    inputs.iter().map(move |&u| {
+        let sample = state;
+        state = moved_from(state, u, steps, &rate);
+        sample
+    })
+}
+
+/// A millisecond later than `state` under this input.
+pub fn moved_from<const N: usize>(
+    mut state: [f64; N],
+    u: f64,
+    steps: u32,
+    rate: impl Fn([f64; N], f64) -> [f64; N],
+) -> [f64; N] {
     let h = 1e-3 / f64::from(steps);
     let further = |state: [f64; N], rates: [f64; N], h: f64| -> [f64; N] {
         std::array::from_fn(|index| state[index] + h * rates[index])
     };
-    let mut state = [0.0; N];
-    inputs.iter().map(move |&u| {
-        let sample = state;
-        for _ in 0..steps {
-            let middle = further(state, rate(state, u), 0.5 * h);
-            state = further(state, rate(middle, u), h);
-        }
-        sample
-    })
+    for _ in 0..steps {
+        let middle = further(state, rate(state, u), 0.5 * h);
+        state = further(state, rate(middle, u), h);
+    }
+    state
 }
 
 /// Of unit variance and all the same at every run: twelve even numbers, summed.

@@ -29,7 +29,7 @@ impl Law for TorqueLimit {
     fn description(&self) -> &'static Description {
         &Description {
             name: "torque_limit",
-            kind: Kind::Mechanical,
+            kind: Kind::Drive,
             acts_on: ActsOn::Machines,
             summary: SUMMARY,
             equation: EQUATION,

@@ -13,7 +13,8 @@ use crate::numeric::number::Number;
 /// ```
 ///
 /// χ and s are taken as straight between samples, s as starting from zero one interval before the first; the lag's
-/// recursion is then exact, also as τ → 0.
+/// recursion is then exact, also as τ → 0. Under a held input s jumps at the samples: it goes straight from there to where its mean over
+/// the interval is the change of ω.
 #[derive(Debug)]
 pub struct Accelerometer<N: Number> {
     interval_s: N::Real,
@@ -23,6 +24,8 @@ pub struct Accelerometer<N: Number> {
     leaked_displacement: N,
     sensed: N,
     measured: N,
+    /// ω with what leaked in, where s jumps at the samples.
+    jumps_from: Option<N>,
     started: bool,
 }
 
@@ -58,9 +61,9 @@ impl<N: Number> Lag<N> {
 }
 
 impl<N: Number> Accelerometer<N> {
-    /// At rest; samples are `interval_s` apart, `tau_s` is the lag's time constant if there is one.
+    /// At rest; samples are `interval_s` apart, `tau_s` is the lag's time constant if there is one, and the acceleration `jumps` at them.
     #[inline(always)]
-    pub fn new(interval_s: N::Real, tau_s: Option<N>) -> Self {
+    pub fn new(interval_s: N::Real, tau_s: Option<N>, jumps: bool) -> Self {
         let zero = N::from(interval_s.constant(0.0));
         Self {
             interval_s,
@@ -70,6 +73,7 @@ impl<N: Number> Accelerometer<N> {
             leaked_displacement: zero,
             sensed: zero,
             measured: zero,
+            jumps_from: jumps.then_some(zero),
             started: false,
         }
     }
@@ -86,7 +90,18 @@ impl<N: Number> Accelerometer<N> {
         }
         if let Some(lag) = &self.lag {
             let sensed = seen.acceleration_rad_per_s2;
-            self.measured = lag.keep * self.measured + lag.before * self.sensed + lag.now * sensed;
+            let reached = match &mut self.jumps_from {
+                None => sensed,
+                Some(before) if self.started => {
+                    let gained = seen.velocity_rad_per_s - *before;
+                    gained.times(self.interval_s.constant(2.0) / self.interval_s) - self.sensed
+                }
+                Some(_) => self.sensed,
+            };
+            if let Some(before) = &mut self.jumps_from {
+                *before = seen.velocity_rad_per_s;
+            }
+            self.measured = lag.keep * self.measured + lag.before * self.sensed + lag.now * reached;
             self.sensed = sensed;
             seen.acceleration_rad_per_s2 = self.measured;
             seen.velocity_rad_per_s = seen.velocity_rad_per_s - lag.tau_s * self.measured;

@@ -1,16 +1,26 @@
-//! From the torque that is logged to the one that acts on the joint: delay, lag, offset, and what effects add.
+//! From the torque that is logged to the one that acts on the joint: delay, lag, offset, how a drive follows, and what effects add.
 
 use crate::assembly::inputs::SimulationInputs;
 use crate::assembly::layout::Part;
 use crate::input::torque::Earlier;
 use crate::law::{Instant, Law, LoggedTorque};
+use crate::numeric::lanewise::Lanewise;
 use crate::numeric::number::{Number, Real};
+use crate::simulate::actuator::{Actuator, Within};
 
 /// The torque that acts on the joint, from the one that is logged.
 pub struct ActingTorque<'a, N: Number> {
     inputs: &'a SimulationInputs<'a, N::Real>,
     /// Absent when the one that is logged acts.
     logged: Option<Logged<N>>,
+    /// Absent when the drive gives what it is told.
+    drive: Option<Drive<N>>,
+}
+
+/// How a drive follows, and what it gave up to every grid point.
+struct Drive<N> {
+    actuator: Actuator<N>,
+    given: Vec<N>,
 }
 
 /// How it is logged, and what was logged before every grid point.
@@ -40,23 +50,91 @@ impl<'a, N: Number> ActingTorque<'a, N> {
                 lag_s: sum.lag_s + more.lag_s,
                 offset_nm: sum.offset_nm + more.offset_nm,
             });
-        Self {
+        let mut acting = Self {
             inputs,
             logged: logged.map(|how| Logged {
                 shifted: shifted(inputs, how.delay_s.value()),
                 how,
             }),
+            drive: None,
+        };
+        let lags = (parts.iter())
+            .filter_map(|part| part.effect.actuator_lag_s(&p[part.parameters.clone()]));
+        acting.drive = lags.reduce(|sum, more| sum + more).map(|tau_s| {
+            let actuator = Actuator::new(tau_s, inputs.interval_s);
+            let given = acting.given(&actuator);
+            Drive { actuator, given }
+        });
+        acting
+    }
+
+    /// What a drive gave up to every grid point; before the first it rested at what it was told there.
+    fn given(&self, actuator: &Actuator<N>) -> Vec<N> {
+        let points = self.inputs.torque_nm().len();
+        let mut given = Vec::with_capacity(points);
+        let mut last = self.before();
+        for point in 0..points {
+            given.push(last);
+            let told = self.told(point);
+            let rise = self.rise(told, |next| self.told(next), point);
+            last = actuator.within(last, told, rise)[2];
         }
+        given
+    }
+
+    /// What was told before the first grid point.
+    fn before(&self) -> N {
+        let first = self.told(0);
+        let zero = self.inputs.zero;
+        let is_known = |lane: usize| self.inputs.of_lanes()[lane].torque_before_nm();
+        let known = zero.lane_by_lane(|lane| is_known(lane).unwrap_or_default());
+        let lanes = zero.lane_by_lane(|lane| f64::from(u8::from(is_known(lane).is_some())));
+        N::select(lanes.is_positive(), N::from(known), first)
     }
 
     /// Whether it depends on no parameter.
     pub fn is_known(&self) -> bool {
-        self.logged.is_none()
+        self.logged.is_none() && self.drive.is_none()
     }
 
     /// Torque at grid point number `point` of the input \[Nm\].
     #[inline(always)]
     pub fn at(&self, point: usize) -> N {
+        match self.drive {
+            Some(_) => self.within(point)[0],
+            None => self.told(point),
+        }
+    }
+
+    /// Torque within the step from a grid point.
+    #[inline(always)]
+    pub fn within(&self, point: usize) -> Within<N> {
+        if self.is_known() {
+            let told = self.inputs.torque_nm()[point];
+            let rise = self.rise(told, |next| self.inputs.torque_nm()[next], point);
+            return [told, told + rise * 0.5, told + rise].map(N::from);
+        }
+        let told = self.told(point);
+        let rise = self.rise(told, |next| self.told(next), point);
+        match &self.drive {
+            Some(Drive { actuator, given }) => actuator.within(given[point], told, rise),
+            None => [told, told + rise * 0.5, told + rise],
+        }
+    }
+
+    /// By how much what is `told` at a grid point rises within the step from there, if at a `point` it is that.
+    #[inline(always)]
+    fn rise<M: Number>(&self, told: M, at: impl Fn(usize) -> M, point: usize) -> M {
+        let last = self.inputs.torque_nm().len().saturating_sub(1);
+        match self.inputs.held || point >= last {
+            true => told.constant(0.0),
+            false => at(point + 1) - told,
+        }
+    }
+
+    /// What is told at a grid point \[Nm\], whatever a drive makes of it.
+    #[inline(always)]
+    fn told(&self, point: usize) -> N {
         let Some(Logged { how, shifted }) = &self.logged else {
             return N::from(self.inputs.torque_nm()[point]);
         };

@@ -14,12 +14,12 @@ use crate::simulate::sensors::{Moment, moves_elsewhere, relative_motion};
 const ENDS: f64 = 1.0 / 6.0;
 const MIDDLE: f64 = 1.0 / 3.0;
 
-/// How far ahead a stage is and how far on the next one, in intervals, and its weight in the mean.
-const STAGES: [(f64, f64, f64); 4] = [
-    (0.0, 0.5, ENDS),
-    (0.5, 0.5, MIDDLE),
-    (0.5, 1.0, MIDDLE),
-    (1.0, 0.0, ENDS),
+/// How far ahead a stage is and how far on the next one, in half intervals, and its weight in the mean.
+const STAGES: [(usize, f64, f64); 4] = [
+    (0, 0.5, ENDS),
+    (1, 0.5, MIDDLE),
+    (1, 1.0, MIDDLE),
+    (2, 0.0, ENDS),
 ];
 
 /// Simulates from rest (or the effects' initial motion, or again and again from the input's restarts) and hands every
@@ -51,7 +51,7 @@ pub fn respond<N: Number>(
     let mut at = beginning(inputs, x, v);
     let points = inputs.torque_nm().len();
     let last = points.saturating_sub(1);
-    let (mut torque, mut index) = (acting_torque.at(0), 0);
+    let mut index = 0;
     for point in 0..points {
         if let Some(restart) = inputs.restart_at(point) {
             let [angle, velocity] = driven(assembly, p, restart.motion, &at, &own[..states]);
@@ -59,19 +59,14 @@ pub fn respond<N: Number>(
             v = N::select(restart.lanes, velocity.times(lever), v);
         }
         plant.note(x, v);
-        let next = acting_torque.at((point + 1).min(last));
-        let rise = if inputs.held { zero } else { next - torque };
+        let torque = acting_torque.within(point);
         (at.x_m, at.v_m_per_s) = (x, v);
         let (mut x_after, mut v_after) = (x, v);
         own_at[..states].copy_from_slice(&own[..states]);
         own_after[..states].copy_from_slice(&own[..states]);
         for (stage, (ahead, further, weight)) in STAGES.into_iter().enumerate() {
-            let position = point as f64 + ahead;
-            let torque_nm = match known {
-                true => N::from(torque.value() + rise.value() * ahead),
-                false => torque + rise * ahead,
-            };
-            plant.drive(&mut at, position, torque_nm);
+            let position = point as f64 + 0.5 * ahead as f64;
+            plant.drive(&mut at, position, torque[ahead]);
             let acceleration =
                 plant.rates(position, &at, &own_at[..states], &mut own_rates[..states]);
             if stage == 0 && point == index * inputs.substeps {
@@ -95,7 +90,6 @@ pub fn respond<N: Number>(
         }
         (x, v) = (x_after, v_after);
         own[..states].copy_from_slice(&own_after[..states]);
-        torque = next;
     }
 }
 

@@ -72,7 +72,9 @@ impl<'a, N: Number> Sensors<'a, N> {
         );
         if lag.is_some() || sensors.cross_sensitivity(0, &still).is_some() {
             let interval_s = inputs.since_rest_s(1) - inputs.since_rest_s(0);
-            sensors.accelerometer = Some(Accelerometer::new(interval_s, lag));
+            // A motion that is taken up again changes its velocity at once.
+            let jumps = inputs.held && !inputs.is_restarted();
+            sensors.accelerometer = Some(Accelerometer::new(interval_s, lag, jumps));
         }
         sensors
     }

@@ -15,7 +15,13 @@ use std::borrow::Cow;
 /// The effect whose size is a delay.
 const DELAY: &str = "torque_delay";
 /// Effects that stand in for half a sampling interval.
-const STAND_INS: [&str; 4] = [DELAY, "torque_lag", "acceleration_lag", "second_mode"];
+const STAND_INS: [&str; 5] = [
+    DELAY,
+    "torque_lag",
+    "acceleration_lag",
+    "actuator_lag",
+    "second_mode",
+];
 /// Samples of all recordings up to which everything is searched twice. Chosen: a minute more.
 const MOST_SAMPLES: usize = 60_000;
 /// Root mean square of the error, over that with a straight input, up to which a model of fewer effects leaves as little \[–\].

@@ -1,0 +1,103 @@
+//! A drive that follows its command through a first-order lag, and what it gives within every step.
+
+use crate::numeric::lanewise::Lanewise;
+use crate::numeric::number::Number;
+
+/// What a drive gives within a step of the integration \[Nm\]: as the step begins, at its middle and as it ends.
+pub type Within<N> = [N; 3];
+
+/// A drive that gives q of the torque u that it is told: τ q' + q = u.
+///
+/// Over a step of length h from q, in which u goes straight from u to u + r, it is exactly
+///
+/// ```text
+/// q(s) = u + r s/h − w + (q − u + w) exp(−s/τ)          w = r τ/h
+/// ```
+///
+/// The value as the step begins is the one with which Simpson's rule, and so a Runge–Kutta step, has the exact impulse of the step: q
+/// itself where τ is many steps, and u, as without a lag, as τ → 0.
+#[derive(Debug)]
+pub struct Actuator<N> {
+    /// τ/h.
+    ratio: N,
+    /// What is left of a deviation by each of [`Within`].
+    left: Within<N>,
+}
+
+/// τ over the step below which exp(−h/2τ) is zero in double precision.
+const NEGLIGIBLE_RATIO: f64 = 5e-4;
+
+impl<N: Number> Actuator<N> {
+    /// Time constant \[s\] and length of a step \[s\].
+    pub fn new(tau_s: N, step_s: N::Real) -> Self {
+        let one = step_s.constant(1.0);
+        let ratio = tau_s.times(one / step_s);
+        let slow = (ratio.value()).is_above(step_s.constant(NEGLIGIBLE_RATIO));
+        let after = |steps: f64| {
+            let kept = (ratio.constant(-steps) / ratio).exp();
+            N::select(slow, kept, ratio.constant(0.0))
+        };
+        let (half, whole) = (after(0.5), after(1.0));
+        let mean = ratio * (-whole + 1.0);
+        Self {
+            ratio,
+            left: [mean * 6.0 - half * 4.0 - whole, half, whole],
+        }
+    }
+
+    /// What it gives of a command of `told` that rises by `rise` within the step; `before` is what it gave up to there.
+    #[inline(always)]
+    pub fn within(&self, before: N, told: N, rise: N) -> Within<N> {
+        let behind = rise * self.ratio;
+        let follows = told - behind;
+        let deviation = before - follows;
+        [
+            follows + deviation * self.left[0],
+            follows + rise * 0.5 + deviation * self.left[1],
+            follows + rise + deviation * self.left[2],
+        ]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Impulse of a step by Simpson's rule.
+    fn impulse([begins, middle, ends]: Within<f64>) -> f64 {
+        (begins + 4.0 * middle + ends) / 6.0
+    }
+
+    #[test]
+    fn without_a_lag_it_gives_what_it_is_told() {
+        let given = Actuator::new(0.0, 1e-3).within(-4.0, 2.0, 1.0);
+        assert_eq!(given, [2.0, 2.5, 3.0]);
+    }
+
+    /// From 3 towards 1: 1 + 2 exp(−t/τ), of which the mean over h is 1 + 2 τ/h (1 − exp(−h/τ)).
+    #[test]
+    fn a_held_command_is_approached_exponentially_with_its_exact_impulse() {
+        let h = 1e-3;
+        for tau_s in [1e-4, 1e-3, 2e-2] {
+            let given = Actuator::new(tau_s, h).within(3.0, 1.0, 0.0);
+            let after = |t: f64| 1.0 + 2.0 * (-t / tau_s).exp();
+            assert!((given[1] - after(0.5 * h)).abs() < 1e-12, "{given:?}");
+            assert!((given[2] - after(h)).abs() < 1e-12, "{given:?}");
+            let mean = 1.0 + 2.0 * tau_s / h * (1.0 - (-h / tau_s).exp());
+            assert!((impulse(given) - mean).abs() < 1e-12, "{given:?}");
+        }
+        let slow = Actuator::new(2e-2, h).within(3.0, 1.0, 0.0);
+        assert!((slow[0] - 3.0).abs() < 1e-6, "{slow:?}");
+    }
+
+    /// A ramp that has gone on for long is followed τ behind.
+    #[test]
+    fn a_ramp_is_followed_a_time_constant_behind() {
+        let (tau_s, h) = (5e-3, 1e-3);
+        let behind = |t: f64| 7.0 * (t - tau_s);
+        let given = Actuator::new(tau_s, h).within(behind(0.0), 0.0, 7.0 * h);
+        for (found, t) in given.into_iter().zip([0.0, 0.5 * h, h]) {
+            assert!((found - behind(t)).abs() < 1e-12, "{given:?}");
+        }
+    }
+}
