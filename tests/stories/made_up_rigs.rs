@@ -152,6 +152,38 @@ fn a_valve_that_sticks_lacks_dry_friction_and_no_law_that_nobody_knows() {
     }
 }
 
+/// A spring whose force grows with the square of its stretch, measured by an accelerometer of much noise: a cubic spring comes
+/// near, and beside it play takes most of the rest. One law that leaves less than both is the likelier story.
+#[test]
+fn a_spring_of_its_own_kind_is_no_cubic_one_with_play() {
+    let mut noise = Noise(37);
+    let mut recording = || -> Vec<[f64; 2]> {
+        let inputs = noise.tones([0.5, 40.0], 5.0, 1500);
+        let rate =
+            |[x, v]: [f64; 2], u: f64| [v, (u - 6.0 * v - 2e3 * x - 6e5 * x * x.abs()) / 0.8];
+        let states: Vec<[f64; 2]> = moved(&inputs, 10, rate).collect();
+        let accelerations = states.iter().zip(&inputs).map(|(&at, &u)| rate(at, u)[1]);
+        noise.with(&inputs, accelerations, 1.0)
+    };
+    let rig = Rig {
+        recordings: (0..2).map(|_| recording()).collect(),
+        declared: [
+            "signal: Force, unit: Newton",
+            "Acceleration",
+            "MetrePerSecondSquared",
+        ],
+        fitted: "Acceleration",
+    };
+    let diagnosis = rig.told_with("intersample: ZeroOrder", &Verb::Improve);
+    let headline = &diagnosis.headline;
+    let [law] = &diagnosis.added[..] else {
+        panic!("{:?}: {headline}", names(&diagnosis))
+    };
+    assert_eq!(law.expression.as_deref(), Some("p*x*abs(x)"), "{headline}");
+    let size = law.parameters[0].value;
+    assert!((size / 6e5 - 1.0).abs() < 0.01, "{size}");
+}
+
 /// A drive that begins at rest, with a torque that comes late: before the first sample nothing turned it, and the delay is a delay.
 #[test]
 fn a_servo_that_answers_late_lacks_a_delay_and_no_lag() {

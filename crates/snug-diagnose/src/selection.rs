@@ -6,6 +6,7 @@ mod escape;
 pub(crate) mod forward_selection;
 pub(crate) mod full_rate;
 pub(crate) mod model_selection;
+mod one_law;
 pub(crate) mod path;
 pub(crate) mod simpler;
 pub(crate) mod thresholds;

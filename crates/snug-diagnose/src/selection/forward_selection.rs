@@ -24,6 +24,16 @@ impl ModelSelection<'_> {
 
     /// Rung by rung; `path` holds those that were reached also where this fails.
     fn add_justified(&self, path: &mut SelectionPath) -> Result<(), DiagnoseError> {
+        self.go_on(path)?;
+        let Some((place, law)) = self.one_law(path)? else {
+            return Ok(());
+        };
+        path.go_back_to(place);
+        self.go_up(path, vec![law])?;
+        self.go_on(path)
+    }
+
+    fn go_on(&self, path: &mut SelectionPath) -> Result<(), DiagnoseError> {
         loop {
             self.rank_last(path)?;
             if path.additions.len() >= MOST_EFFECTS {

@@ -86,6 +86,17 @@ impl SelectionPath {
         self.stand_on(fitted);
     }
 
+    /// Back to rung number `place`, and what was ranked beside it.
+    pub fn go_back_to(&mut self, place: usize) {
+        self.rungs.truncate(place + 1);
+        let effects = &self.rungs[place].effects;
+        self.additions.retain(|one| effects.contains(&one.effect));
+        let mut later = self.ranked.split_off(place).into_iter();
+        let ranked = later.next().flatten();
+        self.ranking = ranked.map_or_else(Ranking::default, |ranked| ranked.ranking);
+        self.stopped = None;
+    }
+
     /// One rung down: the last model does `without` an effect that was added, and loses so much.
     pub fn take_out(&mut self, effect: Effect, without: Fitted, loss: f64) {
         self.attempts.push(self.attempt(effect, loss, true));

@@ -26,6 +26,12 @@ pub(crate) const MOST_OF_RICHER: f64 = 0.75;
 /// it leaves 7 and 2.4 times as much in those two; of a tachometer that reads too much an offset of the torque takes 89 % and leaves
 /// 2700 times as much as that of the output.
 pub(crate) const MANY_TIMES: f64 = 100.0;
+/// Squared error with a law in no catalogue over that with what was added in its place, up to which the law is the likelier story, where
+/// it needs as many effects, one fewer, or more fewer \[–\]. Chosen: two effects of the catalogue that leave as little are the likelier story.
+pub(crate) const ONE_LAW: [f64; 3] = [0.5, 0.98, 1.05];
+/// Times the law's squared error that the known effect must have left in its place \[–\]. Chosen: springs of x |x| were called cubic with
+/// a ripple, or exponential with play and a spring in series with a damper, where the known one alone left 10 to 30 times as much.
+pub(crate) const MUCH_MORE: f64 = 3.0;
 /// Growth of the squared residual of a long record that is no matter of chance \[–\]. Chosen.
 pub(crate) const PLAINLY_MORE: f64 = 1.3;
 /// Share of the squared error of the study's own model below which, where the noise is not known, an effect is told as small

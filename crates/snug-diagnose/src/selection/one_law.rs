@@ -1,0 +1,92 @@
+//! One law in no catalogue in place of what was taken for it.
+//!
+//! Of few long records what is known comes in first, also where it leaves more: what the law does beyond it may be another effect. Where in
+//! the end only others that stand in for the rest leave as little, or nothing does, the law that was passed over is the likelier story.
+
+use crate::error::DiagnoseError;
+use crate::library::is_unlisted;
+use crate::pooled::fitted::Fitted;
+use crate::ranking::rank::Candidate;
+use crate::selection::model_selection::{ModelSelection, Step};
+use crate::selection::path::{Ranked, SelectionPath};
+use crate::selection::thresholds::{MUCH_MORE, ONE_LAW};
+
+impl ModelSelection<'_> {
+    /// The rung to go back to, and what to add there; `None` where no law passed over does for what was added instead.
+    pub fn one_law(&self, path: &SelectionPath) -> Result<Option<(usize, Step)>, DiagnoseError> {
+        let last = path.last();
+        for (place, ranked) in path.ranked.iter().enumerate() {
+            let Some(Ranked { beside, ranking }) = ranked else {
+                continue;
+            };
+            let taken = &path.rungs[place + 1];
+            let does = |law: &Candidate| {
+                is_unlisted(law.effect)
+                    && law.is_supported(self.settings)
+                    && does_for_all(&law.fitted, taken, last)
+            };
+            let Some(index) = ranking.candidates.iter().position(does) else {
+                continue;
+            };
+            let (addition, fitted) = self.step(ranking, index, beside);
+            let settled = self.settled(&fitted)?;
+            if does_for_all(&settled, taken, last) {
+                return Ok(Some((place, (addition, settled))));
+            }
+        }
+        Ok(None)
+    }
+}
+
+/// Whether a model with one `law` is a likelier story than the `last`, which began with what was `taken` in the law's place.
+fn does_for_all(law: &Fitted, taken: &Fitted, last: &Fitted) -> bool {
+    let fewer = last.effects.len().checked_sub(law.effects.len());
+    let most = fewer.map_or(0.0, |fewer| ONE_LAW[fewer.min(ONE_LAW.len() - 1)]);
+    !last.is_weighted
+        && law.squares() <= most * last.squares()
+        && taken.squares() >= MUCH_MORE * law.squares()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tests::made_up::{SAMPLES, term};
+    use snug_model::Effect::{self, Backlash, CubicStiffness, MaxwellBranch};
+
+    /// A model of a few long records whose noise nobody knows.
+    fn left(effects: &[Effect], squares: f64) -> Fitted {
+        Fitted::made_up(effects, &[squares], SAMPLES).unweighted()
+    }
+
+    /// A law that leaves 1 where a cubic spring left this, beside which the others then leave that.
+    fn does(taken: f64, others: &[Effect], last: f64) -> bool {
+        let law = left(&[term("abs_x_x_law")], 1.0);
+        let added = [&[CubicStiffness], others].concat();
+        does_for_all(&law, &left(&[CubicStiffness], taken), &left(&added, last))
+    }
+
+    #[test]
+    fn the_more_were_added_in_its_place_the_less_a_law_must_leave() {
+        for (others, most) in [
+            (&[][..], 2.0),
+            (&[Backlash], 1.0 / 0.98),
+            (&[Backlash, MaxwellBranch], 1.0 / 1.05),
+        ] {
+            assert!(does(10.0, others, 1.01 * most), "{others:?}");
+            assert!(!does(10.0, others, 0.99 * most), "{others:?}");
+        }
+    }
+
+    #[test]
+    fn what_was_as_near_as_the_law_keeps_its_place() {
+        assert!(does(3.1, &[Backlash], 1.5));
+        assert!(!does(2.9, &[Backlash], 1.5));
+    }
+
+    #[test]
+    fn known_noise_says_itself_which_is_nearer() {
+        let law = Fitted::made_up(&[term("abs_x_x_law")], &[1.0], SAMPLES);
+        let last = Fitted::made_up(&[CubicStiffness], &[10.0], SAMPLES);
+        assert!(!does_for_all(&law, &last, &last));
+    }
+}
