@@ -56,11 +56,15 @@ fn frozen_or_limited(
     let quality = &context.settings.quality;
     for (channel, samples) in signals.channels() {
         let limit = saturation::find(&samples[range.clone()], quality.saturated_samples);
-        if let Some(limit) = limit {
+        if let Some(limit) = &limit {
+            let levels: Vec<String> = (limit.levels.iter())
+                .map(|level| format!("{level:.3}"))
+                .collect();
             let what = format!(
-                "{} stays at its limit {:.3} {} for {} samples, {} in a row",
+                "{} stays at its {} {} {} for {} samples, {} in a row",
                 channel.name(),
-                limit.level,
+                if levels.len() == 1 { "limit" } else { "limits" },
+                levels.join(" and "),
                 channel.unit(),
                 limit.samples,
                 limit.longest_run
@@ -72,7 +76,7 @@ fn frozen_or_limited(
         let mut runs = stuck::find(
             &samples[..range.end],
             shortest,
-            limit.map(|limit| limit.level),
+            limit.as_ref().map_or(&[][..], |limit| &limit.levels),
         );
         runs.retain(|run| run.end > range.start);
         if let Some(first) = runs.first() {

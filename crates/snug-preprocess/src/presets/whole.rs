@@ -136,7 +136,7 @@ fn tell_saturation(
     };
     let channel = Channel::Motion(Quantity::Acceleration);
     let what = format!(
-        "{} stays at one largest or smallest value for {} of {} samples, {} in a row, as a sensor does at the end of its range",
+        "{} stays at its largest or smallest value for {} of {} samples, {} in a row, as a sensor does at the end of its range",
         channel.name(),
         limit.samples,
         samples.len(),

@@ -12,7 +12,7 @@ pub(crate) fn find(samples: &[f64], shortest: usize, threshold_sd: f64) -> Vec<R
         let next = samples.get(run.end);
         next.is_some_and(|next| (next - samples[run.start]).abs() > threshold_sd * typical)
     };
-    let mut runs = stuck::find(samples, shortest, None);
+    let mut runs = stuck::find(samples, shortest, &[]);
     runs.retain(jumps);
     runs
 }

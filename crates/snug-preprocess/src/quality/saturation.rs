@@ -1,13 +1,13 @@
 //! Channels at the limit of their range, told from the top of a coarsely quantised peak.
 
-/// Samples pinned at the largest or smallest value of a channel.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// Samples pinned at the largest or smallest value of a channel, or at both.
+#[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Saturation {
-    /// The limiting value, in the channel's unit.
-    pub(crate) level: f64,
-    /// Samples at it.
+    /// The limiting values, in the channel's unit, the largest first.
+    pub(crate) levels: Vec<f64>,
+    /// Samples at them.
     pub(crate) samples: usize,
-    /// Longest run of successive samples at it.
+    /// Longest run of successive samples at one of them.
     pub(crate) longest_run: usize,
 }
 
@@ -15,7 +15,7 @@ pub(crate) struct Saturation {
 /// coarsely quantised peak holds 1/(√2 − 1) ≈ 2.4 times as many samples as the step below it.
 const PILE_UP: usize = 4;
 
-/// Looks for a limit at either end of the signal.
+/// Looks for a limit at either end of the signal, and at both.
 ///
 /// Sought are runs of at least `shortest_run` successive samples at exactly the extreme, where the extreme is at least
 /// half of the largest absolute value (so that a channel at rest at zero does not count).
@@ -30,7 +30,12 @@ pub(crate) fn find(samples: &[f64], shortest_run: usize) -> Option<Saturation> {
         .into_iter()
         .filter(|(level, sign)| level * sign >= 0.5 * reach)
         .filter_map(|(level, sign)| at_level(samples, level, sign))
-        .find(|found| found.longest_run >= shortest_run)
+        .filter(|found| found.longest_run >= shortest_run)
+        .reduce(|one, other| Saturation {
+            levels: [one.levels, other.levels].concat(),
+            samples: one.samples + other.samples,
+            longest_run: one.longest_run.max(other.longest_run),
+        })
 }
 
 /// Counts at the extreme `level`; `None` when the next value is nearly as frequent.
@@ -52,7 +57,7 @@ fn at_level(samples: &[f64], level: f64, sign: f64) -> Option<Saturation> {
         .filter(|&&sample| sample * sign == next)
         .count();
     (count >= PILE_UP * beside).then_some(Saturation {
-        level,
+        levels: vec![level],
         samples: count,
         longest_run,
     })
@@ -73,12 +78,24 @@ mod tests {
         for seed in 0..10 {
             let clipped: Vec<f64> = noisy_pulse(seed).iter().map(|x| x.min(28.0)).collect();
             let found = find(&clipped, 5).expect("clipped at 28");
-            assert_eq!(found.level, 28.0);
+            assert_eq!(found.levels, [28.0]);
             // 28 of 30 Nm: above it for 2/30 of the rise (800) and of the fall (120).
             assert!((55..=67).contains(&found.samples), "{found:?}");
             let inverted: Vec<f64> = clipped.iter().map(|x| -x).collect();
-            assert_eq!(find(&inverted, 5).map(|s| s.level), Some(-28.0));
+            assert_eq!(find(&inverted, 5).map(|s| s.levels), Some(vec![-28.0]));
         }
+    }
+
+    #[test]
+    fn what_is_cut_off_at_both_ends_counts_at_both() {
+        let swings = |index: usize| 40.0 * (0.01 * index as f64).sin();
+        let cut: Vec<f64> = (0..6000)
+            .map(|index| swings(index).clamp(-28.0, 30.0))
+            .collect();
+        let found = find(&cut, 5).expect("cut off");
+        assert_eq!(found.levels, [30.0, -28.0]);
+        let at_either = cut.iter().filter(|&&one| one == 30.0 || one == -28.0);
+        assert_eq!(found.samples, at_either.count());
     }
 
     #[test]

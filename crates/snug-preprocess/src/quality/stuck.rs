@@ -11,9 +11,9 @@ const CHANCE_FACTOR: f64 = 3.0;
 /// Runs of identical successive samples in a channel that otherwise changes: dropouts, lost packets.
 ///
 /// Chance repeats neighbours of a quantised channel with some probability p, and its longest run over n samples is about
-/// ln n / ln(1/p); a run counts from three times that on, and never below `shortest` samples. Samples at `limit` (a known
+/// ln n / ln(1/p); a run counts from three times that on, and never below `shortest` samples. Samples at `limits` (a known
 /// saturation) are passed over.
-pub(crate) fn find(samples: &[f64], shortest: usize, limit: Option<f64>) -> Vec<Range<usize>> {
+pub(crate) fn find(samples: &[f64], shortest: usize, limits: &[f64]) -> Vec<Range<usize>> {
     let runs = runs_of_identical(samples, shortest.max(2));
     let frozen: usize = runs.iter().map(Range::len).sum();
     if frozen as f64 > FROZEN_RATIO * samples.len() as f64 {
@@ -30,7 +30,7 @@ pub(crate) fn find(samples: &[f64], shortest: usize, limit: Option<f64>) -> Vec<
     };
     runs.into_iter()
         .filter(|run| run.len() as f64 > longest_by_chance)
-        .filter(|run| Some(samples[run.start]) != limit)
+        .filter(|run| !limits.contains(&samples[run.start]))
         .collect()
 }
 
@@ -60,23 +60,23 @@ mod tests {
         samples[15_000..15_040].fill(held);
         samples[16_000..16_030].fill(0.0);
         assert_eq!(
-            find(&samples, 20, None),
+            find(&samples, 20, &[]),
             vec![15_000..15_040, 16_000..16_030]
         );
-        assert_eq!(find(&samples, 20, Some(0.0)), vec![15_000..15_040]);
+        assert_eq!(find(&samples, 20, &[0.0]), vec![15_000..15_040]);
     }
 
     #[test]
     fn quantised_noise_and_silence_are_not_frozen() {
         for seed in 0..20 {
             let noise = white_noise(18_000, 0.02, seed);
-            assert!(find(&noise, 20, None).is_empty());
+            assert!(find(&noise, 20, &[]).is_empty());
             for step in [0.02, 0.05, 0.08] {
                 let quantised: Vec<f64> = noise.iter().map(|x| (x / step).round() * step).collect();
-                assert!(find(&quantised, 20, None).is_empty(), "step {step}");
+                assert!(find(&quantised, 20, &[]).is_empty(), "step {step}");
             }
         }
-        assert!(find(&[0.0; 500], 20, None).is_empty());
-        assert!(find(&[], 20, None).is_empty());
+        assert!(find(&[0.0; 500], 20, &[]).is_empty());
+        assert!(find(&[], 20, &[]).is_empty());
     }
 }
