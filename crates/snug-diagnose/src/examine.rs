@@ -14,8 +14,7 @@ use crate::selection::path::SelectionPath;
 use crate::settings::DiagnoseSettings;
 use crate::verdict::answer::{Answer, Examination};
 use crate::verdict::changes::{are_above_all, changes};
-use crate::verdict::earned::is_declared_wrong;
-use crate::verdict::earned::leaves_noise;
+use crate::verdict::earned::{is_declared_wrong, leaves_noise, turned_round};
 use crate::verdict::tightening_fits::TighteningFits;
 use crate::verdict::units::in_other_units;
 use snug_campaign::words::changes::Changes;
@@ -55,7 +54,8 @@ pub fn examine(
     // What is missing is no question where recordings stand in units of their own or channels are not what they are said to be.
     let stand_apart = units.as_ref().is_some_and(|units| units.is_prefix);
     let is_declared_wrong = is_declared_wrong(cases, compared.last());
-    let goal = match stand_apart || is_declared_wrong {
+    let turned_round = turned_round(cases);
+    let goal = match stand_apart || is_declared_wrong || turned_round.is_some() {
         true => &Goal::Compare,
         false => &question.goal,
     };
@@ -89,6 +89,7 @@ pub fn examine(
         path: path.without_torque_noise(counted)?,
         units,
         is_declared_wrong,
+        turned_round,
         changes,
         // What was found is told, however it ended.
         watch: watch.to_the_end(),

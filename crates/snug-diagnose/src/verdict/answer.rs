@@ -25,7 +25,7 @@ use crate::verdict::{detectability, in_some_groups, ladder, preparation};
 use snug_campaign::words::changes::Changes;
 use snug_campaign::words::explained::Explained;
 use snug_campaign::words::statement;
-use snug_campaign::words::suspicion::{OtherUnits, Suspicion};
+use snug_campaign::words::suspicion::{OtherUnits, Suspicion, TurnedRound};
 use snug_campaign::{
     AddedEffect, Comparison, CorrectedEffect, Diagnosis, Drift, EffectParameter, Experiment,
     Location, NegativeControl, RankedEffect, UnlistedTerm, Verdict, sharing,
@@ -65,6 +65,8 @@ pub(crate) struct Examination<'a> {
     pub units: Option<OtherUnits>,
     /// Whether a channel is not what it is declared to be, so that nothing was looked for.
     pub is_declared_wrong: bool,
+    /// Recordings whose input has the other sign.
+    pub turned_round: Option<TurnedRound>,
     /// What changes along the recordings by so much that nothing was looked for.
     pub changes: Option<Changes>,
     pub watch: Watch<'a>,

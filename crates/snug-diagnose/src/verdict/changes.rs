@@ -8,7 +8,7 @@ use crate::pooled::fitted::Fitted;
 use crate::selection::thresholds::MOST;
 use crate::verdict::thresholds::{ABOVE_ALL, CHANGES};
 use snug_campaign::words::changes::{Changes, Changing};
-use snug_identify::Change;
+use snug_identify::{Change, FitTask};
 use snug_model::{BASE_PARAMETERS, Effect};
 use std::iter::successors;
 
@@ -46,7 +46,7 @@ pub(crate) fn changes(
         "what changes along the recordings"
     );
     let some = change.recordings.len() < cases.len();
-    let names = change.recordings.iter().map(|&place| name(cases, place));
+    let names = change.recordings.iter().map(|&place| name(&cases, place));
     is_one.then(|| Changes {
         what,
         times: to / from,
@@ -57,7 +57,7 @@ pub(crate) fn changes(
 }
 
 /// A recording by its file, and by its number where that holds several.
-fn name(cases: Cases<'_>, place: usize) -> String {
+pub(crate) fn name(cases: &[FitTask<'_>], place: usize) -> String {
     let id = &cases[place].tightening.id;
     let files = cases.iter().map(|case| &case.tightening.id.file);
     match files.filter(|file| **file == id.file).count() {

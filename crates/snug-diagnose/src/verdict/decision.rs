@@ -56,6 +56,7 @@ impl Examination<'_> {
     ) -> (Verdict, Vec<Suspicion>) {
         let is_white = (places.explained.as_ref()).is_some_and(|all| all.neighbours.abs() < WHITE);
         let wrong = [
+            self.turned_round.clone().map(Suspicion::TurnedRound),
             self.units_that_differ(true).map(Suspicion::Units),
             plain
                 .and_then(|plain| self.failed_fit(plain))

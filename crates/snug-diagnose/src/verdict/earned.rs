@@ -147,6 +147,14 @@ fn promised(cases: &[FitTask<'_>]) -> Option<f64> {
     spectral_start(cases).map(|start| 1.0 - start.unexplained)
 }
 
+/// The recording with its input's other sign.
+fn turned<'a>(case: &FitTask<'a>) -> FitTask<'a> {
+    let mut case = case.clone();
+    let torques = &mut case.tightening.to_mut().torque_nm;
+    torques.iter_mut().for_each(|torque| *torque = -*torque);
+    case
+}
+
 /// How well m, c, k alone explain the records with a channel changed, where that is far better than as they are, dry friction and an
 /// offset beside them in a plain regression.
 struct Changed<'a> {
@@ -179,10 +187,7 @@ impl<'a> Changed<'a> {
     }
 
     fn sign(&self) -> Option<Suspicion> {
-        let share = self.share(|case| {
-            let torques = &mut case.tightening.to_mut().torque_nm;
-            torques.iter_mut().for_each(|torque| *torque = -*torque);
-        });
+        let share = self.share(|case| *case = turned(case));
         share.map(Suspicion::Sign)
     }
 
@@ -296,6 +301,10 @@ pub(crate) fn suspicions(
     }
     found
 }
+
+mod turned_round;
+
+pub(crate) use turned_round::turned_round;
 
 #[cfg(test)]
 mod tests;

@@ -209,6 +209,7 @@ fn no_model(situation: &Situation<'_>) -> Option<NoModel> {
             are_swapped: true,
             share,
         },
+        Some(Suspicion::TurnedRound(turned)) => NoModel::TurnedRound(turned.clone()),
         Some(Suspicion::PushesAway(_)) => NoModel::PushesAway,
         Some(&Suspicion::HardlyTried { tried, of }) => NoModel::HardlyTried { tried, of },
         _ => NoModel::NotFitted(situation.explained?),

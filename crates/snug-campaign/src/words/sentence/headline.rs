@@ -7,7 +7,7 @@ use crate::words::number::significant;
 use crate::words::sentence::explained::Explained;
 use crate::words::sentence::explained::at_most_all;
 use crate::words::sentence::said::written_as_said;
-use crate::words::sentence::suspicion::OtherUnits;
+use crate::words::sentence::suspicion::{OtherUnits, TurnedRound};
 use std::fmt::{self, Display, Formatter};
 
 /// What a fitted model leaves.
@@ -229,6 +229,8 @@ pub enum NoModel {
         /// What would be explained then.
         share: f64,
     },
+    /// Recordings whose input has the other sign than that of the others.
+    TurnedRound(TurnedRound),
     /// The rig pushes itself away from where it rests.
     PushesAway,
     /// No model was found that deserves the question.
@@ -257,6 +259,10 @@ impl Display for NoModel {
                     false => "The input seems to have the other sign",
                 },
                 at_most_all(*share)
+            ),
+            Self::TurnedRound(turned) => write!(
+                f,
+                "The recordings do not agree which way is which: {turned}. What is missing cannot be asked before that is mended."
             ),
             Self::PushesAway => f.write_str(
                 "The rig pushes itself away from where it rests, and no stiffness of 0 or more follows it. What is missing cannot be asked before the study lets it be below.",

@@ -18,6 +18,8 @@ pub enum Suspicion {
     PoorMinimum(f64),
     /// The input's sign is the other one.
     Sign(f64),
+    /// The input's sign is the other one in some recordings.
+    TurnedRound(TurnedRound),
     /// Input and output are swapped.
     Swapped(f64),
     /// The output is another derivative of the angle.
@@ -57,6 +59,29 @@ pub enum Suspicion {
     Still,
     /// None of these helps.
     NoOscillator,
+}
+
+/// Recordings whose input has the other sign than that of the others.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TurnedRound {
+    /// Which.
+    pub recordings: Vec<String>,
+    /// How many there are in all \[–\].
+    pub of: usize,
+    /// The least share of any of them that mass, damping and stiffness alone would explain with that sign changed \[–\].
+    pub share: f64,
+}
+
+impl Display for TurnedRound {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "in {} ({} of {} recordings) the input has the other sign than in the others",
+            joined(&self.recordings),
+            self.recordings.len(),
+            self.of
+        )
+    }
 }
 
 /// Two files, or people, whose masses, dampings and stiffnesses stand apart by one factor.
@@ -171,6 +196,11 @@ impl Display for Suspicion {
                 f,
                 "Check the sign: with that of the input changed, mass, damping and stiffness alone would explain {}.",
                 at_most_all(*share)
+            ),
+            Self::TurnedRound(turned) => write!(
+                f,
+                "Check the sign: {turned}, or its output has. With it changed, mass, damping and stiffness alone would explain {} there or more, with it as it is less than half. Turn one of the two round in the file, or leave it out.",
+                at_most_all(turned.share)
             ),
             Self::Swapped(share) => write!(
                 f,

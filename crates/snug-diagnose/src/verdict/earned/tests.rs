@@ -2,11 +2,12 @@
 #![allow(clippy::unwrap_used)]
 
 use super::*;
+use crate::tests::made_up::on_machine;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use snug_campaign::{Intersample, Rig, Tightening};
 use snug_identify::IdentifySettings;
-use snug_model::{Input, Model};
+use snug_model::{Input, Model, Scale};
 
 const RIG: Rig = Rig {
     lever_arm_m: 1.0,
@@ -78,6 +79,38 @@ fn another_sign_is_suspected() {
         matches!(found[0], Suspicion::Sign(share) if share > 0.99),
         "{found:?}"
     );
+}
+
+/// Three recordings of a machine, of which the input of the second has the other sign; and all three with it.
+#[test]
+fn a_recording_whose_input_is_turned_round_is_named() {
+    let (torque_nm, angle_rad) = oscillator();
+    let recording = |place: usize, sign: f64| {
+        let torque_nm = torque_nm.iter().map(|torque| sign * torque).collect();
+        let scale = Scale::Rig {
+            torque_nm: 1.0,
+            angle_rad: 0.02,
+            time_s: 0.14,
+        };
+        let angle_rad = angle_rad.clone();
+        let mut task = on_machine(
+            scale,
+            INTERVAL_S,
+            torque_nm,
+            Quantity::Displacement,
+            angle_rad,
+        );
+        task.tightening.to_mut().id.file = format!("{place}.csv");
+        task
+    };
+    let found = turned_round(&[recording(0, 1.0), recording(1, -1.0), recording(2, 1.0)]);
+    let found = found.expect("one is turned round");
+    assert_eq!((found.recordings, found.of), (vec!["1.csv".to_owned()], 3));
+    assert!(found.share > 0.99);
+    for sign in [1.0, -1.0] {
+        let alike = [0, 1, 2].map(|place| recording(place, sign));
+        assert_eq!(turned_round(&alike), None);
+    }
 }
 
 #[test]
