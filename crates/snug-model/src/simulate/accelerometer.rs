@@ -1,8 +1,8 @@
 //! An accelerometer with cross-sensitivities and a lag, and the velocity and displacement integrated from its signal.
 
 use crate::law::Kinematics;
-use crate::numeric::lanewise::Lanewise;
 use crate::numeric::number::Number;
+use crate::simulate::first_order::left_after;
 
 /// What an accelerometer with cross-sensitivities and a lag makes of the motion, and what its integrated signals then show.
 ///
@@ -38,18 +38,11 @@ struct Lag<N> {
     now: N,
 }
 
-/// τ over the interval below which exp(−h/τ) is zero in double precision.
-const NEGLIGIBLE_RATIO: f64 = 1e-3;
-
 impl<N: Number> Lag<N> {
     #[inline(always)]
     fn new(tau_s: N, interval_s: N::Real) -> Self {
         let ratio = tau_s.times(interval_s.constant(1.0) / interval_s);
-        let slow = ratio
-            .value()
-            .is_above(interval_s.constant(NEGLIGIBLE_RATIO));
-        let kept = (tau_s.constant(-1.0) / ratio).exp();
-        let keep = N::select(slow, kept, tau_s.constant(0.0));
+        let keep = left_after(1.0, ratio);
         let mean = ratio * (-keep + 1.0);
         Self {
             tau_s,

@@ -1,7 +1,7 @@
 //! A drive that follows its command through a first-order lag, and what it gives within every step.
 
-use crate::numeric::lanewise::Lanewise;
 use crate::numeric::number::Number;
+use crate::simulate::first_order::left_after;
 
 /// What a drive gives within a step of the integration \[Nm\]: as the step begins, at its middle and as it ends.
 pub type Within<N> = [N; 3];
@@ -24,20 +24,12 @@ pub struct Actuator<N> {
     left: Within<N>,
 }
 
-/// τ over the step below which exp(−h/2τ) is zero in double precision.
-const NEGLIGIBLE_RATIO: f64 = 5e-4;
-
 impl<N: Number> Actuator<N> {
     /// Time constant \[s\] and length of a step \[s\].
     pub fn new(tau_s: N, step_s: N::Real) -> Self {
         let one = step_s.constant(1.0);
         let ratio = tau_s.times(one / step_s);
-        let slow = (ratio.value()).is_above(step_s.constant(NEGLIGIBLE_RATIO));
-        let after = |steps: f64| {
-            let kept = (ratio.constant(-steps) / ratio).exp();
-            N::select(slow, kept, ratio.constant(0.0))
-        };
-        let (half, whole) = (after(0.5), after(1.0));
+        let (half, whole) = (left_after(0.5, ratio), left_after(1.0, ratio));
         let mean = ratio * (-whole + 1.0);
         Self {
             ratio,

@@ -14,7 +14,7 @@ use crate::simulate::sensors::{Moment, moves_elsewhere, relative_motion};
 const ENDS: f64 = 1.0 / 6.0;
 const MIDDLE: f64 = 1.0 / 3.0;
 
-/// How far ahead a stage is and how far on the next one, in half intervals, and its weight in the mean.
+/// How far ahead a stage is, in half intervals, how far on the next one, in intervals, and its weight in the mean.
 const STAGES: [(usize, f64, f64); 4] = [
     (0, 0.5, ENDS),
     (1, 0.5, MIDDLE),

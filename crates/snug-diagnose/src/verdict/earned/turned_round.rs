@@ -17,8 +17,12 @@ pub(crate) fn turned_round(cases: &[FitTask<'_>]) -> Option<TurnedRound> {
         return None;
     }
     let explained = |case: &FitTask<'_>| promised(&[case.lent()]).unwrap_or(0.0);
-    let shares: Vec<[f64; 2]> = (cases.iter())
-        .map(|case| [explained(case), explained(&turned(case))])
+    let as_they_are: Vec<f64> = cases.iter().map(explained).collect();
+    if as_they_are.iter().all(|share| *share >= LEAST_EXPLAINED) {
+        return None;
+    }
+    let shares: Vec<[f64; 2]> = (as_they_are.into_iter().zip(cases))
+        .map(|(as_it_is, case)| [as_it_is, explained(&turned(case))])
         .collect();
     let is_right = |[as_is, turned]: &[f64; 2]| *as_is >= LEAST_EXPLAINED && as_is > turned;
     let is_turned = |[as_is, turned]: &[f64; 2]| {
