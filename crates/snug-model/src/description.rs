@@ -1,5 +1,7 @@
 //! What an effect says of itself: name, equation, parameters with their ranges, and how it shows; never a number of a fit.
 
+use snug_campaign::Quantity;
+
 /// Where in the chain from bolt to sample an effect sits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -73,6 +75,9 @@ pub enum Scope {
 /// Unit of a parameter that is added to the fitted output, whichever that is: rad, rad/s or rad/s².
 pub const OUTPUT_UNIT: &str = "output unit";
 
+/// Unit of what is added to the fitted output with every second.
+pub const OUTPUT_UNIT_PER_SECOND: &str = "output unit/s";
+
 /// One parameter of an effect; its numbers are in its unit.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct ParameterSpec {
@@ -96,6 +101,21 @@ pub struct ParameterSpec {
     pub vanishes_at: Option<f64>,
     /// Over what it is constant.
     pub scope: Scope,
+}
+
+impl ParameterSpec {
+    /// Its unit where the fitted output is this one.
+    pub fn unit_where(&self, output: Quantity) -> &'static str {
+        match self.unit {
+            OUTPUT_UNIT => output.unit(),
+            OUTPUT_UNIT_PER_SECOND => match output {
+                Quantity::Displacement => Quantity::Velocity.unit(),
+                Quantity::Velocity => Quantity::Acceleration.unit(),
+                Quantity::Acceleration => "rad/s^3",
+            },
+            unit => unit,
+        }
+    }
 }
 
 /// States what an effect is and its equation once: `SUMMARY` and `EQUATION` for its [`Description`], and both as `page!()` for

@@ -29,6 +29,7 @@ pub mod gravity_torque;
 pub mod grip_slip;
 pub mod initial_motion;
 pub mod maxwell_branch;
+pub mod output_drift;
 pub mod output_offset;
 pub mod quadratic_damping;
 pub mod quadratic_stiffness;
@@ -81,6 +82,7 @@ macro_rules! catalogue {
                 acceleration_bias::AccelerationBias,
                 initial_motion::InitialMotion,
                 output_offset::OutputOffset,
+                output_drift::OutputDrift,
                 centripetal_crosstalk::CentripetalCrosstalk,
                 gravity_leakage::GravityLeakage,
             ]
@@ -205,6 +207,11 @@ impl Effect {
     /// Whether what is measured of the motion differs from it where it acts.
     pub fn changes_what_is_measured(&self) -> bool {
         AnsweredHooks::of(self).are_heard_by_sensors()
+    }
+
+    /// Whether it is the zero of a sensor that is off, by now or ever more.
+    pub fn shifts_the_zero(&self) -> bool {
+        AnsweredHooks::of(self).measure
     }
 
     /// Whether it says with which motion the window begins.

@@ -175,6 +175,7 @@ impl Axis {
                 "rad" => (l, "m"),
                 "rad/s" => (l, "m/s"),
                 "rad/s^2" => (l, "m/s^2"),
+                "rad/s^3" => (l, "m/s^3"),
                 same => (1.0, same),
             },
         };

@@ -13,7 +13,7 @@ use BesideNothing::{Held, Told, Unknown};
 use snug_campaign::{EffectParameter, ParameterSource};
 use snug_identify::FitTask;
 use snug_least_squares::matrix::{SymmetricMatrix, inner_product as dot};
-use snug_model::{BASE_PARAMETERS, Effect, Law, Model, OUTPUT_UNIT, ParameterSpec, Scope};
+use snug_model::{BASE_PARAMETERS, Effect, Law, Model, ParameterSpec, Scope};
 
 /// Every parameter of one of the model's effects.
 ///
@@ -40,10 +40,7 @@ pub(crate) fn parameters(
             let limits = (parameter.minimum, parameter.maximum);
             let mut size = EffectParameter {
                 name: parameter.name.clone(),
-                unit: match spec.unit {
-                    OUTPUT_UNIT => cases[0].quantity().unit().to_owned(),
-                    unit => unit.to_owned(),
-                },
+                unit: spec.unit_where(cases[0].quantity()).to_owned(),
                 value: parameter.value,
                 minimum: range.minimum.max(limits.0),
                 maximum: range.maximum.min(limits.1),

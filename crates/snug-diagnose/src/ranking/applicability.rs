@@ -68,12 +68,15 @@ pub(crate) fn can_stand_beside(others: &[Effect], effect: Effect, case: &FitTask
 /// Whether `effect` could be what a measurement like `case` shows.
 ///
 /// Every effect says on which rigs it acts; a machine has no muscles and nerves; what an accelerometer does wrong is not in a
-/// displacement that was measured by itself; and a simulation that takes up the measured motion begins with it.
+/// displacement that was measured by itself; and a simulation that takes up the measured motion begins with it, and with what is wrong
+/// with the zero of a displacement.
 pub(crate) fn can_act(effect: Effect, case: &FitTask<'_>) -> bool {
     let description = effect.description();
     let has_accelerometer = case.quantity() == Quantity::Acceleration
         || case.tightening.motion.acceleration_rad_per_s2.is_some();
-    let is_set = effect.sets_initial_motion() && case.input.is_restarted();
+    let is_taken_up = effect.sets_initial_motion()
+        || (effect.shifts_the_zero() && case.quantity() == Quantity::Displacement);
+    let is_set = is_taken_up && case.input.is_restarted();
     let is_here = match description.acts_on {
         ActsOn::Hands => !is_machine(case),
         ActsOn::Machines => is_machine(case),
