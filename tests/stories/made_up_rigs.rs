@@ -8,6 +8,7 @@ mod free_motion;
 mod held;
 mod rig;
 mod unheld;
+mod zeros;
 
 use held::pendulum;
 use rig::{Noise, Rig, TORQUE, moved};

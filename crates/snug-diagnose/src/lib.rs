@@ -27,6 +27,7 @@ pub use live::focus::{CloserLook, Counted, Focus};
 pub use live::held_out::HeldOut;
 pub use live::tightening::LiveTightening;
 pub use locate::{Seen, compare, drifts, locate};
+pub use pooled::friction_steps::steps_per_sample;
 pub use pooled::groups::nothing::Nothing;
 pub use pooled::shared_block::{SharedBlock, SharedParameter, shared_blocks, shared_parameters};
 pub use pooled::thresholds::{FALSE_DISCOVERIES, ROUNDING};

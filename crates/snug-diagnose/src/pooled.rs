@@ -7,6 +7,7 @@ pub(crate) mod equation;
 pub(crate) mod error_beyond;
 pub(crate) mod fit;
 pub(crate) mod fitted;
+pub(crate) mod friction_steps;
 pub(crate) mod groups;
 pub(crate) mod hold_out;
 pub(crate) mod long_record;

@@ -1,5 +1,6 @@
 //! The torque between its samples, and before them.
 
+mod grid;
 mod position;
 pub(crate) mod restart;
 pub(crate) mod slope;

@@ -7,6 +7,7 @@ mod noise;
 mod periodogram;
 mod spectrum;
 mod transfer;
+mod trend;
 
 pub use finite::first_not_finite;
 pub use interpolation::{between_samples, straight_pieces};
@@ -15,3 +16,4 @@ pub use periodogram::Periodogram;
 pub use realfft::num_complex::Complex;
 pub use spectrum::spectrum;
 pub use transfer::{Taper, Transfer, TransferLine};
+pub use trend::without_trend;

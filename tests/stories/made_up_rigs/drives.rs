@@ -51,6 +51,32 @@ fn a_dead_band_is_told_as_an_input_that_hardly_acts_while_small() {
     );
 }
 
+/// A drive that rests half of the time and is sampled so seldom that friction stops it within a sample: simulated in steps as long as
+/// that, it never rests, and no fit of its lag settles.
+#[test]
+fn a_slowly_sampled_drive_rests_where_friction_holds_it() {
+    const SPEED_NOISE: f64 = 1e-3;
+    let mut noise = Noise(31);
+    let mut recording = || {
+        let inputs = noise.levels([-10.0, 10.0], 60, 900);
+        let rate = |[v, torque]: [f64; 2], u: f64| {
+            let friction = 4.0 * (v / 2e-4).tanh();
+            [(torque - 30.0 * v - friction) / 0.24, (u - torque) / 0.012]
+        };
+        let speeds = moved(&inputs, 120, rate).map(|[v, _]| v);
+        noise.with(&inputs, speeds, SPEED_NOISE)
+    };
+    let rig = Rig {
+        recordings: (0..2).map(|_| recording()).collect(),
+        declared: [TORQUE, "Velocity", "RadianPerSecond"],
+        fitted: "Velocity",
+    };
+    let said = r#"effects: ["coulomb_friction", "actuator_lag"], intersample: ZeroOrder"#;
+    let diagnosis = rig.told_with(said, &Verb::Compare);
+    let left = diagnosis.ladder[0].rms_fitted_output;
+    assert!(left < 1.1 * SPEED_NOISE, "{left}: {}", diagnosis.headline);
+}
+
 /// A motor whose current takes 20 ms to rise, with dry friction: the lag comes before the friction, as no sensor's does.
 #[test]
 fn a_motor_whose_current_rises_slowly_lacks_that_and_dry_friction() {

@@ -58,6 +58,9 @@ fn at_lower_rate(records: &[FitTask<'_>], fitted: &Fitted) -> Option<Vec<FitTask
 
 /// The records on the coarsest grid of their inputs on which the model ends hardly elsewhere; `None` where that is the one they have.
 fn on_coarser_grid(records: &[FitTask<'_>], fitted: &Fitted) -> Option<Vec<FitTask<'static>>> {
+    if !records.iter().all(|one| one.input.is_band_limited()) {
+        return None;
+    }
     let finest = records.iter().map(|one| one.input.substeps()).min()?;
     let mut grids = GRIDS
         .into_iter()

@@ -76,6 +76,27 @@ impl<'a> PlainEquation<'a> {
     }
 }
 
+/// What a plain regression says of a machine's dry friction.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct DryFriction {
+    /// With which it holds against every motion \[N\].
+    pub force_n: f64,
+    /// What it slows \[kg\].
+    pub mass_kg: f64,
+}
+
+impl DryFriction {
+    /// `None` where a plain regression has no answer, or knows of none.
+    pub fn of(cases: &[FitTask<'_>]) -> Option<Self> {
+        let plain = PlainEquation::of(cases)?;
+        let found = plain.with_friction()?;
+        let place = (plain.plain.iter()).position(|one| one.name() == "coulomb_friction")?;
+        let [mass_kg, ..] = found.base;
+        let force_n = *found.times.get(place)?;
+        (force_n > 0.0 && mass_kg > 0.0).then_some(Self { force_n, mass_kg })
+    }
+}
+
 /// Whether one mass, damping and stiffness, with dry friction and an offset beside them, leave far less of the measured acceleration
 /// than those of each recording by itself do without: what a rub or an offset asks of each is then no difference between machines.
 /// Where both leave nothing but noise, that says nothing.

@@ -18,6 +18,7 @@ use snug_campaign::Quantity;
 use snug_campaign::words::explained::Explained;
 use snug_campaign::words::suspicion::Suspicion;
 use snug_identify::{EquationFit, FitTask, spectral_start};
+use snug_signal::without_trend;
 use std::borrow::Cow;
 
 /// Share of the fitted output's power that `fitted` explains, all tightenings together \[–\]; `None` where the noise is known and
@@ -155,8 +156,17 @@ fn turned<'a>(case: &FitTask<'a>) -> FitTask<'a> {
     case
 }
 
+/// The recording without the straight line in its output.
+fn level<'a>(case: &FitTask<'a>) -> FitTask<'a> {
+    let mut case = case.clone();
+    let output = without_trend(case.measured().to_vec());
+    let quantity = case.quantity();
+    case.tightening.to_mut().motion.set(quantity, output);
+    case
+}
+
 /// How well m, c, k alone explain the records with a channel changed, where that is far better than as they are, dry friction and an
-/// offset beside them in a plain regression.
+/// offset beside them in a plain regression, or an output's drift: what makes a rate of it takes the drift away, too.
 struct Changed<'a> {
     cases: &'a [FitTask<'a>],
     as_it_is: f64,
@@ -164,7 +174,9 @@ struct Changed<'a> {
 
 impl<'a> Changed<'a> {
     fn of(cases: &'a [FitTask<'a>]) -> Self {
-        let alone = promised(cases).unwrap_or(0.0);
+        let level: Vec<FitTask<'_>> = cases.iter().map(level).collect();
+        let promises = [cases, &level].map(|some| promised(some).unwrap_or(0.0));
+        let alone = promises[0].max(promises[1]);
         let regressed = PlainEquation::of(cases).and_then(|plain| plain.with_friction());
         let regressed = regressed.filter(EquationFit::is_driven);
         tracing::debug!(alone, ?regressed, "the channels as they are declared");

@@ -18,8 +18,8 @@ impl FitTask<'_> {
     }
 
     /// The same with every `factor` samples replaced by their mean, which stands for the middle of them; what is left over at the end is
-    /// left out, and nothing is known of the noise. The torque runs straight from mean to mean, and a model that takes up the measured
-    /// motion does so about as often.
+    /// left out, and nothing is known of the noise. The torque runs straight from mean to mean, in steps as short as before
+    /// where those are shorter than the samples', and a model that takes up the measured motion does so about as often.
     ///
     /// Valid for: motion and torque that hardly bend over `factor` samples.
     pub fn decimated(&self, factor: usize) -> FitTask<'static> {
@@ -62,8 +62,13 @@ pub(crate) fn decimated_input(input: &Input, torque_nm: &[f64], factor: usize) -
     let interval_s = input.interval_s();
     let late_s = 0.5 * (factor - 1) as f64 * interval_s;
     let (torque_nm, interval_s) = (means(torque_nm, factor), interval_s * factor as f64);
+    let steps = match input.is_band_limited() || input.substeps() == 1 {
+        true => 1,
+        false => input.substeps() * factor,
+    };
     input
         .of_others(&torque_nm, interval_s, Intersample::Linear)
+        .in_steps(steps)
         .with_onset(input.onset_s() - late_s)
         .with_rest_before(input.rest_before_s() + late_s)
         .with_zero_at(input.zero_at().map(|sample| sample / factor))

@@ -23,13 +23,9 @@ impl Scale {
     /// # Errors
     /// [`ModelError`] where the scale gives no finite law.
     pub fn effect(&self, effect: Effect, rig: &Rig) -> Result<Effect, ModelError> {
-        let Self::Rig {
-            angle_rad, time_s, ..
-        } = self
-        else {
+        let Some(turn_m_per_s) = self.friction_turns_over(rig) else {
             return Ok(effect);
         };
-        let turn_m_per_s = SHARE_OF_SPEED * angle_rad * rig.lever_arm_m / time_s;
         let expression = match effect {
             Effect::CoulombFriction => format!("fc_n*tanh(v/{turn_m_per_s:e})"),
             Effect::StribeckFriction => {
@@ -42,6 +38,17 @@ impl Scale {
             _ => return Ok(effect),
         };
         self.written(effect, expression, rig)
+    }
+
+    /// Speed over which dry friction turns \[m/s\]; `None` on a hand, where it is the catalogue's.
+    pub fn friction_turns_over(&self, rig: &Rig) -> Option<f64> {
+        let Self::Rig {
+            angle_rad, time_s, ..
+        } = self
+        else {
+            return None;
+        };
+        Some(SHARE_OF_SPEED * angle_rad * rig.lever_arm_m / time_s)
     }
 
     /// A force of the catalogue written as this expression, under its own name.

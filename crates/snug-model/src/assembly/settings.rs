@@ -20,6 +20,9 @@ pub struct ModelSettings {
     /// What the input does between samples: `ZeroOrder`, `Linear` or `BandLimited`; default `Linear`, unless `improve` finds on a
     /// machine that with `ZeroOrder` less is missing.
     pub intersample: Option<Intersample>,
+    /// Steps of a simulation from sample to sample, of a held or straight input; default 1, and on a machine as many as its dry friction
+    /// asks for.
+    pub steps_per_sample: Option<usize>,
     /// How large torques, angles and times are on this rig, which starts and bounds of effects follow: `Automatic`,
     /// `HandOnTool` or `Rig(torque_nm: …, angle_rad: …, time_s: …)`; default `Automatic`.
     pub scale: Scale,
@@ -78,6 +81,7 @@ impl Default for ModelSettings {
             effects: Vec::new(),
             custom: Vec::new(),
             intersample: None,
+            steps_per_sample: None,
             scale: Scale::Automatic,
             parameters: BTreeMap::new(),
         }
@@ -88,6 +92,11 @@ impl ModelSettings {
     /// What the input does between samples.
     pub fn intersample(&self) -> Intersample {
         self.intersample.unwrap_or(Intersample::Linear)
+    }
+
+    /// Steps of a simulation from sample to sample.
+    pub fn steps_per_sample(&self) -> usize {
+        self.steps_per_sample.unwrap_or(1).max(1)
     }
 
     /// The model these settings describe, for one rig and no group of tightenings.

@@ -1,6 +1,7 @@
 //! The logged torque as a simulation uses it: between samples, before the first, and a delay ago.
 
 use crate::error::ModelError;
+use crate::input::grid::grid;
 use crate::input::position::Position;
 use crate::input::restart::Restarts;
 use crate::input::slope;
@@ -13,8 +14,9 @@ const BAND_LIMITED_SUBSTEPS: usize = 8;
 
 /// The input (torque) of one simulation, prepared once and used for every trial of the parameters.
 ///
-/// Between its grid points it is constant (zero-order) or straight (linear). A band-limited input is carried by straight
-/// pieces on a grid eight times as fine, whose in-band spectrum equals the samples' own.
+/// Between its grid points it is constant (zero-order) or straight (linear); these are the samples, or as many to a sample as
+/// [`Input::in_steps`] asks for. A band-limited input is carried by straight pieces on a grid eight times as fine, whose in-band spectrum
+/// equals the samples' own.
 #[derive(Debug, Clone)]
 pub struct Input {
     /// The samples it was made from.
@@ -25,7 +27,7 @@ pub struct Input {
     grid_interval_s: f64,
     substeps: usize,
     samples: usize,
-    held: bool,
+    intersample: Intersample,
     rest_before_s: f64,
     before_nm: Option<f64>,
     onset_s: f64,
@@ -40,21 +42,18 @@ pub struct Input {
 impl Input {
     /// From samples \[Nm\] taken every `interval_s`; [`Input::check`] says whether that can be simulated.
     pub fn new(samples: &[f64], interval_s: f64, intersample: Intersample) -> Self {
-        let (grid, substeps) = match intersample {
-            Intersample::BandLimited => (
-                snug_signal::straight_pieces(samples, BAND_LIMITED_SUBSTEPS),
-                BAND_LIMITED_SUBSTEPS,
-            ),
-            Intersample::ZeroOrder | Intersample::Linear => (samples.to_vec(), 1),
+        let substeps = match intersample {
+            Intersample::BandLimited => BAND_LIMITED_SUBSTEPS,
+            Intersample::ZeroOrder | Intersample::Linear => 1,
         };
         Self {
             logged: samples.into(),
             not_finite: not_finite(samples),
-            grid,
+            grid: grid(samples, intersample, substeps),
             grid_interval_s: interval_s / substeps as f64,
             substeps,
             samples: samples.len(),
-            held: intersample == Intersample::ZeroOrder,
+            intersample,
             rest_before_s: 0.0,
             before_nm: None,
             onset_s: 0.0,
@@ -76,15 +75,28 @@ impl Input {
         }
     }
 
-    /// The same band-limited input as it was logged, on a grid `substeps` times as fine as the samples: coarser, it is simulated sooner and
-    /// less exactly. Any other has one grid point a sample and stays as it is.
-    pub fn on_grid(&self, substeps: usize) -> Self {
-        if self.substeps == 1 {
-            return self.clone();
+    /// The same held or straight input as it was logged, simulated in `steps` from sample to sample: where a law turns sooner than the
+    /// samples follow. A band-limited one has a grid of its own and stays as it is.
+    pub fn in_steps(&self, steps: usize) -> Self {
+        match self.is_band_limited() {
+            true => self.clone(),
+            false => self.with_substeps(steps.max(1)),
         }
+    }
+
+    /// The same band-limited input as it was logged, on a grid `substeps` times as fine as the samples: coarser, it is simulated sooner and
+    /// less exactly. Any other stays as it is.
+    pub fn on_grid(&self, substeps: usize) -> Self {
+        match self.is_band_limited() {
+            true => self.with_substeps(substeps),
+            false => self.clone(),
+        }
+    }
+
+    fn with_substeps(&self, substeps: usize) -> Self {
         let apart = self.restarts.apart() / self.substeps;
         Self {
-            grid: snug_signal::straight_pieces(&self.logged, substeps),
+            grid: grid(&self.logged, self.intersample, substeps),
             grid_interval_s: self.interval_s() / substeps as f64,
             substeps,
             restarts: self.restarts.moved_apart(apart * substeps),
@@ -116,10 +128,7 @@ impl Input {
     /// The same input with `noise` \[Nm\], one value per sample, on top; what was logged stays what it is.
     pub fn with_added(&self, noise: &[f64]) -> Self {
         let not_finite = self.not_finite.or(not_finite(noise));
-        let noise = match self.substeps {
-            1 => noise.to_vec(),
-            factor => snug_signal::straight_pieces(noise, factor),
-        };
+        let noise = grid(noise, self.intersample, self.substeps);
         let sum = self
             .grid
             .iter()
@@ -275,9 +284,9 @@ impl Input {
     pub fn before(&self, delay_s: f64) -> Vec<Earlier> {
         let slopes = (self.slopes)
             .get_or_init(|| slope::slopes(&self.grid, self.grid_interval_s, self.substeps));
-        let is_straight = self.substeps == 1 && !self.held;
+        let is_straight = self.intersample == Intersample::Linear;
         let (fine, step) = match is_straight {
-            true => (self.between(), BAND_LIMITED_SUBSTEPS),
+            true => (self.between(), self.between_grid_points()),
             false => (self.grid.as_slice(), 1),
         };
         let fine_interval_s = self.grid_interval_s / step as f64;
@@ -288,7 +297,7 @@ impl Input {
             let then = then.moved(point);
             let (rate_nm_per_s, change_nm_per_s2) = then.straight(slopes, self.grid_interval_s);
             let risen = then.rising(self.before_nm, &self.grid, self.grid_interval_s);
-            let (torque_nm, slope_nm_per_s) = match (risen, self.held) {
+            let (torque_nm, slope_nm_per_s) = match (risen, self.held()) {
                 (Some(risen), _) => risen,
                 (None, true) => then.straight(&self.grid, self.grid_interval_s),
                 (None, false) => then_in_fine
@@ -309,10 +318,17 @@ impl Input {
         (0..self.grid.len()).map(earlier).collect()
     }
 
-    /// The samples and what lies between them, [`BAND_LIMITED_SUBSTEPS`] to an interval.
+    /// The samples and what lies between them, so many from one [grid point](Self::between_grid_points) to the next.
     fn between(&self) -> &[f64] {
-        let made = || snug_signal::between_samples(&self.grid, BAND_LIMITED_SUBSTEPS);
-        self.between.get_or_init(made)
+        self.between.get_or_init(|| {
+            let samples: Vec<f64> = self.grid.iter().copied().step_by(self.substeps).collect();
+            snug_signal::between_samples(&samples, self.substeps * self.between_grid_points())
+        })
+    }
+
+    /// As many as make at least [`BAND_LIMITED_SUBSTEPS`] from sample to sample.
+    fn between_grid_points(&self) -> usize {
+        BAND_LIMITED_SUBSTEPS.div_ceil(self.substeps)
     }
 
     /// Torque at the grid points \[Nm\].
@@ -332,7 +348,12 @@ impl Input {
 
     /// Whether the input keeps each grid value until the next.
     pub fn held(&self) -> bool {
-        self.held
+        self.intersample == Intersample::ZeroOrder
+    }
+
+    /// Whether it is carried by a grid of its own.
+    pub fn is_band_limited(&self) -> bool {
+        self.intersample == Intersample::BandLimited
     }
 }
 

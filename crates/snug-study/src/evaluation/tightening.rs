@@ -175,6 +175,7 @@ fn free_input(study: &Study, prepared: &Prepared) -> Input {
     let interval_s = tightening.time_base.interval_s;
     let onset_s = tightening.onset.unwrap_or(0) as f64 * interval_s;
     let input = Input::new(&tightening.torque_nm, interval_s, study.model.intersample())
+        .in_steps(study.model.steps_per_sample())
         .with_onset(onset_s)
         .with_torque_before(torque_before_nm(study, &tightening.torque_nm));
     match study.preprocess.preset {

@@ -8,6 +8,7 @@ use crate::tasks::free_run::{Restarts, restarts};
 use crate::tasks::initial_state;
 use snug_campaign::Quantity;
 use snug_campaign::words::reason::Reason;
+use snug_diagnose::steps_per_sample;
 use snug_identify::{
     FitTask, Simulation, SpectralStart, motions, spectral_start, widest_half_width,
 };
@@ -26,6 +27,7 @@ pub(crate) struct Settled {
 pub(crate) fn leaves_open(study: &Study) -> bool {
     let is_open = study.model.scale == Scale::Automatic
         || study.identify.simulation == Simulation::Automatic
+        || study.model.steps_per_sample.is_none()
         || !states_a_start(study);
     study.preprocess.window == Window::Whole && is_open
 }
@@ -38,28 +40,10 @@ pub(crate) fn settle(study: &Study, cases: &[FitTask<'_>]) -> Option<Settled> {
     let start = spectral_start(cases);
     let sizes = Sizes::of(cases, start.as_ref())?;
     let mut settled = Settled {
-        study: study.clone(),
+        study: sized(study, cases, start.as_ref(), &sizes)?,
         reasons: Vec::new(),
         may_run_freely: false,
     };
-    let values = start.as_ref().map(|start| start.values);
-    let values = values.or_else(|| sizes.base_of(cases));
-    if let Some(values) = values.filter(|_| !states_a_start(study)) {
-        for (name, value) in BASE_PARAMETERS.iter().zip(values) {
-            let told = settled.study.model.parameters.entry((*name).to_owned());
-            let told = told.or_default();
-            if !told.fixed {
-                told.value = Some(value);
-            }
-        }
-    }
-    if study.model.scale == Scale::Automatic {
-        settled.study.model.scale = Scale::Rig {
-            torque_nm: sizes.torque_nm,
-            angle_rad: sizes.angle_rad,
-            time_s: sizes.time_s,
-        };
-    }
     let runs_freely = !matches!(study.identify.simulation, Simulation::Restarted { .. });
     let moving = runs_freely
         .then(|| initial_state::moving(&settled.study, cases, start.as_ref()))
@@ -100,6 +84,41 @@ pub(crate) fn settle(study: &Study, cases: &[FitTask<'_>]) -> Option<Settled> {
         settled.reasons.push(Reason::BeginsMoving);
     }
     Some(settled)
+}
+
+/// The study with how large things are on its rig, where m, c, k begin and in how many steps it is simulated, as far as it leaves that
+/// open.
+fn sized(
+    study: &Study,
+    cases: &[FitTask<'_>],
+    start: Option<&SpectralStart>,
+    sizes: &Sizes,
+) -> Option<Study> {
+    let mut sized = study.clone();
+    let values = start.map(|start| start.values);
+    let values = values.or_else(|| sizes.base_of(cases));
+    if let Some(values) = values.filter(|_| !states_a_start(study)) {
+        for (name, value) in BASE_PARAMETERS.iter().zip(values) {
+            let told = sized.model.parameters.entry((*name).to_owned());
+            let told = told.or_default();
+            if !told.fixed {
+                told.value = Some(value);
+            }
+        }
+    }
+    if study.model.scale == Scale::Automatic {
+        sized.model.scale = Scale::Rig {
+            torque_nm: sizes.torque_nm,
+            angle_rad: sizes.angle_rad,
+            time_s: sizes.time_s,
+        };
+    }
+    if study.model.steps_per_sample.is_none() {
+        let lent = cases.iter().map(FitTask::lent).collect();
+        let cases = with_settled(&sized, lent).ok()?;
+        sized.model.steps_per_sample = Some(steps_per_sample(&cases));
+    }
+    Some(sized)
 }
 
 /// Whether the study says where those of m, c and k begin that it leaves free; a parameter that is held begins nowhere.

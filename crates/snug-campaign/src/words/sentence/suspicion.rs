@@ -74,13 +74,16 @@ pub struct TurnedRound {
 
 impl Display for TurnedRound {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        write!(
-            f,
-            "in {} ({} of {} recordings) the input has the other sign than in the others",
-            joined(&self.recordings),
-            self.recordings.len(),
-            self.of
-        )
+        let (turned, of) = (self.recordings.len(), self.of);
+        let recordings = joined(&self.recordings);
+        write!(f, "in {recordings} ({turned} of {of} recordings) ")?;
+        // Of "the others" only the few can be told.
+        f.write_str(match 2 * turned < of {
+            true => "the input has the other sign than in the others",
+            false => {
+                "the input has another sign than the study says, in the rest the one that it says"
+            }
+        })
     }
 }
 

@@ -1,0 +1,53 @@
+//! Slides whose place is read with a zero that moves, or that is far away.
+
+use super::names;
+use super::rig::{Noise, Rig, moved};
+use snug_campaign::{Diagnosis, Verdict};
+use snug_study::Verb;
+
+/// The noise of the reading, of a motion of some 0.1 \[m\].
+const NOISE: f64 = 4e-4;
+
+/// A slide on a spring, of which `seen` of its place is read after so many seconds in so many recordings; a metre is so much of the unit.
+fn slide(seen: impl Fn(usize, f64, f64) -> f64, metre: f64) -> Diagnosis {
+    let mut noise = Noise(61);
+    let mut recording = |number: usize| {
+        let inputs = noise.levels([-20.0, 20.0], 100, 2000);
+        let rate = |[x, v]: [f64; 2], u: f64| [v, (u - 20.0 * v - 90.0 * 25.0 * x) / 1.5];
+        let places = moved(&inputs, 10, rate).map(|[x, _]| x).enumerate();
+        let read = places.map(|(sample, x)| metre * seen(number, 1e-3 * sample as f64, x));
+        noise.with(&inputs, read, metre * NOISE * 0.1)
+    };
+    Rig::that_slides((0..3).map(&mut recording).collect()).told(&Verb::Improve)
+}
+
+/// Nothing is missing but that, and noise is left.
+#[track_caller]
+fn lacks(diagnosis: &Diagnosis, effect: &str, metre: f64) {
+    let headline = &diagnosis.headline;
+    assert_eq!(names(diagnosis), [effect], "{headline}");
+    assert_eq!(diagnosis.verdict, Verdict::Adequate, "{headline}");
+    let left = diagnosis.ladder.last().unwrap().rms_fitted_output;
+    assert!(left < 1.1 * metre * NOISE * 0.1, "{left}: {headline}");
+}
+
+/// A drift was a second mode at the slide's own frequency.
+#[test]
+fn a_reading_that_drifts_by_as_much_as_the_slide_moves_is_one() {
+    let rates = [0.02, -0.03, 0.01];
+    let diagnosis = slide(|number, t, x| x + rates[number] * t, 1.0);
+    lacks(&diagnosis, "output_drift", 1.0);
+    let drift = &diagnosis.added[0].parameters[0];
+    let mean = rates.iter().sum::<f64>() / 3.0;
+    assert!((drift.value - mean).abs() < 1e-4, "{drift:?}");
+    assert_eq!(drift.unit, "rad/s");
+}
+
+/// A counter that reads 32 768 at rest, of a motion of some ten counts.
+#[test]
+fn a_counter_s_zero_may_be_as_far_away_as_it_counts() {
+    let diagnosis = slide(|_, _, x| x + 32.768, 1000.0);
+    lacks(&diagnosis, "output_offset", 1000.0);
+    let offset = diagnosis.added[0].parameters[0].value;
+    assert!((offset - 32_768.0).abs() < 0.1, "{offset}");
+}
