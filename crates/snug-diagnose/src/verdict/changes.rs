@@ -78,7 +78,15 @@ fn change(
     let found = |plain: &PlainEquation<'_>| {
         let terms = plain.with_plain_terms(&fitted.effects, &at)?;
         let (effects, terms): (Vec<Effect>, Vec<_>) = terms.into_iter().unzip();
-        Some((effects, plain.equation.change(&terms)?))
+        let times = effects
+            .iter()
+            .map(|one| f64::from(u8::from(fitted.effects.contains(one))));
+        let times: Vec<f64> = times.collect();
+        let fitted = at
+            .iter()
+            .map(|at| [&at[..BASE_PARAMETERS.len()], &times].concat());
+        let change = plain.equation.change(&terms, &fitted.collect::<Vec<_>>())?;
+        Some((effects, change))
     };
     // One term more for the change.
     let terms = fitted.effects.len() + Effect::PLAIN.len() + 1;
