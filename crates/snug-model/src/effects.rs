@@ -39,6 +39,7 @@ pub mod stretch_reflex;
 pub mod stribeck_friction;
 pub mod torque_delay;
 pub mod torque_dependent_stiffness;
+pub mod torque_drift;
 pub mod torque_lag;
 pub mod torque_limit;
 pub mod torque_offset;
@@ -76,6 +77,7 @@ macro_rules! catalogue {
                 co_contraction::CoContraction,
                 torque_dependent_stiffness::TorqueDependentStiffness,
                 torque_offset::TorqueOffset,
+                torque_drift::TorqueDrift,
                 torque_delay::TorqueDelay,
                 torque_lag::TorqueLag,
                 acceleration_lag::AccelerationLag,

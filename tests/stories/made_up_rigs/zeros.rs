@@ -51,3 +51,38 @@ fn a_counter_s_zero_may_be_as_far_away_as_it_counts() {
     let offset = diagnosis.added[0].parameters[0].value;
     assert!((offset - 32_768.0).abs() < 0.1, "{offset}");
 }
+
+/// A load cell that drifts before a spring with dry friction: a place that drifts does as much while the friction is missing, and less
+/// beside it.
+#[test]
+fn a_load_cell_that_drifts_is_told_from_a_place_that_does() {
+    let mut noise = Noise(67);
+    let mut recording = |number: usize| {
+        let forces = noise.tones([1.0, 40.0], 2.3, 2000);
+        let rate = |[x, v]: [f64; 2], u: f64| {
+            let friction = 1.5 * (v / 0.01).tanh();
+            [v, (u - 0.4 * v - 60.0 * x - friction) / 0.032]
+        };
+        let places: Vec<f64> = moved(&forces, 20, rate).map(|[x, _]| x).collect();
+        let rate = 2.0 * (number as f64 - 1.2);
+        let read = forces.iter().enumerate();
+        let read: Vec<f64> = read
+            .map(|(sample, u)| u + rate * 1e-3 * sample as f64)
+            .collect();
+        noise.with(&read, places.into_iter(), 5e-4)
+    };
+    let rig = Rig::that_slides((0..4).map(&mut recording).collect());
+    let diagnosis = rig.told_with("intersample: ZeroOrder", &Verb::Improve);
+    let headline = &diagnosis.headline;
+    assert_eq!(
+        names(&diagnosis),
+        ["torque_drift", "coulomb_friction"],
+        "{headline}"
+    );
+    let sizes = diagnosis.added.iter().map(|one| one.parameters[0].value);
+    for (found, expected) in sizes.zip([2.0 * 0.3, 1.5]) {
+        assert!((found / expected - 1.0).abs() < 0.02, "{found}: {headline}");
+    }
+    let left = diagnosis.ladder.last().unwrap().rms_fitted_output;
+    assert!(left < 1.1 * 5e-4, "{left}: {headline}");
+}

@@ -171,6 +171,7 @@ impl Axis {
             },
             Self::Slides(l) => match unit {
                 "Nm" => (1.0 / l, "N"),
+                "Nm/s" => (1.0 / l, "N/s"),
                 "1/Nm" => (l, "1/N"),
                 "rad" => (l, "m"),
                 "rad/s" => (l, "m/s"),

@@ -10,7 +10,7 @@ use crate::ranking::rank::is_all_size;
 use crate::ranking::thresholds::PLAINLY_MISSED;
 use crate::selection::model_selection::ModelSelection;
 use crate::selection::path::{SelectionPath, leaves_more};
-use crate::selection::thresholds::EQUAL;
+use crate::selection::thresholds::{EQUAL, PLAINLY_BETTER};
 use snug_model::Effect;
 
 /// Tries to do without each added term once.
@@ -129,7 +129,8 @@ pub(crate) fn prefer_simpler(
     Ok(())
 }
 
-/// Keeps of each added effect's twins those that still do as well in its place beside the others.
+/// Keeps of each added effect's twins those that still do as well in its place beside the others. Of few long records one that does plainly
+/// better takes the place.
 ///
 /// While another effect was missing, many seemed to explain equally much.
 pub(crate) fn look_at_twins_again(
@@ -139,35 +140,64 @@ pub(crate) fn look_at_twins_again(
     if path.additions.len() < 2 {
         return Ok(());
     }
-    let full = path.last().clone();
-    let heldout = full.heldout_beyond_torque_noise();
-    for addition in &mut path.additions {
-        addition.twins.retain(|twin| !full.effects.contains(twin));
-        let mut kept = Vec::new();
-        for &twin in &addition.twins {
-            selection.watch.begin(&format!(
-                "trying {} in place of {}",
-                twin.name(),
-                addition.effect.name()
-            ))?;
-            if does_as_well(selection, &full, &heldout, addition.effect, twin) {
-                kept.push(twin);
-            }
+    let mut is_changed = false;
+    for place in 0..path.additions.len() {
+        let mut twins = as_good(selection, path, place)?;
+        if let Some(better) = better_twin(selection, path.last(), &twins)? {
+            path.additions[place].effect = twins[better].0;
+            path.replace_last(selection.settled(&twins[better].1)?);
+            twins = as_good(selection, path, place)?;
+            is_changed = true;
         }
-        addition.twins = kept;
+        path.additions[place].twins = twins.into_iter().map(|(twin, _)| twin).collect();
+    }
+    if is_changed {
+        selection.rank_last(path)?;
     }
     Ok(())
 }
 
-fn does_as_well(
+/// Twins of the effect that was added at this `place` that do as well in its place beside the others, and with what model.
+fn as_good(
+    selection: &ModelSelection<'_>,
+    path: &SelectionPath,
+    place: usize,
+) -> Result<Vec<(Effect, Fitted)>, DiagnoseError> {
+    let (full, addition) = (path.last(), &path.additions[place]);
+    let heldout = full.heldout_beyond_torque_noise();
+    let others = addition
+        .twins
+        .iter()
+        .filter(|twin| !full.effects.contains(twin));
+    let mut found = Vec::new();
+    for &twin in others {
+        let (effect, clusters) = (addition.effect, selection.clusters);
+        let doing = format!("trying {} in place of {}", twin.name(), effect.name());
+        selection.watch.begin(&doing)?;
+        let swapped = fit_in_place(selection.cases, full, effect, twin, clusters).ok();
+        let as_good = swapped.filter(|one| is_as_good(selection, full, &heldout, one));
+        found.extend(as_good.map(|swapped| (twin, swapped)));
+    }
+    Ok(found)
+}
+
+/// The place of the best of these `twins` that the `full` model does plainly worse than, of few long records.
+fn better_twin(
     selection: &ModelSelection<'_>,
     full: &Fitted,
-    heldout: &[f64],
-    effect: Effect,
-    twin: Effect,
-) -> bool {
-    let swapped = fit_in_place(selection.cases, full, effect, twin, selection.clusters);
-    swapped.is_ok_and(|swapped| is_as_good(selection, full, heldout, &swapped))
+    twins: &[(Effect, Fitted)],
+) -> Result<Option<usize>, DiagnoseError> {
+    if selection.clusters.are_whole() {
+        return Ok(None);
+    }
+    let squares = |place: &usize| twins[*place].1.squares();
+    let least = (0..twins.len()).min_by(|a, b| squares(a).total_cmp(&squares(b)));
+    let Some(place) = least.filter(|place| squares(place) < PLAINLY_BETTER * full.squares()) else {
+        return Ok(None);
+    };
+    let twin = selection.settled(&twins[place].1)?;
+    let heldout = twin.heldout_beyond_torque_noise();
+    Ok((!is_as_good(selection, &twin, &heldout, full)).then_some(place))
 }
 
 /// Whether `swapped` explains hardly less than `full` of tightenings that took no part; `heldout` is what `full` leaves of them.

@@ -40,7 +40,7 @@ impl Law for OutputDrift {
                 scope: Scope::PerTightening,
             }],
             states: &[],
-            twins: &["output_offset", "torque_offset", "acceleration_bias"],
+            twins: &["torque_drift", "output_offset", "acceleration_bias"],
             excited_by: "nothing: it is there at rest, and grows",
             shows_as: "a straight line in the fitted output",
             check: "Read the fitted channel with the rig at rest for as long as a recording lasts: it must stay where it is.",

@@ -54,9 +54,8 @@ impl MotionEquation<'_> {
         let left: Vec<Vec<f64>> = self.records.iter().map(|one| one.torque.clone()).collect();
         let constant = self.of_torque(terms);
         let (sizes, without) = self.regressed(&left, &constant)?;
-        let before = without
-            .min(squares(&left))
-            .min(self.left_by(fitted, &left, &constant));
+        let fewest = squares(&left).min(self.left_by(fitted, &left, &constant));
+        let before = without.min(fewest);
         let rest = rest(&left, &constant, &sizes);
         let with_change = |index: usize, at: Option<f64>, recordings: &[usize]| {
             let mut columns = constant.clone();
