@@ -146,6 +146,7 @@ impl Study {
         self.selection.check()?;
         self.source.check()?;
         self.check_scored()?;
+        self.check_steps()?;
         let known = self.source.ranges();
         for name in &self.validation.ranges {
             if !known.iter().any(|range| range.name == *name) {
@@ -223,6 +224,17 @@ impl Study {
     }
 
     /// Of every range something must be scored.
+    fn check_steps(&self) -> Result<(), StudyError> {
+        match self.model.steps_per_sample {
+            Some(steps) if !ALLOWED_STEPS.contains(&steps) => Err(StudyError::Setting {
+                setting: "model.steps_per_sample",
+                value: steps as f64,
+                allowed: "1 to 100",
+            }),
+            _ => Ok(()),
+        }
+    }
+
     fn check_scored(&self) -> Result<(), StudyError> {
         for range in self.source.ranges() {
             let (setting, unscored) = if self.validation.ranges.contains(&range.name) {
@@ -276,6 +288,9 @@ impl Study {
         }
     }
 }
+
+/// Steps from sample to sample that a study may ask for: with more, an input is larger than the record it is made from by as much. Chosen.
+const ALLOWED_STEPS: std::ops::RangeInclusive<usize> = 1..=100;
 
 /// Longest study file that is read \[bytes\]; every default written out takes 4000.
 const LONGEST_BYTES: u64 = 1 << 20;

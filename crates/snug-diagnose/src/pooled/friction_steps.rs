@@ -24,8 +24,8 @@ const WITHIN_NOISE: f64 = 0.5;
 /// Steps for `cases`, simulated with a model of their scale.
 pub fn steps_per_sample(cases: &[FitTask<'_>]) -> usize {
     let asked_for = shivers(cases).map(|shivers| {
-        let enough = |&steps: &usize| cases.iter().all(|case| shivers.are_small(case, steps));
-        STEPS.into_iter().find(enough).unwrap_or(1)
+        let steps = cases.iter().map(|case| shivers.steps(case));
+        steps.max().unwrap_or(1)
     });
     let samples: usize = cases.iter().map(|case| case.measured().len()).sum();
     let may_be = |steps: &usize| *steps == 1 || samples * steps <= MOST_STEPS;
@@ -62,25 +62,30 @@ fn shivers(cases: &[FitTask<'_>]) -> Option<Shivers> {
 }
 
 impl Shivers {
-    /// Whether with so many steps a simulation of `case` is steady at rest, or its shivering is lost in the measured noise.
-    fn are_small(&self, case: &FitTask<'_>, steps: usize) -> bool {
-        let step_s = case.tightening.time_base.interval_s / steps as f64;
-        let taken_m_per_s = self.slows_m_per_s2 * step_s;
-        let size = match case.quantity() {
-            Quantity::Displacement => 0.25 * taken_m_per_s * step_s,
-            Quantity::Velocity => taken_m_per_s,
-            Quantity::Acceleration => self.slows_m_per_s2,
-        };
+    /// The fewest steps with which a simulation of `case` is steady at rest, or its shivering is lost in the measured noise; the most where
+    /// none are enough.
+    fn steps(&self, case: &FitTask<'_>) -> usize {
         let noise = white_noise_level(case.measured()) * case.model.rig().lever_arm_m;
-        tracing::debug!(
-            steps,
-            taken_m_per_s,
-            self.turns_over_m_per_s,
-            size,
-            noise,
-            "steps"
-        );
-        taken_m_per_s <= STEADY * self.turns_over_m_per_s || size <= WITHIN_NOISE * noise
+        let are_enough = |steps: &usize| {
+            let step_s = case.tightening.time_base.interval_s / *steps as f64;
+            let taken_m_per_s = self.slows_m_per_s2 * step_s;
+            let size = match case.quantity() {
+                Quantity::Displacement => 0.25 * taken_m_per_s * step_s,
+                Quantity::Velocity => taken_m_per_s,
+                Quantity::Acceleration => self.slows_m_per_s2,
+            };
+            let is_steady = taken_m_per_s <= STEADY * self.turns_over_m_per_s;
+            tracing::debug!(
+                steps,
+                is_steady,
+                size,
+                noise,
+                "a machine that friction stops"
+            );
+            is_steady || size <= WITHIN_NOISE * noise
+        };
+        let most = STEPS[STEPS.len() - 1];
+        STEPS.into_iter().find(are_enough).unwrap_or(most)
     }
 }
 

@@ -20,7 +20,7 @@ pub struct ModelSettings {
     /// What the input does between samples: `ZeroOrder`, `Linear` or `BandLimited`; default `Linear`, unless `improve` finds on a
     /// machine that with `ZeroOrder` less is missing.
     pub intersample: Option<Intersample>,
-    /// Steps of a simulation from sample to sample, of a held or straight input; default 1, and on a machine as many as its dry friction
+    /// Steps of a simulation from sample to sample, 1 to 100, of a held or straight input; default 1, and on a machine as many as its dry friction
     /// asks for.
     pub steps_per_sample: Option<usize>,
     /// How large torques, angles and times are on this rig, which starts and bounds of effects follow: `Automatic`,
@@ -96,7 +96,7 @@ impl ModelSettings {
 
     /// Steps of a simulation from sample to sample.
     pub fn steps_per_sample(&self) -> usize {
-        self.steps_per_sample.unwrap_or(1).max(1)
+        self.steps_per_sample.unwrap_or(1)
     }
 
     /// The model these settings describe, for one rig and no group of tightenings.
