@@ -164,6 +164,7 @@ impl Examination<'_> {
                 last,
                 in_some_groups::groups(cases).as_ref(),
                 self.settings,
+                cases[0].quantity(),
             ),
             control: self.control(),
             unlisted: self.unlisted(),

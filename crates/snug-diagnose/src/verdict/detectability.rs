@@ -8,11 +8,11 @@ use crate::ranking::sensitivity::Column;
 use crate::settings::DiagnoseSettings;
 use crate::verdict::in_some_groups::in_some_groups;
 use crate::verdict::thresholds::{FAMILY_Z, POWER_Z};
-use snug_campaign::Detectability;
 use snug_campaign::words::statement;
+use snug_campaign::{Detectability, Quantity};
 use snug_model::Law;
 
-/// One card for each catalogue effect that is not supported.
+/// One card for each catalogue effect that is not supported, where this `output` is fitted.
 ///
 /// An effect of size α removes α² Σ I of the squared residual. It is seen when that exceeds both what the family-wise
 /// test asks, (3.0 + 1.645)² in units of the noise, and the smallest gain that matters.
@@ -21,12 +21,14 @@ pub(crate) fn cards(
     fitted: &Fitted,
     groups: Option<&Groups>,
     settings: &DiagnoseSettings,
+    output: Quantity,
 ) -> Vec<Detectability> {
     let least = fitted.smallest_gain(settings) * fitted.squares();
     let asked = Asked {
         noise: fitted.scale(),
         least,
         groups: groups.filter(|_| !fitted.are_stretches()),
+        output,
     };
     ranking
         .candidates
@@ -51,6 +53,8 @@ struct Asked<'a> {
     least: f64,
     /// Who may have an effect or not.
     groups: Option<&'a Groups>,
+    /// What is fitted.
+    output: Quantity,
 }
 
 fn card(column: &Column, asked: &Asked<'_>) -> Detectability {
@@ -58,6 +62,7 @@ fn card(column: &Column, asked: &Asked<'_>) -> Detectability {
     let description = column.effect.description();
     let (parameter, unit_size) = column.size();
     let spec = &description.parameters[parameter];
+    let unit = spec.unit_where(asked.output);
     let largest = column.largest[parameter];
     let multiple = (needed / column.information).sqrt();
     let smallest = (multiple * unit_size.abs())
@@ -72,15 +77,10 @@ fn card(column: &Column, asked: &Asked<'_>) -> Detectability {
         effect: description.name.to_owned(),
         parameter: spec.name.to_owned(),
         meaning: spec.meaning.to_owned(),
-        unit: spec.unit.to_owned(),
+        unit: unit.to_owned(),
         smallest_detectable: smallest,
         largest_plausible: largest,
-        statement: statement::detectability(
-            description.name,
-            smallest,
-            spec.unit,
-            in_some.as_ref(),
-        ),
+        statement: statement::detectability(description.name, smallest, unit, in_some.as_ref()),
         in_some_groups: in_some,
     }
 }
@@ -105,7 +105,13 @@ mod tests {
         ]);
         ranking.columns = columns;
         let fitted = Fitted::made_up(&[], &[squares; 4], count);
-        cards(&ranking, &fitted, None, &DiagnoseSettings::default())
+        cards(
+            &ranking,
+            &fitted,
+            None,
+            &DiagnoseSettings::default(),
+            Quantity::Displacement,
+        )
     }
 
     fn column(effect: Effect, information: f64, start: f64) -> Column {

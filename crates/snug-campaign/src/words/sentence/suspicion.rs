@@ -80,9 +80,7 @@ impl Display for TurnedRound {
         // Of "the others" only the few can be told.
         f.write_str(match 2 * turned < of {
             true => "the input has the other sign than in the others",
-            false => {
-                "the input has another sign than the study says, in the rest the one that it says"
-            }
+            false => "the input has another sign than the study says",
         })
     }
 }
