@@ -94,6 +94,18 @@ pub struct Kinematics<N> {
     pub acceleration_rad_per_s2: N,
 }
 
+impl<N: Number> Kinematics<N> {
+    /// The same with `more` on whichever of the three is looked at, in its own unit.
+    #[inline(always)]
+    pub fn shifted(self, more: N) -> Self {
+        Self {
+            displacement_rad: self.displacement_rad + more,
+            velocity_rad_per_s: self.velocity_rad_per_s + more,
+            acceleration_rad_per_s2: self.acceleration_rad_per_s2 + more,
+        }
+    }
+}
+
 /// Hands every hook to the macro `to`: its documentation, its arguments after `p`, and what it answers as an `Option`.
 ///
 /// `p` are the effect's own parameters in the order of its [`Description`], `own` its own states. Arguments of one name

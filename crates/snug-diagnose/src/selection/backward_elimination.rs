@@ -143,9 +143,9 @@ pub(crate) fn look_at_twins_again(
     let mut is_changed = false;
     for place in 0..path.additions.len() {
         let mut twins = as_good(selection, path, place)?;
-        if let Some(better) = better_twin(selection, path.last(), &twins)? {
-            path.additions[place].effect = twins[better].0;
-            path.replace_last(selection.settled(&twins[better].1)?);
+        if let Some((twin, settled)) = better_twin(selection, path.last(), &twins)? {
+            path.additions[place].effect = twin;
+            path.replace_last(settled);
             twins = as_good(selection, path, place)?;
             is_changed = true;
         }
@@ -181,23 +181,24 @@ fn as_good(
     Ok(found)
 }
 
-/// The place of the best of these `twins` that the `full` model does plainly worse than, of few long records.
+/// The best of these `twins`, with its model settled, where the `full` model does plainly worse, of few long records.
 fn better_twin(
     selection: &ModelSelection<'_>,
     full: &Fitted,
     twins: &[(Effect, Fitted)],
-) -> Result<Option<usize>, DiagnoseError> {
+) -> Result<Option<(Effect, Fitted)>, DiagnoseError> {
     if selection.clusters.are_whole() {
         return Ok(None);
     }
-    let squares = |place: &usize| twins[*place].1.squares();
-    let least = (0..twins.len()).min_by(|a, b| squares(a).total_cmp(&squares(b)));
-    let Some(place) = least.filter(|place| squares(place) < PLAINLY_BETTER * full.squares()) else {
+    let least = (twins.iter()).min_by(|(_, a), (_, b)| a.squares().total_cmp(&b.squares()));
+    let is_less = |(_, one): &&(Effect, Fitted)| one.squares() < PLAINLY_BETTER * full.squares();
+    let Some((twin, fitted)) = least.filter(is_less) else {
         return Ok(None);
     };
-    let twin = selection.settled(&twins[place].1)?;
-    let heldout = twin.heldout_beyond_torque_noise();
-    Ok((!is_as_good(selection, &twin, &heldout, full)).then_some(place))
+    let settled = selection.settled(fitted)?;
+    let heldout = settled.heldout_beyond_torque_noise();
+    let is_worse = !is_as_good(selection, &settled, &heldout, full);
+    Ok(is_worse.then_some((*twin, settled)))
 }
 
 /// Whether `swapped` explains hardly less than `full` of tightenings that took no part; `heldout` is what `full` leaves of them.

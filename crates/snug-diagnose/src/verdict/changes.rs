@@ -78,14 +78,8 @@ fn change(
     let found = |plain: &PlainEquation<'_>| {
         let terms = plain.with_plain_terms(&fitted.effects, &at)?;
         let (effects, terms): (Vec<Effect>, Vec<_>) = terms.into_iter().unzip();
-        let times = effects
-            .iter()
-            .map(|one| f64::from(u8::from(fitted.effects.contains(one))));
-        let times: Vec<f64> = times.collect();
-        let fitted = at
-            .iter()
-            .map(|at| [&at[..BASE_PARAMETERS.len()], &times].concat());
-        let change = plain.equation.change(&terms, &fitted.collect::<Vec<_>>())?;
+        let left = plain.equation.squares_left(&fitted.effects, &at)?;
+        let change = plain.equation.change(&terms, left)?;
         Some((effects, change))
     };
     // One term more for the change.

@@ -382,23 +382,47 @@ impl<'a> MotionEquation<'a> {
     /// Share of the averaged acceleration's power that a model with these effects explains, where recordings have these values of
     /// all parameters; `None` where what is measured is another motion than what is driven.
     pub fn explained_by(&self, effects: &[Effect], at: &[Vec<f64>]) -> Option<f64> {
-        let terms = self.terms(effects, at)?;
-        let rig = self.tasks.first()?.model.rig();
-        let square = rig.lever_arm_m * rig.lever_arm_m;
-        let mut left_over = 0.0;
-        for (index, (record, values)) in self.records.iter().zip(at).enumerate() {
-            let inertia = rig.known_inertia_kg_m2 + values[0] * square;
-            for place in 0..record.len() {
-                let mut net = record.torque[place]
-                    - square
-                        * (values[1] * record.velocity[place] + values[2] * record.angle[place]);
-                for term in terms.iter().flatten() {
-                    net += term.acting[index][place];
-                }
-                left_over += (record.acceleration[place] - net / inertia).powi(2);
-            }
-        }
+        let left = self.torque_left(effects, at)?;
+        let left_over: f64 = (left.iter().zip(at))
+            .map(|(left, values)| dot(left, left) / self.inertia(values[0]).powi(2))
+            .sum();
         Some(1.0 - left_over / self.power()).filter(|share| !share.is_nan())
+    }
+
+    /// Squares of the torque \[Nm²\] that it leaves, likewise.
+    pub fn squares_left(&self, effects: &[Effect], at: &[Vec<f64>]) -> Option<f64> {
+        let left = self.torque_left(effects, at)?;
+        Some(left.iter().map(|left| dot(left, left)).sum())
+    }
+
+    /// Torque that it leaves \[Nm\], record by record, likewise: T − I α − C ω − K θ + Σ g.
+    fn torque_left(&self, effects: &[Effect], at: &[Vec<f64>]) -> Option<Vec<Vec<f64>>> {
+        let terms = self.terms(effects, at)?;
+        let arm_m = self.tasks.first()?.model.rig().lever_arm_m;
+        let of_record = |(index, (record, values)): (usize, (&AveragedRecord, &Vec<f64>))| {
+            let inertia = self.inertia(values[0]);
+            let [c, k] = [1, 2].map(|base| values[base] * arm_m * arm_m);
+            let left = |place: usize| {
+                let acting = terms.iter().flatten().map(|term| term.acting[index][place]);
+                record.torque[place] + acting.sum::<f64>()
+                    - inertia * record.acceleration[place]
+                    - c * record.velocity[place]
+                    - k * record.angle[place]
+            };
+            (0..record.len()).map(left).collect()
+        };
+        Some(
+            (self.records.iter().zip(at))
+                .enumerate()
+                .map(of_record)
+                .collect(),
+        )
+    }
+
+    /// Inertia of the rig with this mass \[kg m²\].
+    fn inertia(&self, mass_kg: f64) -> f64 {
+        let rig = self.tasks[0].model.rig();
+        rig.known_inertia_kg_m2 + mass_kg * rig.lever_arm_m * rig.lever_arm_m
     }
 }
 

@@ -57,12 +57,7 @@ impl Law for OutputDrift {
         since_rest_s: N::Real,
         seen: Kinematics<N>,
     ) -> Option<Kinematics<N>> {
-        let drifted = p[0].times(since_rest_s);
-        Some(Kinematics {
-            displacement_rad: seen.displacement_rad + drifted,
-            velocity_rad_per_s: seen.velocity_rad_per_s + drifted,
-            acceleration_rad_per_s2: seen.acceleration_rad_per_s2 + drifted,
-        })
+        Some(seen.shifted(p[0].times(since_rest_s)))
     }
 }
 

@@ -62,11 +62,7 @@ impl Law for OutputOffset {
         _since_rest_s: N::Real,
         seen: Kinematics<N>,
     ) -> Option<Kinematics<N>> {
-        Some(Kinematics {
-            displacement_rad: seen.displacement_rad + p[0],
-            velocity_rad_per_s: seen.velocity_rad_per_s + p[0],
-            acceleration_rad_per_s2: seen.acceleration_rad_per_s2 + p[0],
-        })
+        Some(seen.shifted(p[0]))
     }
 
     fn same_as(&self, compared: Quantity) -> Option<&'static str> {

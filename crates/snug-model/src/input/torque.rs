@@ -77,10 +77,10 @@ impl Input {
 
     /// The same held or straight input as it was logged, simulated in `steps` from sample to sample: where a law turns sooner than the
     /// samples follow. A band-limited one has a grid of its own and stays as it is.
-    pub fn in_steps(&self, steps: usize) -> Self {
-        match self.is_band_limited() {
-            true => self.clone(),
-            false => self.with_substeps(steps.max(1)),
+    pub fn in_steps(self, steps: usize) -> Self {
+        match self.is_band_limited() || self.substeps == steps {
+            true => self,
+            false => self.with_substeps(steps),
         }
     }
 

@@ -163,8 +163,11 @@ pub(crate) fn with_settled<'a>(
         .map(|case| {
             let model = study.model_for(&case.tightening)?;
             let before_nm = torque_before_nm(study, &case.tightening.torque_nm);
-            let input =
-                (case.input.in_steps(study.model.steps_per_sample())).with_torque_before(before_nm);
+            let input = (case
+                .input
+                .into_owned()
+                .in_steps(study.model.steps_per_sample()))
+            .with_torque_before(before_nm);
             let input = simulation.of(input, &case.tightening);
             Ok(FitTask {
                 model: Cow::Owned(model),

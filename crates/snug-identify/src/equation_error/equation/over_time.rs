@@ -6,7 +6,7 @@
 //! h(τ) = τ, or −1 before τ₀ and 1 after;   where only some recordings change, p + d + p' h(τ) in these and p in the others
 //! ```
 
-use super::{BASE, MotionEquation, Term};
+use super::{MotionEquation, Term};
 use crate::equation_error::record::AveragedRecord;
 use crate::equation_error::regression::{Column, Regression};
 use snug_least_squares::matrix::dot;
@@ -44,18 +44,16 @@ pub struct Change {
 }
 
 impl MotionEquation<'_> {
-    /// The change that takes most; `None` where the recordings are not driven alike from beginning to end, or tell nothing. `fitted` is what
-    /// a model whose numbers stay was found to have in each recording, m, c, k \[kg, kg/s, N/m\] and how many times each term acts; empty
-    /// where none was.
-    pub fn change(&self, terms: &[Term], fitted: &[Vec<f64>]) -> Option<Change> {
+    /// The change that takes most; `None` where the recordings are not driven alike from beginning to end, or tell nothing. `fitted` are the
+    /// [squares](Self::squares_left) that a model leaves whose numbers stay, infinitely many where none was fitted.
+    pub fn change(&self, terms: &[Term], fitted: f64) -> Option<Change> {
         if !self.records.iter().all(is_driven_alike) {
             return None;
         }
         let left: Vec<Vec<f64>> = self.records.iter().map(|one| one.torque.clone()).collect();
         let constant = self.of_torque(terms);
         let (sizes, without) = self.regressed(&left, &constant)?;
-        let fewest = squares(&left).min(self.left_by(fitted, &left, &constant));
-        let before = without.min(fewest);
+        let before = without.min(squares(&left)).min(fitted);
         let rest = rest(&left, &constant, &sizes);
         let with_change = |index: usize, at: Option<f64>, recordings: &[usize]| {
             let mut columns = constant.clone();
@@ -104,9 +102,10 @@ impl MotionEquation<'_> {
         let is_plainly_more =
             |other: &Change| 1.0 - other.taken < PLAINLY_LESS * (1.0 - evenly.taken);
         let change = most(others).filter(is_plainly_more).unwrap_or(evenly);
-        let (known, square) = self.known_inertia_and_square()?;
+        let rig = self.tasks.first()?.model.rig();
+        let square = rig.lever_arm_m * rig.lever_arm_m;
         let told = |value: f64| match change.index {
-            0 => (value - known) / square,
+            0 => (value - rig.known_inertia_kg_m2) / square,
             1 | 2 => value / square,
             _ => value,
         };
@@ -116,43 +115,6 @@ impl MotionEquation<'_> {
             ..change
         })
         .filter(Change::is_finite)
-    }
-
-    /// Inertia that the rig is known to have \[kg m²\], and the square of its lever arm \[m²\].
-    fn known_inertia_and_square(&self) -> Option<(f64, f64)> {
-        let rig = self.tasks.first()?.model.rig();
-        Some((rig.known_inertia_kg_m2, rig.lever_arm_m * rig.lever_arm_m))
-    }
-
-    /// Squares that these columns leave as they were `fitted`, infinitely many where nothing was.
-    fn left_by(&self, fitted: &[Vec<f64>], left: &[Vec<f64>], columns: &[Column]) -> f64 {
-        let (Some((known, square)), true) =
-            (self.known_inertia_and_square(), fitted.len() == left.len())
-        else {
-            return f64::INFINITY;
-        };
-        let regression = Regression {
-            left,
-            columns,
-            apart: &[],
-        };
-        let of_record = |(record, sizes): (usize, &Vec<f64>)| -> f64 {
-            let mut about_the_axis = sizes.clone();
-            for base in about_the_axis.iter_mut().take(BASE) {
-                *base *= square;
-            }
-            about_the_axis[0] += known;
-            let rest = regression.rest(&about_the_axis, record);
-            rest.map(|value| value * value).sum()
-        };
-        fitted.iter().enumerate().map(of_record).sum()
-    }
-
-    /// Squares of the torque that these terms leave as a model of them was fitted.
-    #[cfg(test)]
-    pub(super) fn left_by_model(&self, terms: &[Term], fitted: &[Vec<f64>]) -> f64 {
-        let left: Vec<Vec<f64>> = self.records.iter().map(|one| one.torque.clone()).collect();
-        self.left_by(fitted, &left, &self.of_torque(terms))
     }
 
     /// The recordings by whose own even change of a `column` most of the `rest` is taken, then those and the next, and so on.

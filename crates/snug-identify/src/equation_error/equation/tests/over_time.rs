@@ -38,7 +38,7 @@ fn change(tasks: &[FitTask<'_>]) -> Change {
     let equation = MotionEquation::of(tasks, Effect::PLAIN).unwrap();
     let terms = Effect::PLAIN.iter();
     let terms: Option<Vec<Term>> = terms.map(|&one| equation.term(one, &[1.0])).collect();
-    equation.change(&terms.unwrap(), &[]).unwrap()
+    equation.change(&terms.unwrap(), f64::INFINITY).unwrap()
 }
 
 /// A spring gives way in the second of three recordings only; as much of a change in all is no story then.
@@ -119,7 +119,7 @@ fn a_torque_that_moves_nothing_has_no_change() {
         let equation = MotionEquation::averaged(&tasks, half_width).unwrap();
         let terms = Effect::PLAIN.iter();
         let terms: Option<Vec<Term>> = terms.map(|&one| equation.term(one, &[1.0])).collect();
-        let found = equation.change(&terms.unwrap(), &[]);
+        let found = equation.change(&terms.unwrap(), f64::INFINITY);
         assert!(found.is_none_or(|found| found.taken < 0.02), "{half_width}");
     }
 }
@@ -161,7 +161,7 @@ fn what_is_driven_harder_at_the_end_says_nothing() {
     }
     let tasks = [task];
     let equation = MotionEquation::averaged(&tasks, 64).unwrap();
-    assert_eq!(equation.change(&[], &[]), None);
+    assert_eq!(equation.change(&[], f64::INFINITY), None);
 }
 
 /// The numbers that a model was found to have leave what the regression leaves, on an arm of any length.
@@ -181,12 +181,10 @@ fn a_fitted_model_is_asked_with_its_own_numbers() {
         task.model = Cow::Owned(Model::new(rig, &[]).unwrap());
     }
     let equation = MotionEquation::averaged(&tasks, 64).unwrap();
-    let terms: Vec<Term> = (Effect::PLAIN.iter())
-        .map(|&one| equation.term(one, &[1.0]).unwrap())
-        .collect();
     let left = |friction: f64, offset: f64| {
         let sizes = vec![0.3 / 0.25, 1.9 / 0.25, 30.0 / 0.25, friction, offset];
-        equation.left_by_model(&terms, &[sizes.clone(), sizes])
+        let squares = equation.squares_left(Effect::PLAIN, &[sizes.clone(), sizes]);
+        squares.unwrap()
     };
     let all = left(0.0, 0.0);
     assert!(left(6.0, 40.0) < 1e-3 * all, "{} {all}", left(6.0, 40.0));
