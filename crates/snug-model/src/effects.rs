@@ -19,6 +19,7 @@ pub mod backlash;
 pub mod bouc_wen;
 pub mod centripetal_crosstalk;
 pub mod co_contraction;
+pub mod constant_load;
 pub mod coulomb_friction;
 pub mod cubic_stiffness;
 pub mod directional_damping;
@@ -70,6 +71,7 @@ macro_rules! catalogue {
                 torque_ripple::TorqueRipple,
                 second_mode::SecondMode,
                 gravity_torque::GravityTorque,
+                constant_load::ConstantLoad,
                 torque_limit::TorqueLimit,
                 actuator_lag::ActuatorLag,
                 stretch_reflex::StretchReflex,
@@ -159,6 +161,13 @@ macro_rules! forward {
 
             fn same_as(&self, compared: Quantity) -> Option<&'static str> {
                 catalogue!(ask, self, law => law.same_as(compared))
+            }
+
+            fn of_all(&self) -> Option<&'static str> {
+                if let Self::Custom(law) = self {
+                    return Self::named(law.description().name)?.of_all();
+                }
+                catalogue!(ask, self, law => law.of_all())
             }
         }
     };

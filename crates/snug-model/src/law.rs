@@ -221,6 +221,11 @@ macro_rules! declare_law {
                 let _ = compared;
                 None
             }
+
+            /// The effect that it is where it is the same in all recordings.
+            fn of_all(&self) -> Option<&'static str> {
+                None
+            }
         }
     };
 }

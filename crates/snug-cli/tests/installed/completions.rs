@@ -11,7 +11,11 @@ const LINES: [(&[&str], &[&str]); 8] = [
     (&["effects", "lev"], &["lever_arm_error"]),
     (
         &["run", "--effects", "backlash,co"],
-        &["backlash,coulomb_friction", "backlash,co_contraction"],
+        &[
+            "backlash,constant_load",
+            "backlash,coulomb_friction",
+            "backlash,co_contraction",
+        ],
     ),
     (&["run", "--pre"], &["--preset"]),
     (&["run", "--preset", "t"], &["thesis"]),

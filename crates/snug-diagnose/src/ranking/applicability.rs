@@ -4,7 +4,7 @@ use crate::data::machine::is_machine;
 use crate::error::DiagnoseError;
 use crate::library::terms;
 use crate::pooled::fitted::Fitted;
-use crate::ranking::kin::are_kin;
+use crate::ranking::kin::{are_kin, is_of_all};
 use crate::ranking::thresholds::FEW_TURNS;
 use snug_campaign::Quantity;
 use snug_identify::{FitTask, begin_in_motion};
@@ -25,6 +25,7 @@ pub(crate) fn candidates(
         .map(|&effect| case.model.scale().effect(effect, case.model.rig()))
         .collect::<Result<Vec<Effect>, _>>()?;
     all.retain(|effect| !(only_this && effect.same_as(compared).is_some()));
+    all.retain(|effect| !(cases.len() == 1 && effect.of_all().is_some()));
     all.extend(custom);
     all.extend(terms(case.model.scale(), case.model.rig())?);
     // What goes with the angle of a machine is told by the catalogue, where the angle is known: a weight on an arm, or what comes again
@@ -60,9 +61,10 @@ fn begins_at_rest(cases: &[FitTask<'_>], current: &Fitted) -> bool {
         && !cases.iter().enumerate().any(swings)
 }
 
-/// Whether a simulation can carry `effect` beside these: it has states and parameters for so many only.
+/// Whether `effect` can be told beside these, and a simulation can carry it: it has states and parameters for so many only.
 pub(crate) fn can_stand_beside(others: &[Effect], effect: Effect, case: &FitTask<'_>) -> bool {
-    case.model_with(&[others, &[effect]].concat()).is_ok()
+    let is_one_of = |&other: &Effect| is_of_all(other, effect) || is_of_all(effect, other);
+    !others.iter().any(is_one_of) && case.model_with(&[others, &[effect]].concat()).is_ok()
 }
 
 /// Whether `effect` could be what a measurement like `case` shows.

@@ -3,13 +3,19 @@
 use snug_model::{Effect, Law};
 
 /// Whether `simple` is what `rich` is easily taken for, and has fewer sizes, shapes and states to do it with: dry friction for a
-/// friction that comes with the way, or goes with the speed.
+/// friction that comes with the way, or goes with the speed; one offset of all recordings for a load that each has of its own.
 pub(crate) fn is_simpler(simple: Effect, rich: Effect) -> bool {
     let numbers = |effect: Effect| {
         let description = effect.description();
         description.parameters.len() + description.states.len()
     };
-    rich.description().twins.contains(&simple.name()) && numbers(simple) < numbers(rich)
+    let is_taken_for = rich.description().twins.contains(&simple.name());
+    (is_taken_for && numbers(simple) < numbers(rich)) || is_of_all(simple, rich)
+}
+
+/// Whether `shared` is what `own` is where it is the same in all recordings.
+pub(crate) fn is_of_all(shared: Effect, own: Effect) -> bool {
+    own.of_all() == Some(shared.name())
 }
 
 /// Whether either is a simpler one of the other.
@@ -21,8 +27,8 @@ pub(crate) fn are_kin(one: Effect, other: Effect) -> bool {
 mod tests {
     use super::*;
     use snug_model::Effect::{
-        BoucWen, CoulombFriction, CubicStiffness, ExponentialStiffness, MaxwellBranch,
-        QuadraticDamping, StribeckFriction,
+        BoucWen, ConstantLoad, CoulombFriction, CubicStiffness, ExponentialStiffness,
+        MaxwellBranch, QuadraticDamping, StribeckFriction, TorqueOffset,
     };
 
     #[test]
@@ -31,6 +37,7 @@ mod tests {
         assert!(is_simpler(CoulombFriction, StribeckFriction));
         assert!(is_simpler(CubicStiffness, ExponentialStiffness));
         assert!(are_kin(BoucWen, CoulombFriction));
+        assert!(is_simpler(TorqueOffset, ConstantLoad) && !is_simpler(ConstantLoad, TorqueOffset));
     }
 
     #[test]

@@ -265,6 +265,9 @@ impl ModelSelection<'_> {
         let half = |listed: usize| ranking.candidates[listed].gain() > 0.5 * winner.gain();
         let challenged =
             is_unlisted(winner.effect) && self.listed(current, ranking).is_some_and(half);
+        if let Some(steps) = self.shared_in_place_of(current, ranking, single)? {
+            return Ok(steps);
+        }
         let alone = vec![self.step(ranking, single, current)];
         // In stretches of one long record the next rung shows as much, for a third of the work.
         let pays = room > 1 && self.clusters.are_whole();

@@ -9,9 +9,10 @@ use crate::library::is_unlisted;
 use crate::pooled::fit::fit_effects;
 use crate::pooled::fitted::Fitted;
 use crate::ranking::applicability::{can_act, can_stand_beside};
-use crate::ranking::kin::{are_kin, is_simpler};
-use crate::ranking::rank::{Candidate, rank};
-use crate::selection::model_selection::ModelSelection;
+use crate::ranking::kin::{are_kin, is_of_all, is_simpler};
+use crate::ranking::pairs::Pair;
+use crate::ranking::rank::{Candidate, Ranking, rank};
+use crate::selection::model_selection::{ModelSelection, Step};
 use crate::selection::path::{Addition, SelectionPath};
 use crate::selection::thresholds::{MANY_TIMES, MOST_OF_RICHER, NEARLY_AS_MUCH};
 use snug_model::{Effect, Law};
@@ -26,12 +27,14 @@ fn does_for(simple: &Fitted, rich: &Fitted, before: &Fitted) -> bool {
 
 impl Candidate {
     /// Whether it does for `rich` beside the model `before`. What is known does for a law that nobody knows, and what all recordings
-    /// share for what each has of its own, where it explains most of what that does: the other may come in beside it. Not where that
-    /// leaves next to nothing beside what this does.
+    /// share for what each has of its own, where it explains most of what that does: the other may come in beside it, unless it is this, another
+    /// for each. Not where that leaves next to nothing beside what this does.
     pub fn does_for(&self, rich: &Self, before: &Fitted) -> bool {
         let fall = |one: &Self| before.squares() - one.fitted.squares();
         let is_open = before.are_stretches() && !before.is_weighted;
-        let may_wait = is_open && (rich.is_less_known_than(self) || rich.has_more_own_than(self));
+        let may_wait = is_open
+            && (rich.is_less_known_than(self) || rich.has_more_own_than(self))
+            && !is_of_all(self.effect, rich.effect);
         let explains_most = fall(self) >= MOST_OF_RICHER * fall(rich)
             && self.fitted.squares() <= MANY_TIMES * rich.fitted.squares();
         (may_wait && explains_most) || does_for(&self.fitted, &rich.fitted, before)
@@ -84,6 +87,35 @@ impl ModelSelection<'_> {
             path.replace_last(settled);
         }
         Ok(())
+    }
+
+    /// Dry friction and an offset that all recordings share, where together they do for a load that each has of its own, the `chosen`: a
+    /// motor that is turned one way in each recording is held back as by such a load.
+    pub(super) fn shared_in_place_of(
+        &self,
+        current: &Fitted,
+        ranking: &Ranking,
+        chosen: usize,
+    ) -> Result<Option<Vec<Step>>, DiagnoseError> {
+        let all = &ranking.candidates;
+        if all[chosen].effect.of_all().is_none() {
+            return Ok(None);
+        }
+        let is_plain = |effect: Effect| Effect::PLAIN.iter().any(|one| one.name() == effect.name());
+        let plain: Vec<usize> = (0..all.len())
+            .filter(|&one| is_plain(all[one].effect))
+            .collect();
+        let [first, second] = plain[..] else {
+            return Ok(None);
+        };
+        let own = &all[chosen];
+        let pair = Pair {
+            effects: [all[first].effect, all[second].effect],
+            p_family: own.p_family,
+        };
+        let found = self.together(current, ranking, pair)?;
+        let found = found.filter(|pair| does_for(&pair.both.fitted, &own.fitted, current));
+        Ok(found.map(|pair| self.as_steps(current, ranking, pair)))
     }
 
     /// Effects of the catalogue, as this rig has them, that could stand in place of `effect` in the model `last`, of those that are

@@ -14,8 +14,8 @@ use crate::selection::thresholds::SMALL;
 use snug_model::Effect;
 
 /// A pair, fitted: both, and the second as a step from the first, which stands at `seed` in the ranking.
-struct Both {
-    both: Candidate,
+pub(super) struct Both {
+    pub both: Candidate,
     seed: usize,
     second: Step,
 }
@@ -41,20 +41,23 @@ impl ModelSelection<'_> {
                 best = Some(found);
             }
         }
-        Ok(best.map(|pair| {
-            let (mut first, alone) = self.step(ranking, pair.seed, current);
-            let (mut second, both) = pair.second;
-            // What either does by itself says little.
-            for addition in [&mut first, &mut second] {
-                addition.p_family = pair.both.p_family;
-                addition.heldout_gain = pair.both.share_beside(current);
-            }
-            vec![(first, alone), (second, both)]
-        }))
+        Ok(best.map(|pair| self.as_steps(current, ranking, pair)))
+    }
+
+    pub(super) fn as_steps(&self, current: &Fitted, ranking: &Ranking, pair: Both) -> Vec<Step> {
+        let (mut first, alone) = self.step(ranking, pair.seed, current);
+        let (mut second, both) = pair.second;
+        // What either does by itself says little.
+        for addition in [&mut first, &mut second] {
+            addition.p_family = pair.both.p_family;
+            addition.heldout_gain = pair.both.share_beside(current);
+            addition.twins.clear();
+        }
+        vec![(first, alone), (second, both)]
     }
 
     /// Both, from the end of one of them and from that of the other, whichever leads lower.
-    fn together(
+    pub(super) fn together(
         &self,
         current: &Fitted,
         ranking: &Ranking,
