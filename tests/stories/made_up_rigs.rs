@@ -6,6 +6,7 @@ mod encoder;
 mod ended;
 mod free_motion;
 mod held;
+mod loads;
 mod rig;
 mod unheld;
 mod zeros;

@@ -7,7 +7,7 @@ use crate::error::DiagnoseError;
 use crate::pooled::decimated::decimated;
 use crate::pooled::equation::PlainEquation;
 use crate::pooled::fitted::Fitted;
-use crate::pooled::one_machine::one_machine_or_several;
+use crate::pooled::one_machine::{one_machine_or_several, several_after_all};
 use crate::question::{Goal, Question};
 use crate::selection::model_selection::ModelSelection;
 use crate::selection::path::SelectionPath;
@@ -67,26 +67,21 @@ pub fn examine(
         true => &Goal::Compare,
         false => goal,
     };
-    let slow = match goal {
-        Goal::Compare => None,
-        _ => decimated(&counted, compared.last()),
-    };
-    let path = match &slow {
-        None => selected(&selection, goal, compared)?,
-        Some(slow) => {
-            let search = ModelSelection {
-                cases: counted.others(slow),
-                ..selection
-            };
-            let path = selected(&search, goal, search.compare()?)?;
-            selection.at_full_rate(path, compared)?
-        }
-    };
+    let mut path = searched(&selection, goal, compared)?;
+    let mut cases = counted;
+    if !path.additions.is_empty()
+        && !path.is_interrupted()
+        && let Some(several) = several_after_all(counted, path.last(), clusters)?
+    {
+        cases = several;
+        let selection = ModelSelection { cases, ..selection };
+        path = searched(&selection, goal, selection.compare()?)?;
+    }
     Examination {
         question,
-        cases: counted,
+        cases,
         settings,
-        path: path.without_torque_noise(counted)?,
+        path: path.without_torque_noise(cases)?,
         units,
         is_declared_wrong,
         turned_round,
@@ -106,6 +101,29 @@ fn changes_above_all(cases: Cases<'_>, own: &[Fitted]) -> Result<Option<Changes>
     };
     let fits = TighteningFits::of(&cases, last)?;
     Ok((!leaves_noise(&cases, &fits.seen())).then_some(found))
+}
+
+/// What a goal makes of the study's own model, looked for in as few of the samples as say the same.
+fn searched(
+    selection: &ModelSelection<'_>,
+    goal: &Goal,
+    compared: SelectionPath,
+) -> Result<SelectionPath, DiagnoseError> {
+    let slow = match goal {
+        Goal::Compare => None,
+        _ => decimated(&selection.cases, compared.last()),
+    };
+    match &slow {
+        None => selected(selection, goal, compared),
+        Some(slow) => {
+            let search = ModelSelection {
+                cases: selection.cases.others(slow),
+                ..*selection
+            };
+            let path = selected(&search, goal, search.compare()?)?;
+            selection.at_full_rate(path, compared)
+        }
+    }
 }
 
 /// What a goal makes of the study's own model.

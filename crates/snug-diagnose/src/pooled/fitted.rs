@@ -123,14 +123,16 @@ impl Fitted {
     pub fn start_of(&self, pooled: &PooledModel<'_>, members: &[usize]) -> Start {
         let mut start = pooled.usual_start();
         let index = |place: usize| index_among(&self.effects, &pooled.effects, place);
-        let column = |&place: &usize| {
-            let index = index(place)?;
-            self.own_indices.iter().position(|&known| known == index)
-        };
-        let columns: Vec<Option<usize>> = pooled.own.iter().map(column).collect();
-        for (to, &member) in start.own.iter_mut().zip(members) {
-            for (to, column) in to.iter_mut().zip(&columns) {
-                *to = column.map_or(*to, |column| self.own[member][column]);
+        let of_all = |index: usize| self.shared_value(index, &SharedSize { index, level: None });
+        for (column, &place) in pooled.own.iter().enumerate() {
+            let Some(index) = index(place) else { continue };
+            let known = self.own_indices.iter().position(|&known| known == index);
+            for (to, &member) in start.own.iter_mut().zip(members) {
+                let ended = match known {
+                    Some(known) => Some(self.own[member][known]),
+                    None => of_all(index),
+                };
+                to[column] = ended.unwrap_or(to[column]);
             }
         }
         for (size, to) in pooled.shared.iter().zip(&mut start.shared) {
