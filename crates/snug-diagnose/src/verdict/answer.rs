@@ -25,7 +25,7 @@ use crate::verdict::{detectability, in_some_groups, ladder, preparation};
 use snug_campaign::words::changes::Changes;
 use snug_campaign::words::explained::Explained;
 use snug_campaign::words::statement;
-use snug_campaign::words::suspicion::{OtherUnits, Suspicion, TurnedRound};
+use snug_campaign::words::suspicion::{OtherUnits, StandsApart, Suspicion, TurnedRound};
 use snug_campaign::{
     AddedEffect, Comparison, CorrectedEffect, Diagnosis, Drift, EffectParameter, Experiment,
     Location, NegativeControl, RankedEffect, UnlistedTerm, Verdict, sharing,
@@ -85,6 +85,8 @@ pub(super) struct Places {
     pub(super) left_over: Option<Suspicion>,
     /// Whether what it leaves is white noise.
     pub(super) leaves_noise: bool,
+    /// Recordings of which it leaves far more than of the others.
+    pub(super) stands_apart: Option<StandsApart>,
 }
 
 /// The verdict, with what goes into its words.
@@ -194,24 +196,20 @@ impl Examination<'_> {
         let base = sight.seen();
         let told = |seen: &[Seen<'_>]| {
             let explained = earned::explained(cases, last, seen);
-            let left_over = earned::left_over(cases, explained.as_ref(), seen);
-            (explained, left_over, earned::leaves_noise(cases, seen))
-        };
-        let (final_location, (explained, left_over, leaves_noise)) = match &last_sight {
-            None => (None, told(&base)),
-            Some(sight) => {
-                let seen = sight.seen();
-                (Some(locate(&seen, seed)), told(&seen))
+            Places {
+                comparison: compare(&base),
+                location: locate(&base, seed),
+                final_location: is_longer.then(|| locate(seen, seed)),
+                drift: drifts(&base),
+                left_over: earned::left_over(cases, explained.as_ref(), seen),
+                leaves_noise: earned::leaves_noise(cases, seen),
+                stands_apart: (explained.as_ref()).and_then(|_| earned::stands_apart(cases, seen)),
+                explained,
             }
         };
-        Ok(Places {
-            comparison: compare(&base),
-            location: locate(&base, seed),
-            final_location,
-            drift: drifts(&base),
-            explained,
-            left_over,
-            leaves_noise,
+        Ok(match &last_sight {
+            None => told(&base),
+            Some(sight) => told(&sight.seen()),
         })
     }
 

@@ -13,7 +13,7 @@ use crate::verdict::floor;
 use crate::verdict::thresholds::{BESIDE_EFFECTS, MOSTLY_EXPLAINED, REPEATS, WHITE, WIDER};
 use snug_campaign::Verdict;
 use snug_campaign::words::explained::Explained;
-use snug_campaign::words::suspicion::{FailedFit, OtherUnits, Suspicion};
+use snug_campaign::words::suspicion::{FailedFit, OtherUnits, StandsApart, Suspicion};
 
 impl Examination<'_> {
     /// The verdict by candidates, unless the rig changes while it is measured and it cannot be that.
@@ -27,9 +27,10 @@ impl Examination<'_> {
             changes(plain, self.cases, &self.path.rungs, WIDER)
         };
         let changes = self.changes.clone().or_else(of_models);
-        let (verdict, suspicions) = self.verdict_and_suspicions(places, plain);
+        let (verdict, mut suspicions) = self.verdict_and_suspicions(places, plain);
         let is_followed = changes.is_none() || Self::follows_changes(verdict, places);
-        let verdict = match is_followed {
+        let stands_apart = self.stands_apart(verdict, places);
+        let verdict = match is_followed && stands_apart.is_none() {
             true => verdict,
             false => Verdict::Undecided,
         };
@@ -38,9 +39,12 @@ impl Examination<'_> {
             self.is_more_than_noise(explained)
                 || leaves_a_motion(&self.path, self.settings, explained)
                 || !is_followed
+                || stands_apart.is_some()
         };
+        let is_more_than_noise = verdict == Verdict::Undecided && leaves_more();
+        suspicions.extend(stands_apart.map(Suspicion::StandsApart));
         Judged {
-            is_more_than_noise: verdict == Verdict::Undecided && leaves_more(),
+            is_more_than_noise,
             verdict,
             suspicions,
             changes,
@@ -105,6 +109,14 @@ impl Examination<'_> {
             Verdict::Adequate => !leaves_a_motion,
             _ => true,
         }
+    }
+
+    /// Recordings of which a model that would be adequate otherwise, or nearly, leaves far more than of the others.
+    fn stands_apart(&self, verdict: Verdict, places: &Places) -> Option<StandsApart> {
+        let is_nearly = matches!(verdict, Verdict::Adequate | Verdict::Undecided);
+        let was_looked = !self.path.ranking.candidates.is_empty() && !self.path.is_interrupted();
+        let apart = places.stands_apart.clone();
+        apart.filter(|_| is_nearly && was_looked)
     }
 
     /// That most candidates could not be tried, if so: then nothing is known of what is missing.

@@ -50,15 +50,13 @@ pub(crate) fn left_over(
 ) -> Option<Suspicion> {
     let explained = explained?;
     let is_white = explained.neighbours.abs() < WHITE && explained.share > 0.0;
-    outliers(cases.first()?.quantity(), seen).or(is_white.then_some(Suspicion::Noise))
+    let left = left_of_all(cases.first()?.quantity(), seen).concat();
+    outliers(&left).or(is_white.then_some(Suspicion::Noise))
 }
 
 /// The few samples that hold most of the squared error, if they do.
-fn outliers(quantity: Quantity, seen: &[Seen<'_>]) -> Option<Suspicion> {
-    let mut squares: Vec<f64> = (seen.iter())
-        .flat_map(|one| left(quantity, one).unwrap_or_default())
-        .map(|left| left * left)
-        .collect();
+fn outliers(left: &[f64]) -> Option<Suspicion> {
+    let mut squares: Vec<f64> = left.iter().map(|left| left * left).collect();
     squares.sort_by(|a, b| b.total_cmp(a));
     let of = squares.len();
     let samples = (FEW_SAMPLES * of as f64).ceil() as usize;
@@ -314,8 +312,10 @@ pub(crate) fn suspicions(
     found
 }
 
+mod stands_apart;
 mod turned_round;
 
+pub(crate) use stands_apart::stands_apart;
 pub(crate) use turned_round::turned_round;
 
 #[cfg(test)]

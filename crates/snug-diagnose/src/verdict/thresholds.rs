@@ -40,6 +40,11 @@ pub(crate) const PLAIN_PROMISE: f64 = 0.95;
 pub(crate) const NEEDS_IT: f64 = 4.0;
 /// Share of an output's root mean square below which it is near 0 \[–\]. Chosen.
 pub(crate) const NEAR_ZERO: f64 = 0.15;
+/// How many times the error of any other a recording must leave to stand apart from them \[–\], ... Chosen: recordings of one rig that
+/// are driven alike leave within a factor of two of one another.
+pub(crate) const APART: f64 = 5.0;
+/// ... and which share of what there is to explain in it \[–\]: less is a good model of it all the same. Chosen.
+pub(crate) const APART_SHARE: f64 = 0.01;
 /// How much smoother an output must be with its sign changed where it turns about near 0 \[–\], ... Chosen.
 pub(crate) const SMOOTHER: f64 = 10.0;
 /// ... and at how many places of all recordings, for it to have lost its sign: one turns about like that by chance. Chosen.

@@ -7,6 +7,11 @@ use std::fmt::{self, Display, Formatter};
 /// than cannot, 0.71² = ½.
 const A_MOTION: f64 = 0.71;
 
+/// Whether what is left is a motion rather than noise, by the correlation of its neighbouring samples \[–\].
+pub fn is_a_motion(neighbours: f64) -> bool {
+    neighbours >= A_MOTION
+}
+
 /// What a model explains of the fitted output.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Explained {
@@ -34,7 +39,7 @@ impl Display for Explained {
 impl Explained {
     /// Whether what is left is a motion rather than noise.
     pub fn leaves_a_motion(&self) -> bool {
-        self.neighbours >= A_MOTION && !self.is_exact
+        is_a_motion(self.neighbours) && !self.is_exact
     }
 
     /// How far what is left is from noise, as a sentence.

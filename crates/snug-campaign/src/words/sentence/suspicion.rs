@@ -51,6 +51,8 @@ pub enum Suspicion {
         /// Share of the squared error in them \[–\].
         share: f64,
     },
+    /// Much is left of some recordings, and hardly anything of the others.
+    StandsApart(StandsApart),
     /// What is left is white, so that no model could explain it.
     Noise,
     /// No torque acts in any recording, and nothing says how heavy, damped or stiff the rig is.
@@ -82,6 +84,32 @@ impl Display for TurnedRound {
             true => "the input has the other sign than in the others",
             false => "the input has another sign than the study says",
         })
+    }
+}
+
+/// Recordings of which a model leaves far more than of the others.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StandsApart {
+    /// Which.
+    pub recordings: Vec<String>,
+    /// How many there are in all \[–\].
+    pub of: usize,
+    /// Share of the squared error in them \[–\].
+    pub share: f64,
+    /// How many times the largest root mean square error of the others the least of theirs is \[–\].
+    pub times: f64,
+}
+
+impl Display for StandsApart {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let (apart, of) = (self.recordings.len(), self.of);
+        let recordings = joined(&self.recordings);
+        let share = at_most_all(self.share);
+        let times = significant(self.times, 2);
+        write!(
+            f,
+            "Check what happened there: of {recordings} ({apart} of {of} recordings) the model leaves {times} times the error that it leaves of any other, {share} of the squared error in all. A zero that jumped, a cable that caught, a load that was put on: look at it in report.html, and record anew or leave it out."
+        )
     }
 }
 
@@ -231,6 +259,7 @@ impl Display for Suspicion {
                 "Check the recordings for spikes and dropouts: {samples} of {of} samples hold {} of the squared error.",
                 at_most_all(*share)
             ),
+            Self::StandsApart(apart) => apart.fmt(f),
             Self::Noise => f.write_str(
                 "Check the sensor: what is left is white, each sample apart from its neighbours, as noise is and no motion. A model cannot explain it; filter it where it is measured, drive the rig harder, or measure its noise (a quiet part before the input begins) so that it can be counted off.",
             ),
