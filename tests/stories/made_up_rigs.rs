@@ -7,6 +7,7 @@ mod ended;
 mod free_motion;
 mod held;
 mod loads;
+mod loops;
 mod rig;
 mod unheld;
 mod zeros;

@@ -27,6 +27,9 @@ const MOST_SAMPLES: usize = 60_000;
 /// Root mean square of the error, over that with a straight input, up to which a model of fewer effects leaves as little \[–\].
 /// Chosen.
 const AS_LITTLE: f64 = 1.1;
+/// The same where all that it spares are effects that stand in for half a sampling interval \[–\]. Chosen: a positioner in closed loop,
+/// whose input follows the noise of its place, leaves 1.12 without the second mode that it was given for a hold.
+const AS_LITTLE_WITHOUT_STAND_INS: f64 = 1.25;
 /// The same below which one of as many effects leaves plainly less \[–\]. Chosen.
 const PLAINLY_LESS: f64 = 0.95;
 /// The same below which what a search finds is the likelier story, of how many effects ever \[–\]. Chosen: of a fan a search with a
@@ -201,23 +204,41 @@ pub(crate) fn speaks_for_it(
     let error = |diagnosis: &Diagnosis| diagnosis.ladder.last().map(|rung| rung.rms_fitted_output);
     let (with, without) = (error(held)?, error(straight)?);
     let (fewer, more) = (held.added.len(), straight.added.len());
-    let is_simpler = fewer < more && with <= AS_LITTLE * without;
+    let is_needed = |effect: &str| held.added.iter().any(|other| other.effect == effect);
+    let found = straight.added.iter().map(|one| one.effect.as_str());
+    let spared: Vec<&str> = found.filter(|&effect| !is_needed(effect)).collect();
+    let most = match spared.iter().all(|effect| STAND_INS.contains(effect)) {
+        true => AS_LITTLE_WITHOUT_STAND_INS,
+        false => AS_LITTLE,
+    };
+    let is_simpler = fewer < more && with <= most * without;
     // More effects are no likelier where one of them stands in for a hold, too.
     let spares = stand_ins(held).all(|one| stand_ins(straight).any(|other| other == one));
     let is_far_better = spares && with < FAR_LESS * without;
-    let is_better = is_far_better || (fewer <= more && with < PLAINLY_LESS * without);
+    let is_ahead = fewer <= more && with <= AS_LITTLE * without && is_ahead(held, straight);
+    let is_better = is_far_better || is_ahead || (fewer <= more && with < PLAINLY_LESS * without);
     let is_the_hold = fewer <= more
         && with <= AS_LITTLE * without
         && is_half_an_interval_late(straight, interval_s);
-    let is_needed = |effect: &str| held.added.iter().any(|other| other.effect == effect);
-    let found = straight.added.iter().map(|one| &one.effect);
     (!held.interrupted && (is_simpler || is_better || is_the_hold)).then(|| Reason::Held {
-        spared: found
-            .filter(|effect| is_simpler && !is_needed(effect))
-            .cloned()
+        spared: (spared.into_iter().filter(|_| is_simpler))
+            .map(str::to_owned)
             .collect(),
         is_half_an_interval: is_the_hold && !is_simpler && !is_better,
     })
+}
+
+/// Whether `held` leaves plainly less than `straight` beside the same effects, before that takes the first stand-in.
+fn is_ahead(held: &Diagnosis, straight: &Diagnosis) -> bool {
+    let stands_in = |effect: &String| STAND_INS.contains(&effect.as_str());
+    let mut rungs = straight.ladder.iter().zip(straight.ladder.iter().skip(1));
+    let first = rungs.find(|(_, next)| next.effects.iter().any(stands_in));
+    let beside = first.and_then(|(before, _)| {
+        let mut rungs = held.ladder.iter();
+        let same = rungs.find(|rung| rung.effects == before.effects)?;
+        Some((same.rms_fitted_output, before.rms_fitted_output))
+    });
+    beside.is_some_and(|(with, without)| with < PLAINLY_LESS * without)
 }
 
 /// The effects of a model that takes half a sampling interval for a delay, without those that stand in for it; `None` where it takes none
