@@ -2,6 +2,7 @@
 
 use crate::section::{Rendered, rendered};
 use crate::viewer::{SCRIPT, document};
+use crate::words::as_shown::as_shown;
 use crate::words::machine_words;
 use maud::{Markup, PreEscaped, html as markup};
 use snug_campaign::CampaignResult;
@@ -18,16 +19,13 @@ const OWN_SCRIPT: &str = concat!(
 /// Text from the campaign is escaped; the page works without JavaScript, which only adds stepping, zoom, values under
 /// the cursor, sorting, filtering and where one is in the list of chapters.
 ///
-/// Of a machine it is told in a machine's words.
+/// It is told in the units of the rig's signals, and of a machine in a machine's words.
 pub fn html(result: &CampaignResult) -> String {
-    if result.vocabulary == Vocabulary::Hand {
-        return page(result);
+    let page = page(&as_shown(result));
+    match result.vocabulary {
+        Vocabulary::Hand => page,
+        machine => machine_words::markup(&page, machine),
     }
-    let told = CampaignResult {
-        diagnosis: (result.diagnosis.as_ref()).map(|one| result.vocabulary.told(one)),
-        ..result.clone()
-    };
-    machine_words::markup(&page(&told), result.vocabulary)
 }
 
 fn page(result: &CampaignResult) -> String {

@@ -64,6 +64,20 @@ const OF_A_MACHINE: &[(&str, &str)] = &[
     ("on a softer joint", "with a slower input"),
     ("target torque nm", "peak torque"),
     ("target torque", "peak torque"),
+    (
+        "time since the pulse began",
+        "time since the recording began",
+    ),
+    ("phase of the pulse", "phase of the recording"),
+    (
+        "the quiet part before the pulse",
+        "the quiet part before the input begins",
+    ),
+    (
+        "the quiet part before each pulse",
+        "the quiet part before each input begins",
+    ),
+    ("before the pulse", "before the input begins"),
     ("rest after the rebound", "rest"),
     ("rebound", "return"),
     ("the tool's angle", "the angle"),
@@ -84,6 +98,11 @@ const OF_A_MACHINE: &[(&str, &str)] = &[
 /// The same of one that slides, beside those.
 const OF_ONE_THAT_SLIDES: &[(&str, &str)] = &[
     ("joint torque t [nm]", "force [N]"),
+    ("torque t [nm]", "force F [N]"),
+    (
+        "angle θ [rad], velocity ω [rad/s], acceleration α [rad/s²]",
+        "displacement x [m], velocity v [m/s], acceleration a [m/s²]",
+    ),
     ("joint torque", "force"),
     ("target torque nm", "peak force"),
     ("target torque", "peak force"),
@@ -173,6 +192,7 @@ impl Axis {
                 "Nm" => (1.0 / l, "N"),
                 "Nm/s" => (1.0 / l, "N/s"),
                 "1/Nm" => (l, "1/N"),
+                "N/Nm" => (l, "N/N"),
                 "rad" => (l, "m"),
                 "rad/s" => (l, "m/s"),
                 "rad/s^2" => (l, "m/s^2"),

@@ -47,7 +47,7 @@ const VIEWS: [View; 3] = [
     },
 ];
 
-fn render(diagnosis: &Diagnosis, _: &CampaignResult) -> Option<Markup> {
+fn render(diagnosis: &Diagnosis, result: &CampaignResult) -> Option<Markup> {
     let rungs = &diagnosis.ladder;
     if rungs.is_empty() {
         return None;
@@ -73,7 +73,7 @@ fn render(diagnosis: &Diagnosis, _: &CampaignResult) -> Option<Markup> {
             (selected_figure(rungs, &names))
         }
         (promised(diagnosis))
-        (table(rungs, &names, &unit))
+        (table(rungs, &names, &unit, &result.units.output))
     })
 }
 
@@ -238,7 +238,7 @@ fn bar_figure(heading: &str, shows: &str, x: Axis, names: &[String], bars: Vec<B
     captioned(heading, figure.svg(), None)
 }
 
-fn table(rungs: &[Rung], names: &[String], unit: &str) -> Markup {
+fn table(rungs: &[Rung], names: &[String], unit: &str, displacement: &str) -> Markup {
     let unknown = "the noise is not known";
     let apart = "fewer than two groups to hold out, or the noise is not known";
     html! {
@@ -255,7 +255,7 @@ fn table(rungs: &[Rung], names: &[String], unit: &str) -> Markup {
                 tr {
                     @for heading in ["all", "tightenings held out", "targets held out", "participants held out"] { th scope="col" { (heading) } }
                     th scope="col" { "fitted output [" (unit) "]" }
-                    th scope="col" { "displacement [rad]" }
+                    th scope="col" { "displacement [" (displacement) "]" }
                 }
             }
             tbody { @for (rung, name) in rungs.iter().zip(names) { tr {

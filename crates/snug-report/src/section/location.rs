@@ -71,7 +71,7 @@ fn remarks(location: &Location) -> Markup {
 
 fn views(location: &Location, units: &SignalUnits) -> Markup {
     html! {
-        (aspects::figures(&location.aspects))
+        (aspects::figures(&location.aspects, units))
         (force::figures(location))
         @if let Some(correlation) = &location.correlation { (correlation::figures(correlation)) }
         @if let Some(response) = &location.response { (response::figures(response, units)) }

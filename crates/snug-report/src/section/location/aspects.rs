@@ -4,13 +4,16 @@ use crate::figure::{Axis, Dot, Figure, Mark, Segment, captioned};
 use crate::section::headings;
 use crate::words::number::{measured, missing, percent, short, significant};
 use maud::{Markup, html};
-use snug_campaign::{Aspect, Share};
+use snug_campaign::{Aspect, Share, SignalUnits};
 
 /// More parts than this are drawn along an axis instead of as rows.
 const MOST_ROWS: usize = 12;
+/// From where on times are told in seconds \[s\], and places in the output's own unit: in a thousandth of it they have five digits.
+const LONG_S: f64 = 10.0;
+const FAR: f64 = 10.0;
 
 /// The small pictures and, folded away, their numbers.
-pub fn figures(aspects: &[Aspect]) -> Markup {
+pub fn figures(aspects: &[Aspect], units: &SignalUnits) -> Markup {
     if aspects.iter().all(|aspect| aspect.parts.is_empty()) {
         return html! {};
     }
@@ -19,11 +22,11 @@ pub fn figures(aspects: &[Aspect]) -> Markup {
             intervals; the green line at 1 is nothing but noise. Every picture ends where its data end. The percentage beside a part is its share of everything \
             beyond the noise." }
         div.figures.small {
-            @for aspect in aspects.iter().filter(|aspect| !aspect.parts.is_empty()) { (picture(aspect)) }
+            @for aspect in aspects.iter().filter(|aspect| !aspect.parts.is_empty()) { (picture(aspect, units)) }
         }
         details {
             summary { "The same in numbers" }
-            (table(aspects))
+            (table(aspects, units))
         }
     }
 }
@@ -41,38 +44,57 @@ fn largest(aspect: &Aspect) -> f64 {
 }
 
 /// What an aspect is called, and the factor and unit that its edges are shown in.
-fn heading(aspect: &str) -> (String, f64, &'static str) {
-    match aspect {
+struct Heading {
+    title: String,
+    factor: f64,
+    unit: String,
+}
+
+fn heading(aspect: &Aspect, units: &SignalUnits) -> Heading {
+    let edges = aspect.parts.iter().flat_map(|part| [part.from, part.to]);
+    let largest = edges.flatten().filter(|edge| edge.is_finite());
+    let largest = largest.fold(0.0, |largest: f64, edge| largest.max(edge.abs()));
+    let (title, factor, unit): (String, f64, &str) = match aspect.aspect.as_str() {
+        "time_since_onset_s" if largest >= LONG_S => {
+            ("Time since the pulse began".into(), 1.0, "s")
+        }
         "time_since_onset_s" => ("Time since the pulse began".into(), 1000.0, "ms"),
         "phase" => ("Phase of the pulse".into(), 1.0, ""),
         "frequency_hz" => ("Frequency".into(), 1.0, "Hz"),
-        "amplitude_rad" => ("Displacement".into(), 1000.0, "mrad"),
+        "amplitude_rad" if largest >= FAR => ("Displacement".into(), 1.0, &units.output),
+        "amplitude_rad" => ("Displacement".into(), 1000.0, &format!("m{}", units.output)),
         "participant" => ("Participant".into(), 1.0, ""),
         "strategy" => ("Strategy".into(), 1.0, ""),
         "joint" => ("Joint".into(), 1.0, ""),
         "pace_per_min" => ("Pace [1/min]".into(), 1.0, ""),
-        "target_torque_nm" => ("Target torque [Nm]".into(), 1.0, ""),
+        "target_torque_nm" => (format!("Target torque [{}]", units.input), 1.0, ""),
         other => (other.replace('_', " "), 1.0, ""),
+    };
+    Heading {
+        title,
+        factor,
+        unit: unit.to_owned(),
     }
 }
 
-fn picture(aspect: &Aspect) -> Markup {
+fn picture(aspect: &Aspect, units: &SignalUnits) -> Markup {
     let largest = largest(aspect);
-    let (title, factor, unit) = heading(&aspect.aspect);
+    let heading = heading(aspect, units);
     let ranged = aspect
         .parts
         .iter()
         .all(|part| part.from.is_some() && part.to.is_some());
     let drawing = if ranged && aspect.parts.len() > MOST_ROWS {
-        along(aspect, largest, factor, unit)
+        along(aspect, largest, &heading)
     } else {
-        in_rows(aspect, largest, factor, unit)
+        in_rows(aspect, largest, &heading)
     };
-    captioned(&title, drawing, None)
+    captioned(&heading.title, drawing, None)
 }
 
 /// A part's name, its edges in the aspect's unit.
-fn part_name(part: &Share, factor: f64, unit: &str) -> String {
+fn part_name(part: &Share, heading: &Heading) -> String {
+    let Heading { factor, unit, .. } = heading;
     let edge = |value: f64| short(factor * value);
     match (part.from, part.to) {
         (Some(from), Some(to)) if to.is_finite() => format!("{}–{} {unit}", edge(from), edge(to))
@@ -92,11 +114,11 @@ fn spoken(name: &str, part: &Share) -> String {
     )
 }
 
-fn in_rows(aspect: &Aspect, largest: f64, factor: f64, unit: &str) -> Markup {
+fn in_rows(aspect: &Aspect, largest: f64, heading: &Heading) -> Markup {
     let names: Vec<String> = aspect
         .parts
         .iter()
-        .map(|part| part_name(part, factor, unit))
+        .map(|part| part_name(part, heading))
         .collect();
     let rows: Vec<(String, bool)> = aspect
         .parts
@@ -128,7 +150,7 @@ fn in_rows(aspect: &Aspect, largest: f64, factor: f64, unit: &str) -> Markup {
         title: spoken(&names[row], part),
     });
     Figure {
-        description: format!("Error over noise by {}", aspect.aspect.replace('_', " ")),
+        description: format!("Error over noise by {}", heading.title.to_lowercase()),
         width: 300.0,
         height: 60.0 + 22.0 * count.max(3) as f64,
         x: Axis::logarithmic("error over noise [×]", 0.85, 1.08 * largest),
@@ -142,13 +164,13 @@ fn in_rows(aspect: &Aspect, largest: f64, factor: f64, unit: &str) -> Markup {
     .svg()
 }
 
-fn along(aspect: &Aspect, largest: f64, factor: f64, unit: &str) -> Markup {
+fn along(aspect: &Aspect, largest: f64, heading: &Heading) -> Markup {
     let edges = |part: &Share| {
         let (from, to) = part
             .from
             .zip(part.to)
             .expect("only parts with edges are drawn along an axis");
-        (factor * from, factor * to)
+        (heading.factor * from, heading.factor * to)
     };
     let (start, _) = edges(&aspect.parts[0]);
     let (_, end) = edges(&aspect.parts[aspect.parts.len() - 1]);
@@ -163,15 +185,15 @@ fn along(aspect: &Aspect, largest: f64, factor: f64, unit: &str) -> Markup {
     let dots = aspect.parts.iter().map(|part| Dot {
         x: middle(part),
         y: part.error_over_noise,
-        title: spoken(&part_name(part, factor, unit), part),
+        title: spoken(&part_name(part, heading), part),
     });
     let floor = Mark::rule("c-floor", (start, end), (1.0, 1.0));
     Figure {
-        description: format!("Error over noise by {}", aspect.aspect.replace('_', " ")),
+        description: format!("Error over noise by {}", heading.title.to_lowercase()),
         width: 300.0,
         height: 60.0 + 22.0 * 5.0,
         x: Axis::linear(
-            format!("{} [{unit}]", heading(&aspect.aspect).0.to_lowercase()),
+            format!("{} [{}]", heading.title.to_lowercase(), heading.unit),
             start,
             end,
             5,
@@ -190,16 +212,16 @@ fn marks(whiskers: Vec<Segment>, dots: Vec<Dot>, floor: Mark) -> Vec<Mark> {
     ]
 }
 
-fn table(aspects: &[Aspect]) -> Markup {
+fn table(aspects: &[Aspect], units: &SignalUnits) -> Markup {
     html! {
         div.scroll tabindex="0" role="region" aria-label="Where the model fails, in numbers" { table {
             (headings(&["part", "error over noise [×], 95 % interval", "share of the excess", "samples"]))
             @for aspect in aspects {
-                @let (title, factor, unit) = heading(&aspect.aspect);
+                @let heading = &heading(aspect, units);
                 tbody {
-                    tr.group { th colspan="4" scope="rowgroup" { (title) } }
+                    tr.group { th colspan="4" scope="rowgroup" { (heading.title) } }
                     @for part in &aspect.parts { tr {
-                        th scope="row" { (part_name(part, factor, unit)) }
+                        th scope="row" { (part_name(part, heading)) }
                         td { (measured(Some(part.error_over_noise), part.interval, "no sample falls there")) }
                         td { @if part.share_of_excess.is_finite() { (percent(part.share_of_excess)) } @else { (missing("no sample falls there")) } }
                         td { (part.samples) }
