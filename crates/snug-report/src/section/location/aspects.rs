@@ -50,6 +50,16 @@ struct Heading {
     unit: String,
 }
 
+impl Heading {
+    /// `target torque [Nm]`: its unit stays as it is.
+    fn in_a_sentence(&self) -> String {
+        let mut letters = self.title.chars();
+        letters.next().map_or_else(String::new, |first| {
+            first.to_lowercase().chain(letters).collect()
+        })
+    }
+}
+
 fn heading(aspect: &Aspect, units: &SignalUnits) -> Heading {
     let edges = aspect.parts.iter().flat_map(|part| [part.from, part.to]);
     let largest = edges.flatten().filter(|edge| edge.is_finite());
@@ -150,7 +160,7 @@ fn in_rows(aspect: &Aspect, largest: f64, heading: &Heading) -> Markup {
         title: spoken(&names[row], part),
     });
     Figure {
-        description: format!("Error over noise by {}", heading.title.to_lowercase()),
+        description: format!("Error over noise by {}", heading.in_a_sentence()),
         width: 300.0,
         height: 60.0 + 22.0 * count.max(3) as f64,
         x: Axis::logarithmic("error over noise [×]", 0.85, 1.08 * largest),
@@ -189,11 +199,11 @@ fn along(aspect: &Aspect, largest: f64, heading: &Heading) -> Markup {
     });
     let floor = Mark::rule("c-floor", (start, end), (1.0, 1.0));
     Figure {
-        description: format!("Error over noise by {}", heading.title.to_lowercase()),
+        description: format!("Error over noise by {}", heading.in_a_sentence()),
         width: 300.0,
         height: 60.0 + 22.0 * 5.0,
         x: Axis::linear(
-            format!("{} [{}]", heading.title.to_lowercase(), heading.unit),
+            format!("{} [{}]", heading.in_a_sentence(), heading.unit),
             start,
             end,
             5,
