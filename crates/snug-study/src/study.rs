@@ -223,7 +223,6 @@ impl Study {
         }
     }
 
-    /// Of every range something must be scored.
     fn check_steps(&self) -> Result<(), StudyError> {
         match self.model.steps_per_sample {
             Some(steps) if !ALLOWED_STEPS.contains(&steps) => Err(StudyError::Setting {
@@ -235,6 +234,7 @@ impl Study {
         }
     }
 
+    /// Of every range something must be scored.
     fn check_scored(&self) -> Result<(), StudyError> {
         for range in self.source.ranges() {
             let (setting, unscored) = if self.validation.ranges.contains(&range.name) {

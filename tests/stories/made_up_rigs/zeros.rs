@@ -8,6 +8,7 @@ use snug_study::Verb;
 /// The noise of the reading, of a motion of some 0.1 \[m\].
 const NOISE: f64 = 4e-4;
 
+/// Three recordings of it.
 fn slide(seen: impl Fn(usize, f64, f64) -> f64, metre: f64) -> Diagnosis {
     slides(3, seen, metre)
 }

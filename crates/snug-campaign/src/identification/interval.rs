@@ -23,4 +23,12 @@ impl Interval {
             high: value + half,
         }
     }
+
+    /// The same with both ends `factor` times as large, as in another unit; the factor is above 0.
+    pub fn times(self, factor: f64) -> Self {
+        Self {
+            low: self.low * factor,
+            high: self.high * factor,
+        }
+    }
 }

@@ -108,10 +108,7 @@ fn about_own_axis(
         let (factor, unit) = result.vocabulary.about(&parameter.unit);
         parameter.value *= factor;
         parameter.standard_error = parameter.standard_error.map(|error| error * factor);
-        if let Some(interval) = &mut parameter.interval {
-            interval.low *= factor;
-            interval.high *= factor;
-        }
+        parameter.interval = parameter.interval.map(|interval| interval.times(factor));
         parameter.unit = unit;
         factors.insert(parameter.name.clone(), factor);
     }
@@ -121,10 +118,7 @@ fn multiply(moments: &mut Moments, factor: f64) {
     moments.mean *= factor;
     moments.median *= factor;
     moments.standard_deviation = moments.standard_deviation.map(|one| one * factor);
-    if let Some(interval) = &mut moments.mean_interval {
-        interval.low *= factor;
-        interval.high *= factor;
-    }
+    moments.mean_interval = (moments.mean_interval).map(|interval| interval.times(factor));
 }
 
 #[cfg(test)]

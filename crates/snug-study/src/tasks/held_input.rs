@@ -215,11 +215,10 @@ pub(crate) fn speaks_for_it(
     // More effects are no likelier where one of them stands in for a hold, too.
     let spares = stand_ins(held).all(|one| stand_ins(straight).any(|other| other == one));
     let is_far_better = spares && with < FAR_LESS * without;
-    let is_ahead = fewer <= more && with <= AS_LITTLE * without && is_ahead(held, straight);
-    let is_better = is_far_better || is_ahead || (fewer <= more && with < PLAINLY_LESS * without);
-    let is_the_hold = fewer <= more
-        && with <= AS_LITTLE * without
-        && is_half_an_interval_late(straight, interval_s);
+    let does_as_well = fewer <= more && with <= AS_LITTLE * without;
+    let is_better = is_far_better
+        || (does_as_well && (with < PLAINLY_LESS * without || is_ahead(held, straight)));
+    let is_the_hold = does_as_well && is_half_an_interval_late(straight, interval_s);
     (!held.interrupted && (is_simpler || is_better || is_the_hold)).then(|| Reason::Held {
         spared: (spared.into_iter().filter(|_| is_simpler))
             .map(str::to_owned)

@@ -77,14 +77,22 @@ pub struct TurnedRound {
 impl Display for TurnedRound {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let (turned, of) = (self.recordings.len(), self.of);
-        let recordings = joined(&self.recordings);
-        write!(f, "in {recordings} ({turned} of {of} recordings) ")?;
+        write!(f, "in {} ", among(&self.recordings, of))?;
         // Of "the others" only the few can be told.
         f.write_str(match 2 * turned < of {
             true => "the input has the other sign than in the others",
             false => "the input has another sign than the study says",
         })
     }
+}
+
+/// `r1.csv and r4.csv (2 of 5 recordings)`.
+fn among(recordings: &[String], of: usize) -> String {
+    format!(
+        "{} ({} of {of} recordings)",
+        joined(recordings),
+        recordings.len()
+    )
 }
 
 /// Recordings of which a model leaves far more than of the others.
@@ -102,13 +110,12 @@ pub struct StandsApart {
 
 impl Display for StandsApart {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let (apart, of) = (self.recordings.len(), self.of);
-        let recordings = joined(&self.recordings);
+        let recordings = among(&self.recordings, self.of);
         let share = at_most_all(self.share);
         let times = significant(self.times, 2);
         write!(
             f,
-            "Check what happened there: of {recordings} ({apart} of {of} recordings) the model leaves {times} times the error that it leaves of any other, {share} of the squared error in all. A zero that jumped, a cable that caught, a load that was put on: look at it in report.html, and record anew or leave it out."
+            "Check what happened there: of {recordings} the model leaves {times} times the error that it leaves of any other, {share} of the squared error in all. A zero that jumped, a cable that caught, a load that was put on: look at it in report.html, and record anew or leave it out."
         )
     }
 }

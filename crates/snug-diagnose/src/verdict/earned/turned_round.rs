@@ -25,10 +25,7 @@ pub(crate) fn turned_round(cases: &[FitTask<'_>]) -> Option<TurnedRound> {
         return None;
     }
     let both: Vec<BothWays> = (as_they_are.into_iter().zip(cases))
-        .map(|(as_it_is, case)| BothWays {
-            as_it_is,
-            turned: explained(&turned(case)),
-        })
+        .map(|(as_it_is, case)| BothWays::of(case, as_it_is))
         .collect();
     let places: Vec<usize> = (0..cases.len())
         .filter(|&place| both[place].is_turned() && is_turned_in_parts(&cases[place]))
@@ -54,6 +51,13 @@ struct BothWays {
 }
 
 impl BothWays {
+    fn of(case: &FitTask<'_>, as_it_is: f64) -> Self {
+        Self {
+            as_it_is,
+            turned: explained(&turned(case)),
+        }
+    }
+
     fn is_right(&self) -> bool {
         self.as_it_is >= LEAST_EXPLAINED && self.as_it_is > self.turned
     }
@@ -70,10 +74,7 @@ fn is_turned_in_parts(case: &FitTask<'_>) -> bool {
     let each = case.measured().len().div_ceil(PARTS).max(1);
     let parts: Vec<BothWays> = (0..PARTS)
         .map(|part| part_of(case, part * each..(part + 1) * each))
-        .map(|part| BothWays {
-            as_it_is: explained(&part),
-            turned: explained(&turned(&part)),
-        })
+        .map(|part| BothWays::of(&part, explained(&part)))
         .collect();
     let count = |is: fn(&BothWays) -> bool| parts.iter().filter(|part| is(part)).count();
     count(BothWays::is_right) <= count(BothWays::is_turned)
