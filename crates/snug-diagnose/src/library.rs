@@ -177,8 +177,6 @@ mod tests {
         // 2 (25 − 62.5).
         ("torque2_law", -75.0),
         ("torque_abs_torque_law", -75.0),
-        // Beyond 1 Nm.
-        ("dead_band_law", 2.0),
         ("torque_x_law", 0.6),
         ("torque_x2_law", 0.0072),
         ("torque_abs_v_law", 15.0),
@@ -267,7 +265,6 @@ mod tests {
             "preload_law",
             "torque2_law",
             "torque_abs_torque_law",
-            "dead_band_law",
             "torque_x_law",
             "torque_x2_law",
             "torque_abs_v_law",

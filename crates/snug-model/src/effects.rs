@@ -38,12 +38,14 @@ pub mod second_mass;
 pub mod second_mode;
 pub mod stretch_reflex;
 pub mod stribeck_friction;
+pub mod torque_dead_zone;
 pub mod torque_delay;
 pub mod torque_dependent_stiffness;
 pub mod torque_drift;
 pub mod torque_lag;
 pub mod torque_limit;
 pub mod torque_offset;
+pub mod torque_rate_limit;
 pub mod torque_ripple;
 pub mod voluntary_push;
 
@@ -73,6 +75,8 @@ macro_rules! catalogue {
                 gravity_torque::GravityTorque,
                 constant_load::ConstantLoad,
                 torque_limit::TorqueLimit,
+                torque_dead_zone::TorqueDeadZone,
+                torque_rate_limit::TorqueRateLimit,
                 actuator_lag::ActuatorLag,
                 stretch_reflex::StretchReflex,
                 voluntary_push::VoluntaryPush,

@@ -148,6 +148,9 @@ macro_rules! hooks {
                 /// Time constant \[s\] of the first-order lag through which a drive gives the torque that it is told.
                 fn actuator_lag_s() -> N;
 
+                /// Most by which what a drive gives changes \[Nm/s\].
+                fn actuator_rate_nm_per_s() -> N;
+
                 /// Initial angle \[rad\] and angular velocity \[rad/s\]; without it, at rest.
                 fn initial() -> (N, N);
             }
@@ -187,7 +190,7 @@ macro_rules! declare_law {
         /// ```text
         /// F = limit(k (1 + Σ stiffening) d + c dd/dt + Σ force + Σ delayed)     d = deflection(x − Σ support)
         /// u = y(t − Σ delay) + Σ lag · y'(t − Σ delay) − Σ offset               y: logged torque
-        /// T = q + Σ torque                                                      q' Σ actuator lag = u − q
+        /// T = q + Σ torque                                       q' Σ actuator lag = u − q, |q'| ≤ actuator rate
         /// a = measure(lagged(α' + Σ cross_sensitivity, Σ acceleration lag))        α' = α + Σ relative_motion
         /// ```
         pub trait Law {

@@ -311,25 +311,6 @@ pub(super) const OF_A_MACHINE: &[Term] = &[
         parameters: &[p("N/Nm")],
     },
     Term {
-        name: "dead_band_law",
-        says: "an input that hardly acts as long as it is smaller than b",
-        says_below_zero: "an input that acts more as long as it is smaller than b",
-        expression: "p*max(-b,min(b,T))",
-        parameters: &[
-            Factor {
-                starts: &[1.0],
-                ..p("N/Nm")
-            },
-            Factor {
-                name: "b",
-                unit: "Nm",
-                starts: &[1.0, 4.0],
-                minimum: 0.1,
-                maximum: 20.0,
-            },
-        ],
-    },
-    Term {
         name: "torque_x_law",
         says: "an input that acts less above rest than below it",
         says_below_zero: "an input that acts more above rest than below it",

@@ -142,6 +142,13 @@ pub trait Number: Arithmetic + From<Self::Real> {
         );
         Self::chain_of(&[self, exponent], power, &[slope, by_exponent])
     }
+    /// This number, no further than `most`, not negative, from 0.
+    #[inline(always)]
+    fn no_further_than(self, most: Self) -> Self {
+        let is_above = self.value().is_above(most.value());
+        let is_below = (-self.value()).is_above(most.value());
+        Self::select(is_above, most, Self::select(is_below, -most, self))
+    }
     /// u² (3 − 2u) between 0 and 1; 0 before and 1 after.
     #[inline(always)]
     fn smooth_step(self) -> Self {

@@ -58,10 +58,7 @@ impl<'a, N: Number> ActingTorque<'a, N> {
             }),
             drive: None,
         };
-        let lags = (parts.iter())
-            .filter_map(|part| part.effect.actuator_lag_s(&p[part.parameters.clone()]));
-        acting.drive = lags.reduce(|sum, more| sum + more).map(|tau_s| {
-            let actuator = Actuator::new(tau_s, inputs.interval_s);
+        acting.drive = actuator(parts, p, inputs).map(|actuator| {
             let given = acting.given(&actuator);
             Drive { actuator, given }
         });
@@ -143,6 +140,31 @@ impl<'a, N: Number> ActingTorque<'a, N> {
         delay.chain(then.torque_nm, -then.slope_nm_per_s)
             + how.lag_s * delay.chain(then.rate_nm_per_s, -then.change_nm_per_s2)
             - how.offset_nm
+    }
+}
+
+/// How the drive follows by the effects `parts`, if any says so; of several rates the least holds.
+fn actuator<N: Number>(
+    parts: &[Part],
+    p: &[N],
+    inputs: &SimulationInputs<'_, N::Real>,
+) -> Option<Actuator<N>> {
+    let lags = parts
+        .iter()
+        .filter_map(|part| part.effect.actuator_lag_s(&p[part.parameters.clone()]));
+    let rates = (parts.iter())
+        .filter_map(|part| (part.effect).actuator_rate_nm_per_s(&p[part.parameters.clone()]));
+    let lag_s = lags.reduce(|sum, more| sum + more);
+    let rate =
+        rates.reduce(|one, other| N::select(one.value().is_above(other.value()), other, one));
+    let at_once = N::from(inputs.zero);
+    match (lag_s, rate) {
+        (None, None) => None,
+        (Some(lag_s), None) => Some(Actuator::new(lag_s, inputs.interval_s)),
+        (lag_s, Some(rate)) => {
+            let actuator = Actuator::new(lag_s.unwrap_or(at_once), inputs.interval_s);
+            Some(actuator.no_faster_than(rate, inputs.interval_s))
+        }
     }
 }
 

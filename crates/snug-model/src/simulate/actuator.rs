@@ -1,5 +1,6 @@
-//! A drive that follows its command through a first-order lag, and what it gives within every step.
+//! A drive that follows its command through a first-order lag, no faster than it can, and what it gives within every step.
 
+use crate::numeric::lanewise::Lanewise;
 use crate::numeric::number::Number;
 use crate::simulate::first_order::left_after;
 
@@ -16,12 +17,16 @@ pub type Within<N> = [N; 3];
 ///
 /// The value as the step begins is the one with which Simpson's rule, and so a Runge–Kutta step, has the exact impulse of the step: q
 /// itself where τ is many steps, and u, as without a lag, as τ → 0.
+///
+/// One that changes by no more than R a second goes from q no further than R s by the time s.
 #[derive(Debug)]
 pub struct Actuator<N> {
     /// τ/h.
     ratio: N,
     /// What is left of a deviation by each of [`Within`].
     left: Within<N>,
+    /// R h, if there is such a limit.
+    most: Option<N>,
 }
 
 impl<N: Number> Actuator<N> {
@@ -34,6 +39,15 @@ impl<N: Number> Actuator<N> {
         Self {
             ratio,
             left: [mean * 6.0 - half * 4.0 - whole, half, whole],
+            most: None,
+        }
+    }
+
+    /// The same, what it gives changing by no more than `rate` \[Nm/s\]; a step is as long as in [`Actuator::new`] \[s\].
+    pub fn no_faster_than(self, rate: N, step_s: N::Real) -> Self {
+        Self {
+            most: Some(rate.times(step_s)),
+            ..self
         }
     }
 
@@ -43,12 +57,40 @@ impl<N: Number> Actuator<N> {
         let behind = rise * self.ratio;
         let follows = told - behind;
         let deviation = before - follows;
-        [
+        let given = [
             follows + deviation * self.left[0],
             follows + rise * 0.5 + deviation * self.left[1],
             follows + rise + deviation * self.left[2],
-        ]
+        ];
+        match self.most {
+            Some(most) => no_further(before, given, most),
+            None => given,
+        }
     }
+}
+
+/// From `before` to where it would end as `given`, no further than `most` within the step.
+///
+/// Where it would jump to d from there, it takes z = d/(R h) of the step. The value as the step begins has again the step's exact impulse,
+/// d − z d/2, of the jump as far as there is one: it is d (1 − 3 z) where it arrives in the first half, d (5 − 3 z − 2/z) in the second, and
+/// nothing where it does not arrive.
+#[inline(always)]
+fn no_further<N: Number>(before: N, given: Within<N>, most: N) -> Within<N> {
+    let [begins, middle, ends] = given.map(|one| one - before);
+    let taken = ends.abs() / most;
+    let (early, late) = (
+        taken * -3.0 + 1.0,
+        taken * -3.0 + 5.0 - taken.constant(2.0) / taken,
+    );
+    let is_late = taken.value().is_above(taken.value().constant(0.5));
+    let never = taken.value().is_above(taken.value().constant(1.0));
+    let share = N::select(is_late, late, early);
+    let share = N::select(never, taken.constant(0.0), share);
+    [
+        before + begins * share,
+        before + middle.no_further_than(most * 0.5),
+        before + ends.no_further_than(most),
+    ]
 }
 
 #[cfg(test)]
