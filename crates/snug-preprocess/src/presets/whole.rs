@@ -2,7 +2,7 @@
 
 use crate::prepared::Prepared;
 use crate::quality::wrapped::{Wrapped, unwrap};
-use crate::quality::{catching_up, saturation, spikes};
+use crate::quality::{catching_up, saturation, spikes, zero_jump};
 use crate::segment::channel::Channel;
 use crate::segment::context::Context;
 use crate::segment::integration::complete;
@@ -15,6 +15,9 @@ use std::ops::Range;
 /// Samples to either side of a jump of the input within which the motion may jump, too. Chosen: a pendulum that is kicked turns about within
 /// three samples of 300 Hz.
 const KICKED: usize = 4;
+
+/// Times that a jump of the input is larger than any other, so that a motion that jumps there only may jump with it \[–\]. Chosen.
+const AS_FAR: f64 = 2.0;
 
 /// Share of a recording's samples that may be mended \[–\]: more are no faults of a sensor that come now and then. Chosen.
 const MOST_MENDED: f64 = 0.02;
@@ -45,11 +48,16 @@ pub(crate) fn prepare(
             format!("the input is {first} Nm throughout; only initial motion can excite the rig");
         remarks.note("constant_channel", Some(Channel::Torque), message);
     }
-    if let Some(angle_rad) = &mut signals.motion.displacement_rad {
-        let spike_sd = context.settings.quality.spike_sd;
-        tell_wrapped(unwrap(angle_rad, spike_sd), remarks);
+    let spike_sd = context.settings.quality.spike_sd;
+    let angle_rad = signals.motion.displacement_rad.as_mut();
+    let wrapped = angle_rad.and_then(|angle_rad| unwrap(angle_rad, spike_sd));
+    let torque_nm = signals.torque_nm.clone();
+    let kicks = Kicks::of(&torque_nm, spike_sd);
+    mend_spikes(context, &kicks, &mut signals, remarks);
+    match wrapped {
+        Some(wrapped) => tell_wrapped(wrapped, remarks),
+        None => tell_jumps(context, &kicks, source, &signals, remarks),
     }
-    mend_spikes(context, &mut signals, remarks);
     tell_dropouts(context, &signals, remarks);
     tell_saturation(context, source, &signals, remarks);
     complete(&mut signals.motion, context.interval_s);
@@ -62,22 +70,52 @@ pub(crate) fn prepare(
     })
 }
 
+/// Where the input jumps.
+struct Kicks<'a> {
+    torque_nm: &'a [f64],
+    at: Vec<usize>,
+}
+
+impl<'a> Kicks<'a> {
+    fn of(torque_nm: &'a [f64], spike_sd: f64) -> Self {
+        let at = spikes::jumps(torque_nm, spike_sd);
+        Self { torque_nm, at }
+    }
+
+    /// Whether the motion may jump there, too.
+    fn explain(&self, index: usize) -> bool {
+        let next = self.at.partition_point(|kick| kick + KICKED < index);
+        self.at
+            .get(next)
+            .is_some_and(|&kick| kick <= index + KICKED)
+    }
+
+    /// The same of a motion that jumps nowhere else: the input jumps nowhere else as far as there.
+    fn explain_alone(&self, index: usize) -> bool {
+        let size = |kick: usize| (self.torque_nm[kick] - self.torque_nm[kick - 1]).abs();
+        let (here, elsewhere): (Vec<usize>, Vec<usize>) =
+            (self.at.iter()).partition(|kick| kick.abs_diff(index) <= KICKED);
+        let largest = |kicks: Vec<usize>| kicks.into_iter().map(size).fold(0.0, f64::max);
+        largest(here) > AS_FAR * largest(elsewhere)
+    }
+}
+
 /// Mends where a displacement or velocity leaves its course and comes back as no rig does that is not kicked, as long as that is seldom.
 /// Nothing of an acceleration: a blow makes a spike of it.
-fn mend_spikes(context: &Context<'_>, signals: &mut Signals, remarks: &mut Remarks) {
+fn mend_spikes(
+    context: &Context<'_>,
+    kicks: &Kicks<'_>,
+    signals: &mut Signals,
+    remarks: &mut Remarks,
+) {
     let quality = &context.settings.quality;
-    let kicks = spikes::jumps(&signals.torque_nm, quality.spike_sd);
-    let is_kicked = |index: usize| {
-        let next = kicks.partition_point(|kick| kick + KICKED < index);
-        kicks.get(next).is_some_and(|&kick| kick <= index + KICKED)
-    };
     for quantity in OF_MOTION {
         let Some(samples) = signals.motion.get(quantity) else {
             continue;
         };
         let channel = Channel::Motion(quantity);
         let mut mended = samples.to_vec();
-        let explains = |index: usize, _, _, _| is_kicked(index);
+        let explains = |index: usize, _, _, _| kicks.explain(index);
         let spikes = spikes::repair(&mut mended, quality.spike_sd, explains).mended;
         let Some(those) = spikes::told(&spikes, channel, context.interval_s) else {
             continue;
@@ -154,16 +192,64 @@ fn tell_saturation(
     }
 }
 
+/// Says where a displacement jumps and stays; where it is what is fitted, that keeps the recording from being judged.
+fn tell_jumps(
+    context: &Context<'_>,
+    kicks: &Kicks<'_>,
+    source: Quantity,
+    signals: &Signals,
+    remarks: &mut Remarks,
+) {
+    let Some(samples) = &signals.motion.displacement_rad else {
+        return;
+    };
+    let quality = &context.settings.quality;
+    // Where it stood still and catches up, that is told.
+    let shortest = context.samples(quality.stuck_s);
+    let held = catching_up::find(samples, shortest, quality.spike_sd);
+    let catches_up = |index: usize| held.iter().any(|held| index.abs_diff(held.end) <= 1);
+    let is_explained = |index: usize| kicks.explain_alone(index) || catches_up(index);
+    let jumps = zero_jump::find(samples, quality.spike_sd, is_explained);
+    if jumps.is_empty() {
+        return;
+    }
+    let told: Vec<String> = (jumps.iter())
+        .map(|&to| {
+            let (by, at_s) = (
+                samples[to] - samples[to - 1],
+                to as f64 * context.interval_s,
+            );
+            format!("by {by:.3e} at {at_s:.4} s")
+        })
+        .collect();
+    let channel = Channel::Motion(Quantity::Displacement);
+    let what = format!(
+        "{} jumps within one sample {} and stays there, which the input does not explain: a zero that was set anew, lost counts, or something that \
+         slipped",
+        channel.name(),
+        told.join(" and ")
+    );
+    if source == Quantity::Displacement {
+        let message = format!(
+            "{what}; no model follows it there, and the recording is kept out of what is compared and counted: cut its file in two there"
+        );
+        remarks.reject("zero_jump", Some(channel), message);
+    } else {
+        remarks.note(
+            "zero_jump",
+            Some(channel),
+            format!("{what}; it is taken as it is"),
+        );
+    }
+}
+
 /// Says that an angle begins anew again and again.
-fn tell_wrapped(wrapped: Option<Wrapped>, remarks: &mut Remarks) {
-    let Some(Wrapped {
+fn tell_wrapped(wrapped: Wrapped, remarks: &mut Remarks) {
+    let Wrapped {
         times,
         period_rad,
         is_turn,
-    }) = wrapped
-    else {
-        return;
-    };
+    } = wrapped;
     let channel = Some(Channel::Motion(Quantity::Displacement));
     match is_turn {
         true => {

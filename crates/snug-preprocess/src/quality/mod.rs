@@ -8,3 +8,4 @@ pub(crate) mod saturation;
 pub(crate) mod spikes;
 pub(crate) mod stuck;
 pub(crate) mod wrapped;
+pub(crate) mod zero_jump;

@@ -77,6 +77,22 @@ fn what_cannot_be_mended_is_told_and_stays() {
     assert_eq!(kept[1030], kept[1000]);
 }
 
+/// A zero that is set anew half way, at one sample; with the only jump of the torque it may be the rig.
+#[test]
+fn a_zero_that_jumps_is_told_and_keeps_the_recording_out() {
+    let jump = |angle_rad: &mut [f64]| angle_rad[900..].iter_mut().for_each(|angle| *angle += 0.3);
+    let (codes, kept) = told(&|_, angle_rad| jump(angle_rad));
+    assert_eq!(codes, with("zero_jump"));
+    assert_eq!(kept[900], 18.0_f64.sin() + 0.3);
+    let (codes, _) = told(&|torque_nm, angle_rad| {
+        jump(angle_rad);
+        torque_nm[899..]
+            .iter_mut()
+            .for_each(|torque| *torque += 20.0);
+    });
+    assert_eq!(codes, told(&|_, _| ()).0);
+}
+
 #[test]
 fn whole_segments_stay_as_measured() {
     let mut recording = recording(&[51], 0.0);
