@@ -167,6 +167,10 @@ macro_rules! forward {
                 catalogue!(ask, self, law => law.same_as(compared))
             }
 
+            fn likelier(&self) -> Option<&'static str> {
+                catalogue!(ask, self, law => law.likelier())
+            }
+
             fn of_all(&self) -> Option<&'static str> {
                 if let Self::Custom(law) = self {
                     return Self::named(law.description().name)?.of_all();

@@ -225,6 +225,11 @@ macro_rules! declare_law {
                 None
             }
 
+            /// The effect that is the likelier story where both explain as much.
+            fn likelier(&self) -> Option<&'static str> {
+                None
+            }
+
             /// The effect that it is where it is the same in all recordings.
             fn of_all(&self) -> Option<&'static str> {
                 None

@@ -48,22 +48,33 @@ fn a_reading_that_drifts_by_as_much_as_the_slide_moves_is_one() {
     assert_eq!(drift.unit, "rad/s");
 }
 
-/// One of five recordings drifts, and the zero of another jumps, which no effect does: that recording's drift was the rig's, and the model
-/// adequate.
-#[test]
-fn a_recording_of_which_much_is_left_stands_apart() {
+/// Of five recordings the sensor of one drifts, and that of another is `off` by so much.
+fn one_drifts_and_one_is(off: fn(f64) -> f64) -> Diagnosis {
     let seen = |number: usize, t: f64, x: f64| match number {
         2 => x + 0.02 * t,
-        4 if t > 0.9 => x + 0.2,
+        4 => x + off(t),
         _ => x,
     };
-    let diagnosis = slides(5, seen, 1.0);
+    slides(5, seen, 1.0)
+}
+
+/// A sensor that slips by 0.2 m within 50 ms, which no effect does: another recording's drift was the rig's, and the model adequate.
+#[test]
+fn a_recording_of_which_much_is_left_stands_apart() {
+    let diagnosis = one_drifts_and_one_is(|t| 0.2 * ((t - 0.9) / 0.05).clamp(0.0, 1.0));
     let headline = &diagnosis.headline;
     assert_eq!(diagnosis.verdict, Verdict::Undecided, "{headline}");
     assert!(says(
         &diagnosis,
         "of r4.csv (1 of 5 recordings) the model leaves"
     ));
+}
+
+/// A zero that is set anew at one sample keeps its recording out, and the drift of the other is all that the rest lacks. It was a second mode.
+#[test]
+fn a_recording_whose_zero_jumps_spoils_no_other() {
+    let diagnosis = one_drifts_and_one_is(|t| if t > 0.9 { 0.2 } else { 0.0 });
+    lacks(&diagnosis, "output_drift", 1.0);
 }
 
 /// A counter that reads 32 768 at rest, of a motion of some ten counts.

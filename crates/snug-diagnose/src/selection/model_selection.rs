@@ -247,7 +247,7 @@ impl ModelSelection<'_> {
         };
         (first..all.len())
             .filter(explains_as_much)
-            .min_by_key(|&other| all[other].number_count())
+            .min_by_key(|&other| all[other].has_to_say())
     }
 
     /// What to add: one effect, or, where one leaves much, the two that together leave least. Of equals a catalogue

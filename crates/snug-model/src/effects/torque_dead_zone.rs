@@ -57,6 +57,11 @@ impl Law for TorqueDeadZone {
     fn torque<N: Number>(&self, p: &[N], at: &Instant<N>) -> Option<N> {
         Some(-at.torque_nm.no_further_than(p[0]))
     }
+
+    /// Of a rig that goes the way it is driven, both take as much from what it is told.
+    fn likelier(&self) -> Option<&'static str> {
+        Some("coulomb_friction")
+    }
 }
 
 #[cfg(test)]
