@@ -148,7 +148,7 @@ macro_rules! hooks {
                 /// Time constant \[s\] of the first-order lag through which a drive gives the torque that it is told.
                 fn actuator_lag_s() -> N;
 
-                /// Most by which what a drive gives changes \[Nm/s\].
+                /// Most by which what a drive gives changes \[Nm/s\]; one effect says so.
                 fn actuator_rate_nm_per_s() -> N;
 
                 /// Initial angle \[rad\] and angular velocity \[rad/s\]; without it, at rest.

@@ -143,29 +143,26 @@ impl<'a, N: Number> ActingTorque<'a, N> {
     }
 }
 
-/// How the drive follows by the effects `parts`, if any says so; of several rates the least holds.
+/// How the drive follows by the effects `parts`, if any says so.
 fn actuator<N: Number>(
     parts: &[Part],
     p: &[N],
     inputs: &SimulationInputs<'_, N::Real>,
 ) -> Option<Actuator<N>> {
-    let lags = parts
-        .iter()
-        .filter_map(|part| part.effect.actuator_lag_s(&p[part.parameters.clone()]));
-    let rates = (parts.iter())
-        .filter_map(|part| (part.effect).actuator_rate_nm_per_s(&p[part.parameters.clone()]));
+    let lags =
+        (parts.iter()).filter_map(|part| part.effect.actuator_lag_s(&p[part.parameters.clone()]));
     let lag_s = lags.reduce(|sum, more| sum + more);
-    let rate =
-        rates.reduce(|one, other| N::select(one.value().is_above(other.value()), other, one));
-    let at_once = N::from(inputs.zero);
-    match (lag_s, rate) {
-        (None, None) => None,
-        (Some(lag_s), None) => Some(Actuator::new(lag_s, inputs.interval_s)),
-        (lag_s, Some(rate)) => {
-            let actuator = Actuator::new(lag_s.unwrap_or(at_once), inputs.interval_s);
-            Some(actuator.no_faster_than(rate, inputs.interval_s))
-        }
+    let rate = (parts.iter())
+        .find_map(|part| (part.effect).actuator_rate_nm_per_s(&p[part.parameters.clone()]));
+    if lag_s.is_none() && rate.is_none() {
+        return None;
     }
+    let (at_once, step_s) = (N::from(inputs.zero), inputs.interval_s);
+    let actuator = Actuator::new(lag_s.unwrap_or(at_once), step_s);
+    Some(match rate {
+        Some(rate) => actuator.no_faster_than(rate, step_s),
+        None => actuator,
+    })
 }
 
 /// The logged torque `delay_s` before every grid point; each lane looks it up in its own input.

@@ -1,7 +1,7 @@
 //! Median and median absolute deviation: location and scale that a pulse or a few outliers do not move.
 
 /// Ratio of standard deviation to median absolute deviation of a normal distribution, 1/Φ⁻¹(3/4).
-const NORMAL_CONSISTENCY: f64 = 1.482_602_218_505_602;
+pub(crate) const NORMAL_CONSISTENCY: f64 = 1.482_602_218_505_602;
 
 /// Median (upper one for an even count); 0 for no values. The values must be finite.
 pub(crate) fn median(values: &mut [f64]) -> f64 {
@@ -10,6 +10,14 @@ pub(crate) fn median(values: &mut [f64]) -> f64 {
     }
     let middle = values.len() / 2;
     *values.select_nth_unstable_by(middle, f64::total_cmp).1
+}
+
+/// Smallest and largest value; ∞ and −∞ of no values.
+pub(crate) fn extremes(values: &[f64]) -> [f64; 2] {
+    [
+        values.iter().copied().fold(f64::INFINITY, f64::min),
+        values.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+    ]
 }
 
 /// Median and robust standard deviation of finite samples.

@@ -1,5 +1,6 @@
 //! Window `Whole`: a segment as it was measured but for a sensor's glitches, for rigs without a quiet part.
 
+use crate::noise::spread::extremes;
 use crate::prepared::Prepared;
 use crate::quality::wrapped::{Wrapped, unwrap};
 use crate::quality::{catching_up, saturation, spikes, zero_jump};
@@ -10,6 +11,7 @@ use crate::segment::peak_torque::peak_torque_nm;
 use crate::segment::remarks::Remarks;
 use crate::segment::signals::Signals;
 use snug_campaign::{Finding, Quantity, Segment};
+use std::cell::LazyCell;
 use std::ops::Range;
 
 /// Samples to either side of a jump of the input within which the motion may jump, too. Chosen: a pendulum that is kicked turns about within
@@ -51,8 +53,7 @@ pub(crate) fn prepare(
     let spike_sd = context.settings.quality.spike_sd;
     let angle_rad = signals.motion.displacement_rad.as_mut();
     let wrapped = angle_rad.and_then(|angle_rad| unwrap(angle_rad, spike_sd));
-    let torque_nm = signals.torque_nm.clone();
-    let kicks = Kicks::of(&torque_nm, spike_sd);
+    let kicks = Kicks::of(&signals.torque_nm, spike_sd);
     mend_spikes(context, &kicks, &mut signals, remarks);
     match wrapped {
         Some(wrapped) => tell_wrapped(wrapped, remarks),
@@ -70,44 +71,36 @@ pub(crate) fn prepare(
     })
 }
 
-/// Where the input jumps.
-struct Kicks<'a> {
-    torque_nm: &'a [f64],
-    at: Vec<usize>,
-}
+/// To which samples the input jumps, in their order, and how far.
+struct Kicks(Vec<(usize, f64)>);
 
-impl<'a> Kicks<'a> {
-    fn of(torque_nm: &'a [f64], spike_sd: f64) -> Self {
-        let at = spikes::jumps(torque_nm, spike_sd);
-        Self { torque_nm, at }
+impl Kicks {
+    fn of(torque_nm: &[f64], spike_sd: f64) -> Self {
+        let size = |to: usize| (torque_nm[to] - torque_nm[to - 1]).abs();
+        let jumps = spikes::jumps(torque_nm, spike_sd).into_iter();
+        Self(jumps.map(|to| (to, size(to))).collect())
     }
 
     /// Whether the motion may jump there, too.
     fn explain(&self, index: usize) -> bool {
-        let next = self.at.partition_point(|kick| kick + KICKED < index);
-        self.at
-            .get(next)
-            .is_some_and(|&kick| kick <= index + KICKED)
+        let next = self.0.partition_point(|(kick, _)| kick + KICKED < index);
+        (self.0.get(next)).is_some_and(|(kick, _)| *kick <= index + KICKED)
     }
 
     /// The same of a motion that jumps nowhere else: the input jumps nowhere else as far as there.
     fn explain_alone(&self, index: usize) -> bool {
-        let size = |kick: usize| (self.torque_nm[kick] - self.torque_nm[kick - 1]).abs();
-        let (here, elsewhere): (Vec<usize>, Vec<usize>) =
-            (self.at.iter()).partition(|kick| kick.abs_diff(index) <= KICKED);
-        let largest = |kicks: Vec<usize>| kicks.into_iter().map(size).fold(0.0, f64::max);
-        largest(here) > AS_FAR * largest(elsewhere)
+        let is_here = |kick: usize| kick.abs_diff(index) <= KICKED;
+        let largest = |here: bool| {
+            let those = self.0.iter().filter(|(kick, _)| is_here(*kick) == here);
+            those.map(|(_, size)| *size).fold(0.0, f64::max)
+        };
+        largest(true) > AS_FAR * largest(false)
     }
 }
 
 /// Mends where a displacement or velocity leaves its course and comes back as no rig does that is not kicked, as long as that is seldom.
 /// Nothing of an acceleration: a blow makes a spike of it.
-fn mend_spikes(
-    context: &Context<'_>,
-    kicks: &Kicks<'_>,
-    signals: &mut Signals,
-    remarks: &mut Remarks,
-) {
+fn mend_spikes(context: &Context<'_>, kicks: &Kicks, signals: &mut Signals, remarks: &mut Remarks) {
     let quality = &context.settings.quality;
     for quantity in OF_MOTION {
         let Some(samples) = signals.motion.get(quantity) else {
@@ -195,7 +188,7 @@ fn tell_saturation(
 /// Says where a displacement jumps and stays; where it is what is fitted, that keeps the recording from being judged.
 fn tell_jumps(
     context: &Context<'_>,
-    kicks: &Kicks<'_>,
+    kicks: &Kicks,
     source: Quantity,
     signals: &Signals,
     remarks: &mut Remarks,
@@ -204,24 +197,22 @@ fn tell_jumps(
         return;
     };
     let quality = &context.settings.quality;
-    // Where it stood still and catches up, that is told.
+    // Where it stood still and catches up, that is told. Few recordings jump: it is looked for where one does.
     let shortest = context.samples(quality.stuck_s);
-    let held = catching_up::find(samples, shortest, quality.spike_sd);
+    let held = LazyCell::new(|| catching_up::find(samples, shortest, quality.spike_sd));
     let catches_up = |index: usize| held.iter().any(|held| index.abs_diff(held.end) <= 1);
     let is_explained = |index: usize| kicks.explain_alone(index) || catches_up(index);
     let jumps = zero_jump::find(samples, quality.spike_sd, is_explained);
     if jumps.is_empty() {
         return;
     }
-    let told: Vec<String> = (jumps.iter())
-        .map(|&to| {
-            let (by, at_s) = (
-                samples[to] - samples[to - 1],
-                to as f64 * context.interval_s,
-            );
-            format!("by {by:.3e} at {at_s:.4} s")
-        })
-        .collect();
+    let [lowest, highest] = extremes(samples);
+    let told = jumps.iter().map(|&to| {
+        let share = (samples[to] - samples[to - 1]).abs() / (highest - lowest);
+        let at_s = to as f64 * context.interval_s;
+        format!("at {at_s:.4} s by {:.1} % of its range", 100.0 * share)
+    });
+    let told: Vec<String> = told.collect();
     let channel = Channel::Motion(Quantity::Displacement);
     let what = format!(
         "{} jumps within one sample {} and stays there, which the input does not explain: a zero that was set anew, lost counts, or something that \
@@ -235,11 +226,8 @@ fn tell_jumps(
         );
         remarks.reject("zero_jump", Some(channel), message);
     } else {
-        remarks.note(
-            "zero_jump",
-            Some(channel),
-            format!("{what}; it is taken as it is"),
-        );
+        let message = format!("{what}; it is taken as it is");
+        remarks.note("zero_jump", Some(channel), message);
     }
 }
 

@@ -1,5 +1,7 @@
 //! Channels at the limit of their range, told from the top of a coarsely quantised peak.
 
+use crate::noise::spread::extremes;
+
 /// Samples pinned at the largest or smallest value of a channel, or at both.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Saturation {
@@ -20,8 +22,7 @@ const PILE_UP: usize = 4;
 /// Sought are runs of at least `shortest_run` successive samples at exactly the extreme, where the extreme is at least
 /// half of the largest absolute value (so that a channel at rest at zero does not count).
 pub(crate) fn find(samples: &[f64], shortest_run: usize) -> Option<Saturation> {
-    let largest = samples.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let smallest = samples.iter().copied().fold(f64::INFINITY, f64::min);
+    let [smallest, largest] = extremes(samples);
     let reach = largest.max(-smallest);
     if largest <= smallest {
         return None;

@@ -1,7 +1,7 @@
 //! Angles that begin anew after every turn, as an absolute encoder tells them, and counters that run over.
 
 use super::spikes::{self, WIDEST};
-use crate::noise::spread::median;
+use crate::noise::spread::{extremes, median};
 use std::f64::consts::TAU as TURN_RAD;
 
 /// Share of the range of all samples that a jump must exceed to be one \[–\]: over the seam it is nearly all of it. Chosen.
@@ -76,8 +76,7 @@ fn without_spikes(angle_rad: &[f64], together: &[f64], spike_sd: f64) -> Vec<f64
 }
 
 fn find(angle_rad: &[f64]) -> Option<Wrapped> {
-    let lowest = angle_rad.iter().copied().fold(f64::INFINITY, f64::min);
-    let highest = angle_rad.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let [lowest, highest] = extremes(angle_rad);
     let range = highest - lowest;
     let steps: Vec<f64> = angle_rad.windows(2).map(|two| two[1] - two[0]).collect();
     let (jumps, others): (Vec<usize>, Vec<usize>) =

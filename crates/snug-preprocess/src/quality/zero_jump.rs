@@ -1,6 +1,6 @@
 //! Where a place jumps and stays, as no inertia lets a rig move: a zero that was set anew, a counter that lost its counts, a belt that slipped.
 
-use crate::noise::spread::median;
+use crate::noise::spread::{NORMAL_CONSISTENCY, extremes, median};
 use std::ops::RangeInclusive;
 
 /// Most jumps of a recording that are faults \[–\]: what jumps more often moves so. Chosen.
@@ -10,8 +10,6 @@ const MOST: usize = 3;
 const LARGER: f64 = 5.0;
 /// Share of the recording's range that a jump is at least \[–\]: less spoils no fit, and a glitch that is bridged leaves some. Chosen.
 const LEAST: f64 = 0.01;
-/// Median of the absolute value of white noise of unit standard deviation, Φ⁻¹(3/4).
-const MEDIAN_ABSOLUTE: f64 = 0.674_489_750_196_082;
 /// Steps to either side of a jump that hold it, too.
 const BESIDE: usize = 2;
 
@@ -21,19 +19,18 @@ const BESIDE: usize = 2;
 /// e_k = x_k − x_{k−1} − (x_{k−1} − x_{k−2})/2 − (x_{k+1} − x_k)/2
 /// ```
 ///
-/// by more than `threshold_sd` standard deviations of all e, by a good part of all x, and by far more than that of any other sample. Where a sample `is_kicked`, a rig may
-/// jump itself.
+/// by more than `threshold_sd` standard deviations of all e, by a good part of all x, and by far more than that of any other sample. One that
+/// `is_explained` is no fault.
 pub(crate) fn find(
     samples: &[f64],
     threshold_sd: f64,
-    is_kicked: impl Fn(usize) -> bool,
+    is_explained: impl Fn(usize) -> bool,
 ) -> Vec<usize> {
     let out_of_course: Vec<f64> = (samples.windows(4))
         .map(|x| (1.5 * (x[2] - x[1]) - 0.5 * (x[3] - x[0])).abs())
         .collect();
-    let typical = median(&mut out_of_course.clone()) / MEDIAN_ABSOLUTE;
-    let lowest = samples.iter().copied().fold(f64::INFINITY, f64::min);
-    let highest = samples.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let typical = NORMAL_CONSISTENCY * median(&mut out_of_course.clone());
+    let [lowest, highest] = extremes(samples);
     let least = (threshold_sd * typical).max(LEAST * (highest - lowest));
     let mut left = out_of_course;
     let mut found = Vec::new();
@@ -44,7 +41,7 @@ pub(crate) fn find(
             .max_by(|a, b| a.1.total_cmp(&b.1))
     };
     while let Some((place, size)) = largest(&left).filter(|(_, size)| *size > least) {
-        if found.len() == MOST || is_kicked(place + BESIDE) {
+        if found.len() == MOST || is_explained(place + BESIDE) {
             break;
         }
         found.push((place + BESIDE, size));

@@ -84,13 +84,20 @@ fn a_zero_that_jumps_is_told_and_keeps_the_recording_out() {
     let (codes, kept) = told(&|_, angle_rad| jump(angle_rad));
     assert_eq!(codes, with("zero_jump"));
     assert_eq!(kept[900], 18.0_f64.sin() + 0.3);
-    let (codes, _) = told(&|torque_nm, angle_rad| {
-        jump(angle_rad);
-        torque_nm[899..]
-            .iter_mut()
-            .for_each(|torque| *torque += 20.0);
-    });
-    assert_eq!(codes, told(&|_, _| ()).0);
+    let with_kicks = |kicks: &[usize]| {
+        let codes = told(&|torque_nm, angle_rad| {
+            jump(angle_rad);
+            for &from in kicks {
+                torque_nm[from..]
+                    .iter_mut()
+                    .for_each(|torque| *torque += 20.0);
+            }
+        });
+        codes.0
+    };
+    assert_eq!(with_kicks(&[899]), told(&|_, _| ()).0);
+    // At 400 the angle did not jump.
+    assert_eq!(with_kicks(&[400, 899]), with("zero_jump"));
 }
 
 #[test]
