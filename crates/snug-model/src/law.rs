@@ -129,6 +129,10 @@ macro_rules! hooks {
                 /// Added to the hand force F \[N\] (acts as −l F on the tool).
                 fn force(at: &Instant<N>, own: &[N]) -> N;
 
+                /// With what dry friction holds against every motion \[N\], not negative. Where the motion is simulated this stands for
+                /// the law's `force`, which then says what friction does along a motion that is given.
+                fn dry_friction_n(at: &Instant<N>) -> N;
+
                 /// What the grip transmits of the hand force \[N\].
                 fn limit(force_n: N) -> N;
 

@@ -4,6 +4,7 @@ pub(crate) mod accelerometer;
 pub(crate) mod acting_torque;
 mod actuator;
 pub(crate) mod along_motion;
+pub(crate) mod dry_friction;
 mod first_order;
 pub(crate) mod history;
 pub(crate) mod hook_set;

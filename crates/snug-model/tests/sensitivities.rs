@@ -1,7 +1,7 @@
 //! Every sensitivity against central differences of the simulation, for every effect, quantity and input behaviour.
 
 use snug_campaign::{Intersample, Quantity, Rig};
-use snug_model::{Effect, Input, Law, Model, ParameterSpec};
+use snug_model::{Effect, Input, Law, Model, ParameterSpec, Scale};
 
 const RIG: Rig = Rig {
     lever_arm_m: 0.33,
@@ -246,6 +246,22 @@ fn an_effect_of_size_zero_is_the_base_model() {
                 "{}: {a} against {b} of the base model where every `vanishes_at` of its file says that it is not there",
                 effect.name()
             );
+        }
+    }
+}
+
+/// As it holds a machine, which stops and rests: at rest nothing depends on anything, and the slopes end and begin with a step.
+#[test]
+fn dry_friction_of_a_machine() {
+    let scale = Scale::Rig {
+        torque_nm: 10.0,
+        angle_rad: 0.1,
+        time_s: 0.05,
+    };
+    for effect in [Effect::CoulombFriction, Effect::StribeckFriction] {
+        let effect = scale.effect(effect, &RIG).expect("a valid rig");
+        for quantity in [Quantity::Displacement, Quantity::Velocity] {
+            check(&[effect], Intersample::ZeroOrder, quantity);
         }
     }
 }

@@ -4,7 +4,7 @@
 
 use snug_campaign::{Intersample, Quantity, Rig};
 use snug_model::{
-    CustomEffectSettings, CustomParameterSettings, Effect, Input, Law, Model, Place, Run,
+    CustomEffectSettings, CustomParameterSettings, Effect, Input, Law, Model, Place, Run, Scale,
     simulate_side_by_side,
 };
 
@@ -127,6 +127,26 @@ fn the_base_model_and_every_effect() {
     check(&[], Intersample::Linear);
     for &effect in Effect::ALL {
         check(&[effect], Intersample::Linear);
+    }
+}
+
+/// As it holds a machine, where each stops and rests in its own time.
+#[test]
+fn dry_friction_of_a_machine() {
+    let scale = Scale::Rig {
+        torque_nm: 10.0,
+        angle_rad: 0.1,
+        time_s: 0.05,
+    };
+    let rig = member(&[], 0, Intersample::ZeroOrder)
+        .model
+        .rig()
+        .to_owned();
+    for effect in [Effect::CoulombFriction, Effect::StribeckFriction] {
+        check(
+            &[scale.effect(effect, &rig).unwrap()],
+            Intersample::ZeroOrder,
+        );
     }
 }
 

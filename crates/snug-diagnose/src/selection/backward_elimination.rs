@@ -10,6 +10,7 @@ use crate::ranking::rank::is_all_size;
 use crate::ranking::thresholds::PLAINLY_MISSED;
 use crate::selection::model_selection::ModelSelection;
 use crate::selection::path::{SelectionPath, leaves_more};
+use crate::selection::simpler::does_for;
 use crate::selection::thresholds::{EQUAL, PLAINLY_BETTER};
 use snug_model::Effect;
 
@@ -92,12 +93,14 @@ fn without(
 }
 
 /// Puts for each added effect a simpler one that does as well in its place beside the others: while another was missing, the richer
-/// explained some of that, too. Of one that stands alone its kin were compared as it was chosen; of few long records as each came in.
+/// explained some of that, too. Of one that stands alone its kin were compared as it was chosen. Of few long records it may have been fitted
+/// since to be the simpler one, which from elsewhere is not found.
 pub(crate) fn prefer_simpler(
     selection: &ModelSelection<'_>,
     path: &mut SelectionPath,
 ) -> Result<(), DiagnoseError> {
-    if path.additions.len() < 2 || !selection.clusters.are_whole() {
+    let are_whole = selection.clusters.are_whole();
+    if path.additions.len() < 2 && are_whole {
         return Ok(());
     }
     let mut is_changed = false;
@@ -110,8 +113,11 @@ pub(crate) fn prefer_simpler(
             selection.watch.begin(&doing)?;
             let swapped =
                 fit_in_place(selection.cases, &full, rich, simple, selection.clusters).ok();
-            let Some(swapped) = swapped.filter(|one| is_as_good(selection, &full, &heldout, one))
-            else {
+            let does = |one: &Fitted| match are_whole {
+                true => is_as_good(selection, &full, &heldout, one),
+                false => does_for(one, &full, &path.rungs[0]),
+            };
+            let Some(swapped) = swapped.filter(does) else {
                 continue;
             };
             let addition = &mut path.additions[place];

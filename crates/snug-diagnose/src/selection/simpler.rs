@@ -19,7 +19,7 @@ use snug_model::{Effect, Law};
 
 /// Whether the model `simple` does for `rich` where the noise is not known: what it leaves more is a small share of what `before` left, of
 /// many recordings a trifle, and less than all that is left otherwise.
-fn does_for(simple: &Fitted, rich: &Fitted, before: &Fitted) -> bool {
+pub(super) fn does_for(simple: &Fitted, rich: &Fitted, before: &Fitted) -> bool {
     let little = match rich.are_stretches() {
         true => NEARLY_AS_MUCH,
         false => TRIFLE,

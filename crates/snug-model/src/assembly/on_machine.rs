@@ -1,5 +1,4 @@
-//! Laws of the catalogue on a rig that is no hand on a tool: friction turns as sharply as the rig's speed asks, and a ripple goes
-//! by the rig's own zero.
+//! Laws of the catalogue on a rig that is no hand on a tool: friction holds it at rest, and a ripple goes by the rig's own zero.
 
 use crate::assembly::scale::{Scale, WIDER};
 use crate::custom::law::CustomEffect;
@@ -10,8 +9,9 @@ use crate::error::ModelError;
 use crate::law::Law;
 use snug_campaign::Rig;
 
-/// Speed over which dry friction turns, as a share of the rig's typical speed. A hand gives way to friction softly; in a
-/// machine the force turns at once, and a soft turn would leave a step at every reversal to other effects.
+/// Speed over which dry friction turns along a measured motion, as a share of the rig's typical speed. A hand gives way to friction softly;
+/// in a machine the force turns at once, and a soft turn would leave a step at every reversal to other effects. Where the motion is simulated it
+/// turns at once.
 const SHARE_OF_SPEED: f64 = 0.003;
 
 /// Least speed at which friction that turns over that gives way, likewise.
@@ -26,21 +26,21 @@ impl Scale {
         let Some(turn_m_per_s) = self.friction_turns_over(rig) else {
             return Ok(effect);
         };
-        let expression = match effect {
-            Effect::CoulombFriction => format!("fc_n*tanh(v/{turn_m_per_s:e})"),
-            Effect::StribeckFriction => {
-                format!("(fc_n+max(0,fs_n-fc_n)*exp(-(v/v_s_m_per_s)^2))*tanh(v/{turn_m_per_s:e})")
-            }
+        let holds = match effect {
+            Effect::CoulombFriction => "fc_n",
+            Effect::StribeckFriction => "fc_n+max(0,fs_n-fc_n)*exp(-(v/v_s_m_per_s)^2)",
             // Where its zero of x is says nothing of where it is at rest.
             Effect::TorqueRipple => {
-                "a_sin_n*sin(2*pi*x/wavelength_m)+a_cos_n*cos(2*pi*x/wavelength_m)".to_owned()
+                let ripple = "a_sin_n*sin(2*pi*x/wavelength_m)+a_cos_n*cos(2*pi*x/wavelength_m)";
+                return self.written(effect, ripple.to_owned(), None, rig);
             }
             _ => return Ok(effect),
         };
-        self.written(effect, expression, rig)
+        let along_motion = format!("({holds})*tanh(v/{turn_m_per_s:e})");
+        self.written(effect, along_motion, Some(holds.to_owned()), rig)
     }
 
-    /// Speed over which dry friction turns \[m/s\]; `None` on a hand, where it is the catalogue's.
+    /// Speed over which dry friction turns along a measured motion \[m/s\]; `None` on a hand, where it is the catalogue's.
     pub fn friction_turns_over(&self, rig: &Rig) -> Option<f64> {
         let Self::Rig {
             angle_rad, time_s, ..
@@ -51,8 +51,14 @@ impl Scale {
         Some(SHARE_OF_SPEED * angle_rad * rig.lever_arm_m / time_s)
     }
 
-    /// A force of the catalogue written as this expression, under its own name.
-    fn written(&self, effect: Effect, expression: String, rig: &Rig) -> Result<Effect, ModelError> {
+    /// A force of the catalogue written as this expression, under its own name; of dry friction with what it `holds`.
+    fn written(
+        &self,
+        effect: Effect,
+        expression: String,
+        holds: Option<String>,
+        rig: &Rig,
+    ) -> Result<Effect, ModelError> {
         let description = effect.description();
         let parameter = |(place, spec): (usize, &ParameterSpec)| {
             let mut range = self.range(spec, rig);
@@ -92,11 +98,16 @@ impl Scale {
                 .map(parameter)
                 .collect(),
         };
-        let law = CustomEffect::intern_as(&settings, |written: &'static Description| Description {
-            equation: written.equation,
+        let held = holds.clone();
+        let told = |written: &'static Description| Description {
+            equation: match held {
+                Some(holds) => format!("F + ({holds}) sgn(v); a rig at rest is held").leak(),
+                None => written.equation,
+            },
             parameters: named_as(written.parameters, description.parameters),
             ..*description
-        });
+        };
+        let law = CustomEffect::intern_as(&settings, holds, told);
         law.map(Effect::Custom)
     }
 }

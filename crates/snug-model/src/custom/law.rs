@@ -15,6 +15,8 @@ use std::sync::{Mutex, PoisonError};
 pub struct CustomEffect {
     settings: CustomEffectSettings,
     program: Program,
+    /// With what it holds against every motion \[N\], where it is dry friction.
+    holds: Option<Program>,
     description: &'static Description,
 }
 
@@ -34,12 +36,14 @@ impl CustomEffect {
     /// allowed.
     pub(crate) fn intern(settings: &CustomEffectSettings) -> Result<&'static Self, ModelError> {
         settings.check()?;
-        Self::intern_as(settings, |written| *written)
+        Self::intern_as(settings, None, |written| *written)
     }
 
-    /// The same for a declaration of the catalogue's own, which people read about as `description` says.
+    /// The same for a declaration of the catalogue's own, which people read about as `description` says; of dry friction `holds` is the
+    /// expression of what it holds with.
     pub(crate) fn intern_as(
         settings: &CustomEffectSettings,
+        holds: Option<String>,
         description: impl FnOnce(&'static Description) -> Description,
     ) -> Result<&'static Self, ModelError> {
         let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
@@ -47,11 +51,18 @@ impl CustomEffect {
             return Ok(effect);
         }
         let program = compile(settings)?;
+        let holds = holds.map(|expression| {
+            compile(&CustomEffectSettings {
+                expression,
+                ..settings.clone()
+            })
+        });
         let written = describe(settings, &program);
         let effect: &'static Self = Box::leak(Box::new(Self {
             settings: settings.clone(),
             description: Box::leak(Box::new(description(written))),
             program,
+            holds: holds.transpose()?,
         }));
         known.push(effect);
         Ok(effect)
@@ -64,9 +75,14 @@ impl CustomEffect {
 
     #[inline(always)]
     fn value<N: Number>(&self, p: &[N], at: &Instant<N>) -> N {
+        Self::value_of(&self.program, p, at)
+    }
+
+    #[inline(always)]
+    fn value_of<N: Number>(program: &Program, p: &[N], at: &Instant<N>) -> N {
         // A copy: what is handed out of line by its place in memory could not stay in registers for any effect.
         let at = *at;
-        self.program.evaluate(
+        program.evaluate(
             p,
             &Surroundings {
                 at: &at,
@@ -99,6 +115,12 @@ impl Law for CustomEffect {
     #[inline(always)]
     fn force<N: Number>(&self, p: &[N], at: &Instant<N>, _own: &[N]) -> Option<N> {
         (self.settings.place == Place::Force).then(|| self.value(p, at))
+    }
+
+    #[inline(always)]
+    fn dry_friction_n<N: Number>(&self, p: &[N], at: &Instant<N>) -> Option<N> {
+        let holds = self.holds.as_ref()?;
+        Some(Self::value_of(holds, p, at))
     }
 
     #[inline(always)]

@@ -3,7 +3,7 @@
 //! Excited by any motion; relatively strongest in weak pulses. Its residual follows sign(v): a step at every reversal.
 //!
 //! Valid for: a hand on a tool, whose speeds are far above v_s. Below v_s it is a damper F_c / v_s: nothing sticks. On a rig
-//! of another scale, `Scale::effect` turns as sharply as the rig's speed asks.
+//! of another scale it is F_c sgn v and holds at rest, see `simulate::dry_friction`.
 //!
 //! Source: Coulomb friction, smoothed as usual in identification so that it is differentiable.
 
@@ -50,7 +50,7 @@ impl Law for CoulombFriction {
                 shows_as: None,
                 check: "Move the rig slowly with the power off and feel or measure whether it needs a small force to move at all: look for rubbing seals, bearings, guides and cables.",
             }),
-            valid_for: "speeds far above 0.01 m/s; below, it is a damper and nothing sticks",
+            valid_for: "a hand on a tool at speeds far above 0.01 m/s, below which nothing sticks; a machine, which it holds at rest",
             source: "Armstrong-Hélouvry, Dupont and Canudas de Wit 1994, A survey of models, analysis tools and compensation methods for the control of machines with friction, Automatica 30",
         }
     }

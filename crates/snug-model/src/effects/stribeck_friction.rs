@@ -5,8 +5,8 @@
 //! Excited by motion that is slow for a while: reversals, weak pulses. In the residual a step at every reversal that fades
 //! as the speed grows.
 //!
-//! Valid for: v_s well above v_0, below which it is a damper F_s / v_0: nothing sticks. On a rig of another scale,
-//! `Scale::effect` turns as sharply as the rig's speed asks.
+//! Valid for: v_s well above v_0, below which it is a damper F_s / v_0: nothing sticks. On a rig of another scale sgn v stands for
+//! the tanh, and it holds at rest, see `simulate::dry_friction`.
 //!
 //! Source: Stribeck (1902); Armstrong-Hélouvry, Dupont & Canudas de Wit (1994), with exponent 2.
 
@@ -78,7 +78,7 @@ impl Law for StribeckFriction {
                 shows_as: None,
                 check: "Pull the moving part with a spring scale with the power off, first very slowly, then faster: friction that sticks pulls hardest when slow; grease and seals change it.",
             }),
-            valid_for: "v_s well above 0.01 m/s, below which it is a damper and nothing sticks",
+            valid_for: "a hand on a tool with v_s well above 0.01 m/s, below which nothing sticks; a machine, which it holds at rest",
             source: "Stribeck 1902, Die wesentlichen Eigenschaften der Gleit- und Rollenlager, Zeitschrift des VDI 46; Armstrong-Hélouvry, Dupont and Canudas de Wit 1994, A survey of models, analysis tools and compensation methods for the control of machines with friction, Automatica 30",
         }
     }

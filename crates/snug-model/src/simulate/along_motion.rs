@@ -61,7 +61,7 @@ impl Model {
         let assembly = self.assembly();
         let inputs = SimulationInputs::new(0.0, |_| (assembly, input));
         let torque = ActingTorque::new(assembly.parts(), &p, &inputs);
-        let mut plant = Plant::new(assembly, &p, &inputs, torque.is_known());
+        let mut plant = Plant::along_motion(assembly, &p, &inputs, torque.is_known());
         let lever = inputs.lever_arm_m;
         let per_acceleration = (inputs.known_inertia_kg_m2 + SOME_MASS_KG * lever * lever) / lever;
         let grid_stride = motion.stride.max(1) * input.substeps();

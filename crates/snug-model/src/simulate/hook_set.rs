@@ -37,6 +37,18 @@ macro_rules! declare_hook_set {
 }
 hooks!(declare_hook_set);
 
+impl<'a, N: Number> HookSet<'a, N> {
+    /// The same for a motion that is simulated: what holds as dry friction is no force of its own.
+    pub fn with_dry_friction(parts: &[Part], p: &'a [N]) -> Self {
+        Self {
+            force: HookedEffect::of(parts, p, |answered| {
+                answered.force && !answered.dry_friction_n
+            }),
+            ..Self::new(parts, p)
+        }
+    }
+}
+
 impl<'a, N: Number> HookedEffect<'a, N> {
     /// Those of the effects `parts` that answer what is asked.
     fn of(parts: &[Part], p: &'a [N], answers: fn(&AnsweredHooks) -> bool) -> Vec<Self> {

@@ -4,6 +4,7 @@ use crate::assembly::inputs::SimulationInputs;
 use crate::assembly::layout::{Assembly, Part};
 use crate::law::{Deflection, Delayed, Instant, Law};
 use crate::numeric::number::{Number, OfOne};
+use crate::simulate::dry_friction::Slowed;
 use crate::simulate::history::History;
 use crate::simulate::hook_set::HookSet;
 
@@ -32,7 +33,7 @@ const DAMPING: usize = 1;
 const STIFFNESS: usize = 2;
 
 impl<'a, N: Number> Plant<'a, N> {
-    /// The assembly with parameters `p` on a bench.
+    /// The assembly with parameters `p` on a bench, its motion to be simulated: dry friction is apart from its rates.
     #[inline(always)]
     pub fn new(
         assembly: &'a Assembly,
@@ -40,11 +41,33 @@ impl<'a, N: Number> Plant<'a, N> {
         inputs: &'a SimulationInputs<'a, N::Real>,
         is_torque_known: bool,
     ) -> Self {
+        let hook_set = HookSet::with_dry_friction(assembly.parts(), p);
+        Self::of(assembly, p, inputs, is_torque_known, hook_set)
+    }
+
+    /// The same along a motion that is given: dry friction is a force among others.
+    pub fn along_motion(
+        assembly: &'a Assembly,
+        p: &'a [N],
+        inputs: &'a SimulationInputs<'a, N::Real>,
+        is_torque_known: bool,
+    ) -> Self {
+        let hook_set = HookSet::new(assembly.parts(), p);
+        Self::of(assembly, p, inputs, is_torque_known, hook_set)
+    }
+
+    #[inline(always)]
+    fn of(
+        assembly: &'a Assembly,
+        p: &'a [N],
+        inputs: &'a SimulationInputs<'a, N::Real>,
+        is_torque_known: bool,
+        hook_set: HookSet<'a, N>,
+    ) -> Self {
         let parts = assembly.parts();
         let lever = inputs.lever_arm_m;
         let inertia = p[0].times(lever * lever).plus(inputs.known_inertia_kg_m2);
         let mobility = N::from(lever) / inertia;
-        let hook_set = HookSet::new(parts, p);
         let mut delayed = Vec::new();
         for part in parts {
             delayed.extend(part.effect.delayed(&p[part.parameters.clone()]));
@@ -140,6 +163,43 @@ impl<'a, N: Number> Plant<'a, N> {
         } else {
             by_force + at.torque_nm.times_one::<MASS>(self.mobility)
         }
+    }
+
+    /// Whether anything holds as dry friction does.
+    #[inline(always)]
+    pub fn has_dry_friction(&self) -> bool {
+        !self.hook_set.dry_friction_n.is_empty()
+    }
+
+    /// By how much what dry friction holds with would slow it \[m/s²\]. Out of line: a step asks thrice, and every law of the catalogue is worked
+    /// out in it.
+    #[inline(never)]
+    pub fn held(&self, at: &Instant<N>) -> N {
+        let mut force = at.x_m.constant(0.0);
+        for hooked in &self.hook_set.dry_friction_n {
+            hooked.ask(
+                #[inline(always)]
+                |law, p, _| {
+                    if let Some(more) = law.dry_friction_n(p, at) {
+                        force += more;
+                    }
+                },
+            );
+        }
+        -force.times_one::<MASS>(self.lever_mobility)
+    }
+
+    /// What dry friction makes of a step from displacement and velocity `from`, as which all else alone would end with `free_m_per_s`; what it
+    /// holds with goes with the speed, and is that half way.
+    #[inline(always)]
+    pub fn slowed(&self, at: &mut Instant<N>, from: [N; 2], free_m_per_s: N) -> Slowed<N> {
+        let [x, v] = from;
+        let h_s = self.inputs.interval_s;
+        let pushed = (free_m_per_s - v).times(h_s.constant(1.0) / h_s);
+        (at.x_m, at.v_m_per_s) = (x, v);
+        let at_first = Slowed::over(v, pushed, self.held(at), h_s);
+        at.v_m_per_s = (v + at_first.ends_m_per_s) * 0.5;
+        Slowed::over(v, pushed, self.held(at), h_s)
     }
 
     /// What the hand's spring and damper exert \[N\]: k (1 + Σ stiffening) d + c dd/dt.

@@ -1,13 +1,15 @@
 //! Any assembly's response by the classical Runge–Kutta method, one step per grid point of the input.
 //!
 //! At 10 kHz the error of a step is (h ω)⁵/120 ≈ 1e−15 of the amplitude for an arm at 30 rad/s; a band-limited input
-//! brings its own finer grid.
+//! brings its own finer grid. What dry friction does within a step is known exactly where all else is constant, and acts in it as a
+//! constant ([`Slowed`]): such a step is made twice, first to learn what all else does.
 
 use crate::assembly::inputs::SimulationInputs;
 use crate::assembly::layout::{Assembly, MAXIMUM_OWN_STATES};
 use crate::law::{Instant, Kinematics};
 use crate::numeric::number::Number;
 use crate::simulate::acting_torque::ActingTorque;
+use crate::simulate::dry_friction::{Slowed, at_once};
 use crate::simulate::plant::{Plant, initial_motion};
 use crate::simulate::sensors::{Moment, moves_elsewhere, relative_motion};
 
@@ -41,8 +43,7 @@ pub fn respond<N: Number>(
 ) {
     let (h, lever, zero) = (inputs.interval_s, inputs.lever_arm_m, N::from(inputs.zero));
     let per_lever = inputs.zero.constant(1.0) / lever;
-    let known = acting_torque.is_known();
-    let mut plant = Plant::new(assembly, p, inputs, known);
+    let mut plant = Plant::new(assembly, p, inputs, acting_torque.is_known());
     let [angle, velocity] = initial_motion(assembly.parts(), p);
     let (mut x, mut v) = (angle.times(lever), velocity.times(lever));
     let states = assembly.own_state_count.min(MAXIMUM_OWN_STATES);
@@ -51,6 +52,7 @@ pub fn respond<N: Number>(
     let mut at = beginning(inputs, x, v);
     let points = inputs.torque_nm().len();
     let last = points.saturating_sub(1);
+    let last_turn = usize::from(plant.has_dry_friction());
     let mut index = 0;
     for point in 0..points {
         if let Some(restart) = inputs.restart_at(point) {
@@ -60,35 +62,45 @@ pub fn respond<N: Number>(
         }
         plant.note(x, v);
         let torque = acting_torque.within(point);
-        (at.x_m, at.v_m_per_s) = (x, v);
-        let (mut x_after, mut v_after) = (x, v);
-        own_at[..states].copy_from_slice(&own[..states]);
-        own_after[..states].copy_from_slice(&own[..states]);
-        for (stage, (ahead, further, weight)) in STAGES.into_iter().enumerate() {
-            let position = point as f64 + 0.5 * ahead as f64;
-            plant.drive(&mut at, position, torque[ahead]);
-            let acceleration =
-                plant.rates(position, &at, &own_at[..states], &mut own_rates[..states]);
-            if stage == 0 && point == index * inputs.substeps {
-                let motion = of_tool(x, v, acceleration, per_lever);
-                let moment = Moment::new(motion, &own[..states], &own_rates[..states]);
-                sample(index, &moment);
-                index += 1;
+        let mut slowed: Option<Slowed<N>> = None;
+        let mut after = (x, v);
+        for turn in 0..=last_turn {
+            (at.x_m, at.v_m_per_s) = (x, v);
+            after = (x, v);
+            own_at[..states].copy_from_slice(&own[..states]);
+            own_after[..states].copy_from_slice(&own[..states]);
+            for (stage, (ahead, further, weight)) in STAGES.into_iter().enumerate() {
+                let position = point as f64 + 0.5 * ahead as f64;
+                plant.drive(&mut at, position, torque[ahead]);
+                let mut acceleration =
+                    plant.rates(position, &at, &own_at[..states], &mut own_rates[..states]);
+                if turn == 0 && stage == 0 && point == index * inputs.substeps {
+                    let motion = of_tool(x, v, felt(&plant, &at, acceleration), per_lever);
+                    let moment = Moment::new(motion, &own[..states], &own_rates[..states]);
+                    sample(index, &moment);
+                    index += 1;
+                }
+                if point == last {
+                    return;
+                }
+                if let Some(slowed) = &slowed {
+                    acceleration = acceleration - slowed.mean_m_per_s2;
+                }
+                let (weight, further) = (h * weight, h * further);
+                after.0 += at.v_m_per_s.times(weight);
+                after.1 += acceleration.times(weight);
+                at.x_m = x + at.v_m_per_s.times(further);
+                at.v_m_per_s = v + acceleration.times(further);
+                for state in 0..states {
+                    own_after[state] += own_rates[state].times(weight);
+                    own_at[state] = own[state] + own_rates[state].times(further);
+                }
             }
-            if point == last {
-                return;
-            }
-            let (weight, further) = (h * weight, h * further);
-            x_after += at.v_m_per_s.times(weight);
-            v_after += acceleration.times(weight);
-            at.x_m = x + at.v_m_per_s.times(further);
-            at.v_m_per_s = v + acceleration.times(further);
-            for state in 0..states {
-                own_after[state] += own_rates[state].times(weight);
-                own_at[state] = own[state] + own_rates[state].times(further);
+            if turn < last_turn {
+                slowed = Some(plant.slowed(&mut at, [x, v], after.1));
             }
         }
-        (x, v) = (x_after, v_after);
+        (x, v) = slowed.map_or(after, |slowed| slowed.ended([x, v], after));
         own[..states].copy_from_slice(&own_after[..states]);
     }
 }
@@ -106,6 +118,15 @@ fn beginning<N: Number>(
         v_m_per_s,
         since_onset_s: inputs.zero,
         lever_arm_m: inputs.lever_arm_m,
+    }
+}
+
+/// What accelerates it at this instant \[m/s²\], of this `acceleration` by all but dry friction.
+#[inline(always)]
+fn felt<N: Number>(plant: &Plant<'_, N>, at: &Instant<N>, acceleration: N) -> N {
+    match plant.has_dry_friction() {
+        true => at_once(at.v_m_per_s, acceleration, plant.held(at)),
+        false => acceleration,
     }
 }
 
