@@ -18,6 +18,9 @@ const INTERVAL_S: f64 = 0.005;
 const SAMPLES: u32 = 500;
 /// By how much results may differ \[–\]: rounding, where a factor is no power of two.
 const SAME: f64 = 1e-6;
+/// Standard errors by which two fits of the same data may differ \[–\]: each is within 1e-7 · √(samples) of its optimum
+/// (`snug_least_squares::Settings::gradient_tolerance`), in whatever way it came there.
+const STOPS: f64 = 2.0 * 1e-7 * 22.4;
 
 /// What input, output and time are multiplied with.
 #[derive(Debug, Clone, Copy)]
@@ -170,8 +173,17 @@ impl Rig {
                 |one: &snug_campaign::TighteningResult| one.estimate.clone().unwrap().parameters;
             for (was, is) in parameters(&was).iter().zip(parameters(&is)) {
                 assert_eq!(was.name, is.name);
-                let expected = was.value * self.times(&was.unit, by);
-                near(is.value, expected, &was.name);
+                let times = self.times(&was.unit, by);
+                let apart = (is.value - was.value * times).abs();
+                // A number that the data do not tell from nothing is as near as the fit goes on.
+                let stops = STOPS * was.standard_error.unwrap_or(0.0) * times;
+                assert!(
+                    apart <= SAME * (was.value * times).abs() + stops,
+                    "{label}: {} {:e}, expected {:e} ± {stops:e}",
+                    was.name,
+                    is.value,
+                    was.value * times
+                );
             }
             if let (Some(was), Some(is)) = (&first.diagnosis, &other.diagnosis) {
                 let names = |one: &snug_campaign::Diagnosis| -> Vec<String> {
