@@ -10,7 +10,10 @@ use super::{MotionEquation, Term};
 use crate::equation_error::record::AveragedRecord;
 use crate::equation_error::regression::{Column, Regression};
 use snug_least_squares::matrix::dot;
+use snug_model::BASE_PARAMETERS;
 
+/// Place of the stiffness among what makes the torque.
+const STIFFNESS: usize = 2;
 /// Half of a recording over the other that its torque may be, root mean square, and the rate of its torque, for a change between them to
 /// be one of the rig and not of how it was driven \[–\]. Chosen: under a sweep or steps that grow, what only depends on frequency or size
 /// changes with the time, too.
@@ -83,7 +86,8 @@ impl MotionEquation<'_> {
                 at,
                 recordings: recordings.to_vec(),
             };
-            change.is_finite().then_some(change)
+            let is_one = change.is_finite() && self.may_change(&change, &sizes);
+            is_one.then_some(change)
         };
         let all: Vec<usize> = (0..self.records.len()).collect();
         let evenly = most((0..constant.len()).filter_map(|index| with_change(index, None, &all)))?;
@@ -115,6 +119,22 @@ impl MotionEquation<'_> {
             ..change
         })
         .filter(Change::is_finite)
+    }
+
+    /// Whether a rig's number may change so: mass, damping and stiffness keep their sign, and a spring brings back, beside the inertia and
+    /// damping of these `sizes`, what moves while it is recorded. One that takes longer is what little a regression finds of an angle that
+    /// runs on, which is a load as well.
+    fn may_change(&self, change: &Change, sizes: &[f64]) -> bool {
+        let (inertia, damping) = (sizes[0].abs(), sizes[1].abs());
+        let stiffest = f64::max(change.from.abs(), change.to.abs());
+        let brings_back_s = f64::max((inertia / stiffest).sqrt(), damping / stiffest);
+        let lasts_s = (change.recordings.iter())
+            .map(|&one| &self.tasks[one])
+            .map(|task| task.measured().len() as f64 * task.tightening.time_base.interval_s)
+            .fold(0.0, f64::max);
+        let is_of_base = change.index < BASE_PARAMETERS.len();
+        let keeps_sign = change.from * change.to >= 0.0;
+        !is_of_base || keeps_sign && (change.index != STIFFNESS || brings_back_s < lasts_s)
     }
 
     /// The recordings by whose own even change of a `column` most of the `rest` is taken, then those and the next, and so on.
