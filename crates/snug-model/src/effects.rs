@@ -15,6 +15,7 @@ pub mod acceleration_bias;
 pub mod acceleration_lag;
 pub mod actuator_lag;
 pub mod asymmetric_viscous_friction;
+pub mod attached_mass;
 pub mod backlash;
 pub mod bouc_wen;
 pub mod centripetal_crosstalk;
@@ -72,6 +73,7 @@ macro_rules! catalogue {
                 asymmetric_viscous_friction::AsymmetricViscousFriction,
                 torque_ripple::TorqueRipple,
                 second_mode::SecondMode,
+                attached_mass::AttachedMass,
                 gravity_torque::GravityTorque,
                 constant_load::ConstantLoad,
                 torque_limit::TorqueLimit,

@@ -72,15 +72,26 @@ impl<N: Number> LoggedTorque<N> {
     }
 }
 
-/// Places, among an effect's parameters, of those of a resonance whose response the output follows in proportion.
+/// Places, among an effect's parameters, of those of a resonance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Resonance {
-    /// Its share in the output \[1/kg\]: the r of q'' + 2 ζ ω q' + ω² q = r T / l, by which the grip's displacement grows.
+    /// Its share in the output \[1/kg\], or the mass that swings \[kg\], as it is [`excited`](Self::excited_by).
     pub size: usize,
     /// Its frequency \[Hz\].
     pub frequency: usize,
     /// Its damping ratio \[–\].
     pub damping: usize,
+    /// What makes it swing, and so what it acts on.
+    pub excited_by: ExcitedBy,
+}
+
+/// What makes a resonance swing.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ExcitedBy {
+    /// The torque: q'' + 2 ζ ω q' + ω² q = r T / l, by which the grip's displacement grows.
+    Torque,
+    /// The grip's motion: a mass on a spring, that holds the grip back with what it is pulled along by.
+    Motion,
 }
 
 /// The measured motion at one sample.
@@ -154,6 +165,9 @@ macro_rules! hooks {
 
                 /// Most by which what a drive gives changes \[Nm/s\]; one effect says so.
                 fn actuator_rate_nm_per_s() -> N;
+
+                /// Sets its own states as the motion begins, with the instant that this begins at; without it, 0.
+                fn begins(at: &Instant<N>, begun: &mut [N]) -> ();
 
                 /// Initial angle \[rad\] and angular velocity \[rad/s\]; without it, at rest.
                 fn initial() -> (N, N);
@@ -249,6 +263,7 @@ struct AtRest<'a> {
     own: &'a [f64],
     own_rates: &'a [f64],
     rates: &'a mut [f64],
+    begun: &'a mut [f64],
     between: Deflection<f64>,
     corner: &'a Corner<f64>,
     motion: &'a Kinematics<f64>,
@@ -259,7 +274,7 @@ struct AtRest<'a> {
 }
 
 impl<'a> AtRest<'a> {
-    fn of(own: &'a [f64], rates: &'a mut [f64]) -> Self {
+    fn of(own: &'a [f64], rates: &'a mut [f64], begun: &'a mut [f64]) -> Self {
         const STILL: Kinematics<f64> = Kinematics {
             displacement_rad: 0.0,
             velocity_rad_per_s: 0.0,
@@ -276,6 +291,7 @@ impl<'a> AtRest<'a> {
             own,
             own_rates: own,
             rates,
+            begun,
             between: Deflection {
                 x_m: 0.0,
                 v_m_per_s: 0.0,
@@ -313,11 +329,11 @@ macro_rules! declare_answered_hooks {
                     .map(|spec| spec.starts[0])
                     .collect();
                 let own = vec![0.0; description.states.len()];
-                let mut rates = own.clone();
+                let (mut rates, mut begun) = (own.clone(), own.clone());
                 Self {
                     $($($hook: {
                         #[allow(unused_variables)]
-                        let rest = AtRest::of(&own, &mut rates);
+                        let rest = AtRest::of(&own, &mut rates, &mut begun);
                         law.$hook(&p, $(rest.$argument),*).is_some()
                     },)+)+
                 }

@@ -32,7 +32,9 @@ pub use description::{ActsOn, Description, Kind, OUTPUT_UNIT, OnMachine, Paramet
 pub use effects::{Effect, TRENDS};
 pub use error::ModelError;
 pub use input::torque::{Earlier, Input};
-pub use law::{Corner, Deflection, Delayed, Instant, Kinematics, Law, LoggedTorque, Resonance};
+pub use law::{
+    Corner, Deflection, Delayed, ExcitedBy, Instant, Kinematics, Law, LoggedTorque, Resonance,
+};
 pub use numeric::arithmetic::Arithmetic;
 pub use numeric::dual::Dual;
 pub use numeric::lanewise::{Lanewise, Task};

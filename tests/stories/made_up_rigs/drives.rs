@@ -4,6 +4,7 @@ use super::rig::{Noise, Rig, TORQUE, moved, moved_from};
 use super::{names, says};
 use snug_campaign::{Diagnosis, Verdict};
 use snug_study::Verb;
+use std::f64::consts::TAU;
 
 /// The noise of the encoder [rad].
 const NOISE: f64 = 2e-4;
@@ -99,6 +100,48 @@ fn a_motor_whose_current_rises_slowly_lacks_that_and_dry_friction() {
         };
         assert!((found / size - 1.0).abs() < 0.05, "{found} {headline}");
     }
+}
+
+/// A motor with dry friction that turns a load by a shaft, its own speed measured: what hangs on it is found with its size, and friction acts
+/// on the motor alone. A second mode beside it left twenty times the noise, and a delay that was none.
+#[test]
+fn a_motor_with_a_load_on_a_shaft_lacks_the_load_and_dry_friction() {
+    const SPEED_NOISE: f64 = 0.02;
+    let mut noise = Noise(37);
+    let mut recording = || {
+        let inputs = noise.levels([-4.0, 4.0], 300, 4000);
+        let rate = |[x, v, y, w]: [f64; 4], u: f64| {
+            let shaft = 8.0 * (x - y) + 0.02 * (v - w);
+            let friction = 0.6 * (v / 0.01).tanh();
+            [v, (u - 0.02 * v - friction - shaft) / 0.01, w, shaft / 0.02]
+        };
+        let speeds = moved(&inputs, 20, rate).map(|[_, v, _, _]| v);
+        noise.with(&inputs, speeds, SPEED_NOISE)
+    };
+    let rig = Rig {
+        recordings: (0..3).map(|_| recording()).collect(),
+        declared: [TORQUE, "Velocity", "RadianPerSecond"],
+        fitted: "Velocity",
+    };
+    let diagnosis = rig.told(&Verb::Improve);
+    let mut names = names(&diagnosis);
+    names.sort_unstable();
+    let headline = &diagnosis.headline;
+    assert_eq!(names, ["attached_mass", "coulomb_friction"], "{headline}");
+    // √(8/0.02) rad/s, and 0.02/(2 · 0.02 · 20).
+    let sizes = [
+        ("attached_kg", 0.02),
+        ("attached_hz", 20.0 / TAU),
+        ("attached_zeta", 0.025),
+        ("fc_n", 0.6),
+    ];
+    for one in diagnosis.added.iter().flat_map(|one| &one.parameters) {
+        let (_, size) = sizes.iter().find(|(name, _)| *name == one.name).unwrap();
+        let found = one.value;
+        assert!((found / size - 1.0).abs() < 0.03, "{found} {headline}");
+    }
+    let left = diagnosis.ladder.last().unwrap().rms_fitted_output;
+    assert!(left < 1.1 * SPEED_NOISE, "{left}: {headline}");
 }
 
 /// A motor that is held to a place by its controller: what pushes it there looks like what moves a speed, and dry friction explains all of

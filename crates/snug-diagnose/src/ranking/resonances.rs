@@ -3,7 +3,14 @@
 //!
 //! With Q the power of jω that makes the compared quantity of a displacement, H = Q / (K − I ω² + j ω C) the fitted base model and
 //! U the spectrum of the torque, a mode of frequency f and damping ζ adds r Q / (ω_f² − ω² + 2 j ζ ω_f ω) U. For every f and ζ the
-//! size r follows by linear least squares beside H U and what small changes of I, C and K make of it.
+//! size r follows by linear least squares beside H U and what small changes of I, C and K make of it. Of a mass that hangs on what is
+//! driven, by what is measured, Y,
+//!
+//! ```text
+//! Y − H U = (m_a l² ω² G − δK − j ω δC + ω² δI) Y / (K − I ω² + j ω C),   G = (ω_f² + 2 j ζ ω_f ω) / (ω_f² − ω² + 2 j ζ ω_f ω)
+//! ```
+//!
+//! in which m_a and the changes are linear, too, and need not be small.
 
 use crate::data::cases::Cases;
 use crate::pooled::fitted::Fitted;
@@ -11,7 +18,7 @@ use crate::ranking::thresholds::{APART, DAMPING_RATIOS, FEW, LINES, PEAKS, RESON
 use rayon::prelude::*;
 use snug_campaign::Quantity;
 use snug_identify::FitTask;
-use snug_model::{BASE_PARAMETERS, Effect, Law};
+use snug_model::{BASE_PARAMETERS, Effect, ExcitedBy, Law};
 use snug_signal::{Complex, spectrum};
 use std::f64::consts::TAU;
 
@@ -23,9 +30,13 @@ pub(crate) fn starts(cases: Cases<'_>, current: &Fitted, effect: Effect) -> Vec<
         return Vec::new();
     };
     let records: Vec<Record> = (current.spread(FEW).into_iter())
-        .filter_map(|member| Record::of(&cases[member], &current.all_named(member)))
+        .filter_map(|member| {
+            let own = current.all_named(member);
+            Record::of(&cases[member], &own, resonance.excited_by)
+        })
         .collect();
     let ranges = cases[0].model.ranges(effect);
+    let sizes = ranges[resonance.size].limits;
     let (mut lowest, mut highest) = ranges[resonance.frequency].limits;
     for record in &records {
         lowest = lowest.max(record.first_hz());
@@ -40,8 +51,11 @@ pub(crate) fn starts(cases: Cases<'_>, current: &Fitted, effect: Effect) -> Vec<
         .map(|index| {
             let hz = lowest * step.powi(index as i32);
             let tried = DAMPING_RATIOS.iter().map(|&zeta| {
-                let (share, _) = explain(&records, hz, zeta);
-                (share, hz, zeta)
+                let (share, size) = explain(&records, hz, zeta);
+                match (sizes.0..=sizes.1).contains(&size) {
+                    true => (share, hz, zeta),
+                    false => (0.0, hz, zeta),
+                }
             });
             tried.max_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or_default()
         })
@@ -67,11 +81,11 @@ pub(crate) fn starts(cases: Cases<'_>, current: &Fitted, effect: Effect) -> Vec<
     starts
 }
 
-/// Share of the squared output of all records that a mode removes, and its size.
+/// Share of the squared output of all records that a resonance removes, and its size.
 fn explain(records: &[Record], hz: f64, zeta: f64) -> (f64, f64) {
     let (mut score, mut information, mut whole) = (0.0, 0.0, 0.0);
     for record in records {
-        let mut column = record.mode(hz, zeta);
+        let mut column = record.resonance(hz, zeta);
         record.project(&mut column);
         score += dot(&column, &record.left).re;
         information += dot(&column, &column).re;
@@ -86,19 +100,21 @@ fn explain(records: &[Record], hz: f64, zeta: f64) -> (f64, f64) {
     }
 }
 
-/// Spectra of one record.
-struct Record {
+/// The spectra of a record where its torque is heard, and the base model there.
+struct Spectra {
     /// ω of every line \[rad/s\].
     omega: Vec<f64>,
-    /// Q U of every line; per kilogram of the mode at the grip, so that it is that of an angle.
+    /// K − I ω² + j ω C.
+    below: Vec<Line>,
+    /// Q U.
     driven: Vec<Line>,
-    /// Orthonormal over real sizes: what the base model may explain.
-    explained: Vec<Vec<Line>>,
-    /// What is left of the compared output.
-    left: Vec<Line>,
+    /// The compared output.
+    seen: Vec<Line>,
+    /// l².
+    square: f64,
 }
 
-impl Record {
+impl Spectra {
     fn of(case: &FitTask<'_>, own: &[(String, f64)]) -> Option<Self> {
         let (rig, interval_s) = (case.model.rig(), case.tightening.time_base.interval_s);
         let square = rig.lever_arm_m * rig.lever_arm_m;
@@ -126,27 +142,74 @@ impl Record {
             .collect();
         let rate = TAU / (samples as f64 * interval_s);
         let omega: Vec<f64> = heard.iter().map(|&line| rate * line as f64).collect();
-        let driven: Vec<Line> = (heard.iter().zip(&omega))
-            .map(|(&line, &omega)| Line::new(0.0, omega).powu(power) * torque[line])
-            .collect();
-        let base = |of: &dyn Fn(f64, Line) -> Line| -> Vec<Line> {
-            let each = omega.iter().zip(&driven).map(|(&omega, &driven)| {
-                let below = Line::new(stiffness - inertia * omega * omega, damping * omega);
-                of(omega, below) * driven
-            });
-            each.collect()
+        let below = |&omega: &f64| Line::new(stiffness - inertia * omega * omega, damping * omega);
+        let driven = (heard.iter().zip(&omega))
+            .map(|(&line, &omega)| Line::new(0.0, omega).powu(power) * torque[line]);
+        Some(Self {
+            below: omega.iter().map(below).collect(),
+            driven: driven.collect(),
+            seen: heard.iter().map(|&line| measured[line]).collect(),
+            omega,
+            square,
+        })
+    }
+
+    /// H U: what the base model makes of the torque.
+    fn moved(&self) -> Vec<Line> {
+        let each = self.driven.iter().zip(&self.below);
+        each.map(|(driven, below)| driven / below).collect()
+    }
+
+    /// What forces that go with each line of `through` add to the output.
+    fn pushed(&self, through: &[Line], force: impl Fn(f64) -> Line) -> Vec<Line> {
+        let each = self.omega.iter().zip(&self.below).zip(through);
+        each.map(|((&omega, below), line)| line * force(omega) / below)
+            .collect()
+    }
+
+    /// The same of stiffness, damping and inertia.
+    fn of_base(&self, through: &[Line]) -> [Vec<Line>; 3] {
+        [0, 1, 2].map(|power| self.pushed(through, |omega| Line::new(0.0, omega).powu(power)))
+    }
+}
+
+/// What is left of one record, and what may explain it.
+struct Record {
+    /// ω of every line \[rad/s\].
+    omega: Vec<f64>,
+    excited_by: ExcitedBy,
+    /// What excites a resonance of size one: Q U of every line, per kilogram at the grip, so that it is that of an angle; or what its own
+    /// motion, as much as what it hangs on, makes of the output.
+    exciting: Vec<Line>,
+    /// Orthonormal over real sizes: what the base model may explain.
+    explained: Vec<Vec<Line>>,
+    /// What is left of the compared output.
+    left: Vec<Line>,
+}
+
+impl Record {
+    fn of(case: &FitTask<'_>, own: &[(String, f64)], excited_by: ExcitedBy) -> Option<Self> {
+        let spectra = Spectra::of(case, own)?;
+        let (moved, seen, square) = (spectra.moved(), &spectra.seen, spectra.square);
+        let (columns, exciting, mut left) = match excited_by {
+            ExcitedBy::Torque => {
+                let of_base = spectra.of_base(&moved);
+                let exciting = spectra.driven.iter().map(|line| line / square).collect();
+                let columns: Vec<_> = [moved].into_iter().chain(of_base).collect();
+                (columns, exciting, seen.clone())
+            }
+            ExcitedBy::Motion => {
+                let exciting = spectra.pushed(seen, |omega| Line::new(square * omega * omega, 0.0));
+                let left = seen.iter().zip(&moved).map(|(seen, moved)| seen - moved);
+                (spectra.of_base(seen).into(), exciting, left.collect())
+            }
         };
-        let columns = [
-            base(&|_, below| below.inv()),
-            base(&|_, below| below.powu(2).inv()),
-            base(&|omega, below| Line::new(0.0, omega) / below.powu(2)),
-            base(&|omega, below| omega * omega / below.powu(2)),
-        ];
         let mut record = Self {
             left: Vec::new(),
             explained: Vec::new(),
-            driven: (driven.iter().map(|line| line / square)).collect(),
-            omega,
+            excited_by,
+            exciting,
+            omega: spectra.omega,
         };
         for mut column in columns {
             let length = dot(&column, &column).re;
@@ -157,7 +220,6 @@ impl Record {
                 record.explained.push(column);
             }
         }
-        let mut left: Vec<Line> = heard.iter().map(|&line| measured[line]).collect();
         record.project(&mut left);
         record.left = left;
         (!record.omega.is_empty()).then_some(record)
@@ -171,11 +233,17 @@ impl Record {
         self.omega.last().map_or(0.0, |omega| omega / TAU)
     }
 
-    /// What a mode of residue 1/kg adds to the compared output.
-    fn mode(&self, hz: f64, zeta: f64) -> Vec<Line> {
+    /// What a resonance of size one adds to the compared output.
+    fn resonance(&self, hz: f64, zeta: f64) -> Vec<Line> {
         let own = TAU * hz;
-        let each = self.omega.iter().zip(&self.driven).map(|(&omega, driven)| {
-            driven / Line::new(own * own - omega * omega, 2.0 * zeta * own * omega)
+        let each = self.omega.iter().zip(&self.exciting);
+        let each = each.map(|(&omega, exciting)| {
+            let damped = Line::new(0.0, 2.0 * zeta * own * omega);
+            let pulled = match self.excited_by {
+                ExcitedBy::Torque => Line::new(1.0, 0.0),
+                ExcitedBy::Motion => own * own + damped,
+            };
+            exciting * pulled / (own * own - omega * omega + damped)
         });
         each.collect()
     }
@@ -213,9 +281,10 @@ mod tests {
     use crate::data::cases::Tally;
     use crate::tests::made_up::{SAMPLES, close, exact, hand};
 
-    fn found(effect: Effect, sizes: &[f64]) -> Vec<Vec<f64>> {
+    /// Starts of `effect` in data with `there`, of this size.
+    fn found(effect: Effect, there: Effect, sizes: &[f64]) -> Vec<Vec<f64>> {
         let cases: Vec<FitTask> = (0..4)
-            .map(|number| exact(number, &[Effect::SecondMode], sizes))
+            .map(|number| exact(number, &[there], sizes))
             .collect();
         let own = (0..4).map(|number| hand(number).to_vec()).collect();
         let current = Fitted::made_up(&[], &[1.0; 4], SAMPLES).with_own(&BASE_PARAMETERS, own, 0);
@@ -227,7 +296,16 @@ mod tests {
     #[test]
     fn a_further_resonance_is_read_off_with_its_sign() {
         for sizes in [[-0.2, 40.0, 0.03, 0.0], [0.1, 90.0, 0.15, 0.0]] {
-            let best = &found(Effect::SecondMode, &sizes)[0];
+            let best = &found(Effect::SecondMode, Effect::SecondMode, &sizes)[0];
+            close(best[1], sizes[1], 0.05);
+            close(best[0], sizes[0], 0.5);
+        }
+    }
+
+    #[test]
+    fn a_mass_that_hangs_on_what_is_driven_is_read_off() {
+        for sizes in [[1.2, 20.0, 0.03], [1.0, 35.0, 0.15]] {
+            let best = &found(Effect::AttachedMass, Effect::AttachedMass, &sizes)[0];
             close(best[1], sizes[1], 0.05);
             close(best[0], sizes[0], 0.5);
         }
@@ -235,6 +313,13 @@ mod tests {
 
     #[test]
     fn what_has_no_resonance_has_no_start() {
-        assert!(found(Effect::SecondMass, &[0.1, 40.0, 0.03, 0.0]).is_empty());
+        assert!(
+            found(
+                Effect::SecondMass,
+                Effect::SecondMode,
+                &[0.1, 40.0, 0.03, 0.0]
+            )
+            .is_empty()
+        );
     }
 }

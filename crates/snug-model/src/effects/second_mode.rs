@@ -20,7 +20,7 @@
 //! modes that are not proportionally damped are carried by κ.
 
 use crate::description::{ActsOn, Description, Kind, ParameterSpec, Scope, state};
-use crate::law::{Instant, Kinematics, Law, Resonance};
+use crate::law::{ExcitedBy, Instant, Kinematics, Law, Resonance};
 use crate::numeric::number::Number;
 use std::f64::consts::TAU;
 
@@ -87,7 +87,7 @@ impl Law for SecondMode {
                 },
             ],
             states: &["mode_m", "mode_m_per_s"],
-            twins: &["second_mass"],
+            twins: &["second_mass", "attached_mass"],
             excited_by: "torque with power near the frequency of the mode: sweeps, steps, noise",
             shows_as: "ringing at a second frequency that the torque excites at once, or a dip between two resonances",
             check: "Tap the rig beside the sensor and at the drive and compare the ringing; clamp the sensor nearer to the drive and repeat.",
@@ -137,6 +137,7 @@ impl Law for SecondMode {
             size: 0,
             frequency: 1,
             damping: 2,
+            excited_by: ExcitedBy::Torque,
         })
     }
 }

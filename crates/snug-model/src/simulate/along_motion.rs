@@ -10,7 +10,7 @@ use crate::error::ModelError;
 use crate::input::torque::Input;
 use crate::law::Instant;
 use crate::simulate::acting_torque::ActingTorque;
-use crate::simulate::plant::Plant;
+use crate::simulate::plant::{Plant, own_states};
 use crate::simulate::run::check_length;
 
 /// Any mass: what acts does not depend on it.
@@ -79,6 +79,9 @@ impl Model {
             (at.x_m, at.v_m_per_s) = (lever * angle, lever * velocity);
             plant.note(at.x_m, at.v_m_per_s);
             let is_known = point % grid_stride == 0;
+            if point == 0 {
+                own.at = own_states(assembly.parts(), &p, &at);
+            }
             if is_known || own.count > 0 {
                 plant.drive(&mut at, point as f64, torque.at(point));
                 let acceleration = own.follow(&plant, point, &at, inputs.interval_s);

@@ -1,7 +1,7 @@
 //! The equations of motion: tool, hand and arm with everything that effects add, evaluated at one stage of a step.
 
 use crate::assembly::inputs::SimulationInputs;
-use crate::assembly::layout::{Assembly, Part};
+use crate::assembly::layout::{Assembly, MAXIMUM_OWN_STATES, Part};
 use crate::law::{Deflection, Delayed, Instant, Law};
 use crate::numeric::number::{Number, OfOne};
 use crate::simulate::dry_friction::Slowed;
@@ -253,6 +253,17 @@ impl<'a, N: Number> Plant<'a, N> {
         x_m.times_one::<STIFFNESS>(self.stiffness_n_per_m)
             + v_m_per_s.times_one::<DAMPING>(self.damping_kg_per_s)
     }
+}
+
+/// The effects' own states as the motion begins with the instant `at`.
+#[inline(never)]
+pub fn own_states<N: Number>(parts: &[Part], p: &[N], at: &Instant<N>) -> [N; MAXIMUM_OWN_STATES] {
+    let mut own = [at.x_m.constant(0.0); MAXIMUM_OWN_STATES];
+    for part in parts.iter().filter(|part| part.answered.begins) {
+        let begun = &mut own[part.states.clone()];
+        part.effect.begins(&p[part.parameters.clone()], at, begun);
+    }
+    own
 }
 
 /// The effects' initial angle \[rad\] and angular velocity \[rad/s\]; at rest without them.

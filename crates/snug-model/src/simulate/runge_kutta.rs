@@ -10,7 +10,7 @@ use crate::law::{Instant, Kinematics};
 use crate::numeric::number::Number;
 use crate::simulate::acting_torque::ActingTorque;
 use crate::simulate::dry_friction::{Slowed, at_once};
-use crate::simulate::plant::{Plant, initial_motion};
+use crate::simulate::plant::{Plant, initial_motion, own_states};
 use crate::simulate::sensors::{Moment, moves_elsewhere, relative_motion};
 
 const ENDS: f64 = 1.0 / 6.0;
@@ -41,15 +41,15 @@ pub fn respond<N: Number>(
     acting_torque: &ActingTorque<'_, N>,
     mut sample: impl FnMut(usize, &Moment<'_, N>),
 ) {
-    let (h, lever, zero) = (inputs.interval_s, inputs.lever_arm_m, N::from(inputs.zero));
+    let (h, lever) = (inputs.interval_s, inputs.lever_arm_m);
     let per_lever = inputs.zero.constant(1.0) / lever;
     let mut plant = Plant::new(assembly, p, inputs, acting_torque.is_known());
     let [angle, velocity] = initial_motion(assembly.parts(), p);
     let (mut x, mut v) = (angle.times(lever), velocity.times(lever));
     let states = assembly.own_state_count.min(MAXIMUM_OWN_STATES);
-    let mut own = [zero; MAXIMUM_OWN_STATES];
-    let (mut own_at, mut own_after, mut own_rates) = (own, own, own);
     let mut at = beginning(inputs, x, v);
+    let mut own = own_states(assembly.parts(), p, &at);
+    let (mut own_at, mut own_after, mut own_rates) = (own, own, own);
     let points = inputs.torque_nm().len();
     let last = points.saturating_sub(1);
     let last_turn = usize::from(plant.has_dry_friction());

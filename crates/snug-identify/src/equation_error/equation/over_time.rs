@@ -86,8 +86,7 @@ impl MotionEquation<'_> {
                 at,
                 recordings: recordings.to_vec(),
             };
-            let is_one = change.is_finite() && self.may_change(&change, &sizes);
-            is_one.then_some(change)
+            (change.is_finite() && self.may_change(&change, &sizes)).then_some(change)
         };
         let all: Vec<usize> = (0..self.records.len()).collect();
         let evenly = most((0..constant.len()).filter_map(|index| with_change(index, None, &all)))?;

@@ -95,6 +95,19 @@ fn what_changes_at_once_is_told_from_what_does_so_evenly() {
     );
 }
 
+/// Of 0.01 Nm/rad with 1.9 Nms/rad: what it pulls back takes 190 s, of which 8 were recorded, and is as well a load.
+#[test]
+fn a_spring_that_brings_nothing_back_does_not_change() {
+    let made = |stiffness| Made {
+        base: [BASE[0], BASE[1], stiffness],
+        change: [0.0, 0.0, 0.25, 0.0],
+        quantity: Quantity::Displacement,
+        ..Made::default()
+    };
+    assert_eq!(change(&made(1.0).tasks()).index, 2);
+    assert_ne!(change(&made(0.01).tasks()).index, 2);
+}
+
 /// Torque and motion that have nothing to do with each other: what instruments make of it may leave more than there is, and a change takes
 /// little of what there is.
 #[test]
