@@ -11,6 +11,7 @@ mod input;
 mod law;
 mod numeric;
 mod reaction;
+mod resonance;
 mod simulate;
 
 pub use assembly::layout::{Assembly, BASE_PARAMETERS, MAXIMUM_FREE};

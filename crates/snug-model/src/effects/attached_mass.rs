@@ -15,6 +15,7 @@
 use crate::description::{ActsOn, Description, Kind, ParameterSpec, Scope, state};
 use crate::law::{ExcitedBy, Instant, Law, Resonance};
 use crate::numeric::number::Number;
+use crate::resonance::{DAMPING_RATIO, FREQUENCY};
 use std::f64::consts::TAU;
 
 state! {
@@ -47,25 +48,12 @@ impl Law for AttachedMass {
                 ParameterSpec {
                     name: "attached_hz",
                     meaning: "frequency with which that swings alone",
-                    unit: "Hz",
-                    starts: &[12.0, 5.0, 30.0, 70.0],
-                    minimum: 0.5,
-                    maximum: 500.0,
-                    limits: (0.1, 2000.0),
-                    vanishes_at: None,
-                    scope: Scope::Shared,
+                    ..FREQUENCY
                 },
                 ParameterSpec {
                     name: "attached_zeta",
                     meaning: "damping ratio with which that swings",
-                    unit: "1",
-                    starts: &[0.03, 0.2],
-                    minimum: 1e-4,
-                    // What hardly swings is no mass on a spring but a lag, and would stand in for friction.
-                    maximum: 0.5,
-                    limits: (1e-5, 0.5),
-                    vanishes_at: None,
-                    scope: Scope::Shared,
+                    ..DAMPING_RATIO
                 },
             ],
             states: &["attached_stretch_m", "attached_m_per_s"],

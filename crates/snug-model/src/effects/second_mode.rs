@@ -22,6 +22,7 @@
 use crate::description::{ActsOn, Description, Kind, ParameterSpec, Scope, state};
 use crate::law::{ExcitedBy, Instant, Kinematics, Law, Resonance};
 use crate::numeric::number::Number;
+use crate::resonance::{DAMPING_RATIO, FREQUENCY};
 use std::f64::consts::TAU;
 
 state! {
@@ -51,29 +52,8 @@ impl Law for SecondMode {
                     vanishes_at: Some(0.0),
                     scope: Scope::Shared,
                 },
-                ParameterSpec {
-                    name: "f_hz",
-                    meaning: "frequency of the mode",
-                    unit: "Hz",
-                    starts: &[12.0, 5.0, 30.0, 70.0],
-                    minimum: 0.5,
-                    maximum: 500.0,
-                    limits: (0.1, 2000.0),
-                    vanishes_at: None,
-                    scope: Scope::Shared,
-                },
-                ParameterSpec {
-                    name: "zeta",
-                    meaning: "damping ratio of the mode",
-                    unit: "1",
-                    starts: &[0.03, 0.2],
-                    minimum: 1e-4,
-                    // What hardly rings is no mode but a lag, and would stand in for friction.
-                    maximum: 0.5,
-                    limits: (1e-5, 0.5),
-                    vanishes_at: None,
-                    scope: Scope::Shared,
-                },
+                FREQUENCY,
+                DAMPING_RATIO,
                 ParameterSpec {
                     name: "coupling_per_s",
                     meaning: "coupling to the speed of the first mode",

@@ -10,6 +10,7 @@ use crate::error::ModelError;
 use crate::input::torque::Input;
 use crate::law::Instant;
 use crate::simulate::acting_torque::ActingTorque;
+use crate::simulate::hook_set::HookSet;
 use crate::simulate::plant::{Plant, own_states};
 use crate::simulate::run::check_length;
 
@@ -61,7 +62,8 @@ impl Model {
         let assembly = self.assembly();
         let inputs = SimulationInputs::new(0.0, |_| (assembly, input));
         let torque = ActingTorque::new(assembly.parts(), &p, &inputs);
-        let mut plant = Plant::along_motion(assembly, &p, &inputs, torque.is_known());
+        let hook_set = HookSet::new(assembly.parts(), &p);
+        let mut plant = Plant::new(assembly, &p, &inputs, torque.is_known(), hook_set);
         let lever = inputs.lever_arm_m;
         let per_acceleration = (inputs.known_inertia_kg_m2 + SOME_MASS_KG * lever * lever) / lever;
         let grid_stride = motion.stride.max(1) * input.substeps();

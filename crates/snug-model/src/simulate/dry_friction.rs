@@ -58,14 +58,13 @@ impl<N: Number> Slowed<N> {
         }
     }
 
-    /// Displacement and velocity in the end of a step `from` there, of which a method that took the mean has found `after`.
+    /// Displacement and velocity in the end of a step from `x_m`, of which a method that took the mean has found `after`.
     #[inline(always)]
-    pub fn ended(&self, from: [N; 2], after: (N, N)) -> (N, N) {
-        let [x, _] = from;
+    pub fn ended(&self, x_m: N, after: (N, N)) -> (N, N) {
         let (x_after, v_after) = after;
-        let zero = x.constant(0.0);
+        let zero = x_m.constant(0.0);
         (
-            N::select(self.stays.is_positive(), x, x_after + self.further_m),
+            N::select(self.stays.is_positive(), x_m, x_after + self.further_m),
             N::select(self.rests.is_positive(), zero, v_after),
         )
     }

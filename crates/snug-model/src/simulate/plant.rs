@@ -33,31 +33,9 @@ const DAMPING: usize = 1;
 const STIFFNESS: usize = 2;
 
 impl<'a, N: Number> Plant<'a, N> {
-    /// The assembly with parameters `p` on a bench, its motion to be simulated: dry friction is apart from its rates.
+    /// The assembly with parameters `p` on a bench, its effects acting as the `hook_set` says.
     #[inline(always)]
     pub fn new(
-        assembly: &'a Assembly,
-        p: &'a [N],
-        inputs: &'a SimulationInputs<'a, N::Real>,
-        is_torque_known: bool,
-    ) -> Self {
-        let hook_set = HookSet::with_dry_friction(assembly.parts(), p);
-        Self::of(assembly, p, inputs, is_torque_known, hook_set)
-    }
-
-    /// The same along a motion that is given: dry friction is a force among others.
-    pub fn along_motion(
-        assembly: &'a Assembly,
-        p: &'a [N],
-        inputs: &'a SimulationInputs<'a, N::Real>,
-        is_torque_known: bool,
-    ) -> Self {
-        let hook_set = HookSet::new(assembly.parts(), p);
-        Self::of(assembly, p, inputs, is_torque_known, hook_set)
-    }
-
-    #[inline(always)]
-    fn of(
         assembly: &'a Assembly,
         p: &'a [N],
         inputs: &'a SimulationInputs<'a, N::Real>,

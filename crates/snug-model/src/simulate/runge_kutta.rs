@@ -10,6 +10,7 @@ use crate::law::{Instant, Kinematics};
 use crate::numeric::number::Number;
 use crate::simulate::acting_torque::ActingTorque;
 use crate::simulate::dry_friction::{Slowed, at_once};
+use crate::simulate::hook_set::HookSet;
 use crate::simulate::plant::{Plant, initial_motion, own_states};
 use crate::simulate::sensors::{Moment, moves_elsewhere, relative_motion};
 
@@ -43,9 +44,9 @@ pub fn respond<N: Number>(
 ) {
     let (h, lever) = (inputs.interval_s, inputs.lever_arm_m);
     let per_lever = inputs.zero.constant(1.0) / lever;
-    let mut plant = Plant::new(assembly, p, inputs, acting_torque.is_known());
-    let [angle, velocity] = initial_motion(assembly.parts(), p);
-    let (mut x, mut v) = (angle.times(lever), velocity.times(lever));
+    let hook_set = HookSet::with_dry_friction(assembly.parts(), p);
+    let mut plant = Plant::new(assembly, p, inputs, acting_torque.is_known(), hook_set);
+    let [mut x, mut v] = initial_motion(assembly.parts(), p).map(|one| one.times(lever));
     let states = assembly.own_state_count.min(MAXIMUM_OWN_STATES);
     let mut at = beginning(inputs, x, v);
     let mut own = own_states(assembly.parts(), p, &at);
@@ -100,7 +101,7 @@ pub fn respond<N: Number>(
                 slowed = Some(plant.slowed(&mut at, [x, v], after.1));
             }
         }
-        (x, v) = slowed.map_or(after, |slowed| slowed.ended([x, v], after));
+        (x, v) = slowed.map_or(after, |slowed| slowed.ended(x, after));
         own[..states].copy_from_slice(&own_after[..states]);
     }
 }
