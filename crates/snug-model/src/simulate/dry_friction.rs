@@ -25,6 +25,8 @@ pub struct Slowed<N: Number> {
     pub rests: N::Real,
     /// 1 where it rests all the step, else 0.
     pub stays: N::Real,
+    /// 1 where it slides on and keeps half its speed at least, else 0.
+    pub slides_on: N::Real,
 }
 
 impl<N: Number> Slowed<N> {
@@ -47,14 +49,52 @@ impl<N: Number> Slowed<N> {
         let ends = N::select(slides, slid, after_stop);
         let further = (speed * left_s + after_stop * stops_s) * -0.5;
         let (yes, no) = (h_s.constant(1.0), h_s.constant(0.0));
+        let keeps_half = slid.value() - speed.value() * h_s.constant(0.5);
+        let moves = speed.value().is_positive();
+        let slides_on = Lanewise::choose(keeps_half.is_positive(), yes, no);
         let rests = Lanewise::choose(slides, no, Lanewise::choose(goes_back, no, yes));
-        let stays = Lanewise::choose(speed.value().is_positive(), no, rests);
+        let stays = Lanewise::choose(moves, no, rests);
         Self {
             mean_m_per_s2: (along - (ends - speed).times(h_s.constant(1.0) / h_s)).times(way),
             further_m: N::select(slides, zero, further).times(way),
             ends_m_per_s: ends.times(way),
             rests,
             stays,
+            slides_on: Lanewise::choose(moves, slides_on, no),
+        }
+    }
+
+    /// What is known of the step before it is made, from what accelerates it at first: all of it where it slides on, elsewhere nothing yet.
+    #[inline(always)]
+    pub fn foreseen(self) -> Self {
+        let (slides_on, zero) = (
+            self.slides_on.is_positive(),
+            self.mean_m_per_s2.constant(0.0),
+        );
+        Self {
+            mean_m_per_s2: N::select(slides_on, self.mean_m_per_s2, zero),
+            ..self
+        }
+    }
+
+    /// Whether it slides on in every lane, so that nothing is to be learned from a second turn.
+    #[inline(always)]
+    pub fn is_foreseen(&self) -> bool {
+        self.slides_on.lanes().iter().all(|&one| one > 0.0)
+    }
+
+    /// Itself where it slides on, so that no lane depends on those beside it, else what is `learned`.
+    #[inline(always)]
+    pub fn or(self, learned: Self) -> Self {
+        let foreseen = self.slides_on.is_positive();
+        let zero = self.slides_on.constant(0.0);
+        Self {
+            mean_m_per_s2: N::select(foreseen, self.mean_m_per_s2, learned.mean_m_per_s2),
+            further_m: N::select(foreseen, N::from(zero), learned.further_m),
+            ends_m_per_s: N::select(foreseen, self.ends_m_per_s, learned.ends_m_per_s),
+            rests: Lanewise::choose(foreseen, zero, learned.rests),
+            stays: Lanewise::choose(foreseen, zero, learned.stays),
+            slides_on: self.slides_on,
         }
     }
 
@@ -130,6 +170,9 @@ mod tests {
             assert!((went - goes).abs() < 1e-12, "{v} {a} {went}");
             assert_eq!(found.rests > 0.0, ends == 0.0, "{v} {a}");
             assert_eq!(found.stays > 0.0, ends == 0.0 && v == 0.0, "{v} {a}");
+            let slides_on = ends * v > 0.5 * v * v;
+            assert_eq!(found.slides_on > 0.0, slides_on, "{v} {a}");
+            assert_eq!(found.is_foreseen(), slides_on, "{v} {a}");
         }
     }
 

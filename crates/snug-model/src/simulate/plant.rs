@@ -167,17 +167,30 @@ impl<'a, N: Number> Plant<'a, N> {
         -force.times_one::<MASS>(self.lever_mobility)
     }
 
-    /// What dry friction makes of a step from displacement and velocity `from`, as which all else alone would end with `free_m_per_s`; what it
-    /// holds with goes with the speed, and is that half way.
+    /// What dry friction makes of a step that begins `at` an instant. All else pushes it with `at_first_m_per_s2`, which foresees where it slides
+    /// on, and with `on_average_m_per_s2` once that was `foreseen` and the step made with it. What it holds with goes with the speed, and is that
+    /// half way.
     #[inline(always)]
-    pub fn slowed(&self, at: &mut Instant<N>, from: [N; 2], free_m_per_s: N) -> Slowed<N> {
-        let [x, v] = from;
-        let h_s = self.inputs.interval_s;
-        let pushed = (free_m_per_s - v).times(h_s.constant(1.0) / h_s);
-        (at.x_m, at.v_m_per_s) = (x, v);
-        let at_first = Slowed::over(v, pushed, self.held(at), h_s);
-        at.v_m_per_s = (v + at_first.ends_m_per_s) * 0.5;
-        Slowed::over(v, pushed, self.held(at), h_s)
+    pub fn slowed(
+        &self,
+        at: &Instant<N>,
+        at_first_m_per_s2: N,
+        on_average_m_per_s2: N,
+        foreseen: Option<Slowed<N>>,
+    ) -> Slowed<N> {
+        match foreseen {
+            None => self.slowed_by(at, at_first_m_per_s2).foreseen(),
+            Some(foreseen) => foreseen.or(self.slowed_by(at, on_average_m_per_s2)),
+        }
+    }
+
+    #[inline(always)]
+    fn slowed_by(&self, at: &Instant<N>, pushed_m_per_s2: N) -> Slowed<N> {
+        let (v, h_s) = (at.v_m_per_s, self.inputs.interval_s);
+        let at_first = Slowed::over(v, pushed_m_per_s2, self.held(at), h_s);
+        let mut half_way = *at;
+        half_way.v_m_per_s = (v + at_first.ends_m_per_s) * 0.5;
+        Slowed::over(v, pushed_m_per_s2, self.held(&half_way), h_s)
     }
 
     /// What the hand's spring and damper exert \[N\]: k (1 + Σ stiffening) d + c dd/dt.

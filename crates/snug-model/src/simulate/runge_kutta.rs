@@ -2,9 +2,9 @@
 //!
 //! At 10 kHz the error of a step is (h ω)⁵/120 ≈ 1e−15 of the amplitude for an arm at 30 rad/s; a band-limited input
 //! brings its own finer grid. What dry friction does within a step is known exactly where all else is constant, and acts in it as a
-//! constant ([`Slowed`]): such a step is made twice, first to learn what all else does.
+//! constant ([`Slowed`]). Where it slides on, that is known as the step begins; else such a step is made twice, first to learn what all else does.
 
-use crate::assembly::inputs::SimulationInputs;
+use crate::assembly::inputs::{Restart, SimulationInputs};
 use crate::assembly::layout::{Assembly, MAXIMUM_OWN_STATES};
 use crate::law::{Instant, Kinematics};
 use crate::numeric::number::Number;
@@ -43,7 +43,7 @@ pub fn respond<N: Number>(
     mut sample: impl FnMut(usize, &Moment<'_, N>),
 ) {
     let (h, lever) = (inputs.interval_s, inputs.lever_arm_m);
-    let per_lever = inputs.zero.constant(1.0) / lever;
+    let [per_lever, per_h] = [lever, h].map(|one| inputs.zero.constant(1.0) / one);
     let hook_set = HookSet::with_dry_friction(assembly.parts(), p);
     let mut plant = Plant::new(assembly, p, inputs, acting_torque.is_known(), hook_set);
     let [mut x, mut v] = initial_motion(assembly.parts(), p).map(|one| one.times(lever));
@@ -53,19 +53,17 @@ pub fn respond<N: Number>(
     let (mut own_at, mut own_after, mut own_rates) = (own, own, own);
     let points = inputs.torque_nm().len();
     let last = points.saturating_sub(1);
-    let last_turn = usize::from(plant.has_dry_friction());
     let mut index = 0;
     for point in 0..points {
         if let Some(restart) = inputs.restart_at(point) {
-            let [angle, velocity] = driven(assembly, p, restart.motion, &at, &own[..states]);
-            x = N::select(restart.lanes, angle.times(lever), x);
-            v = N::select(restart.lanes, velocity.times(lever), v);
+            [x, v] = taken_up(assembly, p, restart, (&at, &own[..states]), [x, v]);
         }
         plant.note(x, v);
         let torque = acting_torque.within(point);
         let mut slowed: Option<Slowed<N>> = None;
         let mut after = (x, v);
-        for turn in 0..=last_turn {
+        for turn in 0..2 {
+            let free = after.1;
             (at.x_m, at.v_m_per_s) = (x, v);
             after = (x, v);
             own_at[..states].copy_from_slice(&own[..states]);
@@ -84,9 +82,11 @@ pub fn respond<N: Number>(
                 if point == last {
                     return;
                 }
-                if let Some(slowed) = &slowed {
-                    acceleration = acceleration - slowed.mean_m_per_s2;
+                if stage == 0 && plant.has_dry_friction() {
+                    let on_average = (free - v).times(per_h);
+                    slowed = Some(plant.slowed(&at, acceleration, on_average, slowed));
                 }
+                acceleration = less(acceleration, &slowed);
                 let (weight, further) = (h * weight, h * further);
                 after.0 += at.v_m_per_s.times(weight);
                 after.1 += acceleration.times(weight);
@@ -97,12 +97,21 @@ pub fn respond<N: Number>(
                     own_at[state] = own[state] + own_rates[state].times(further);
                 }
             }
-            if turn < last_turn {
-                slowed = Some(plant.slowed(&mut at, [x, v], after.1));
+            if slowed.is_none_or(|slowed| slowed.is_foreseen()) {
+                break;
             }
         }
         (x, v) = slowed.map_or(after, |slowed| slowed.ended(x, after));
         own[..states].copy_from_slice(&own_after[..states]);
+    }
+}
+
+/// What is left of this `acceleration` by all but dry friction where that has `slowed` the motion.
+#[inline(always)]
+fn less<N: Number>(acceleration: N, slowed: &Option<Slowed<N>>) -> N {
+    match slowed {
+        Some(slowed) => acceleration - slowed.mean_m_per_s2,
+        None => acceleration,
     }
 }
 
@@ -131,19 +140,36 @@ fn felt<N: Number>(plant: &Plant<'_, N>, at: &Instant<N>, acceleration: N) -> N 
     }
 }
 
+/// Displacement and velocity of what is driven, from the measured motion in the lanes that take it up there; `from` in the others.
+#[inline(always)]
+fn taken_up<N: Number>(
+    assembly: &Assembly,
+    p: &[N],
+    restart: Restart<N::Real>,
+    (at, own): (&Instant<N>, &[N]),
+    from: [N; 2],
+) -> [N; 2] {
+    let [angle, velocity] = driven(assembly, p, restart.motion.map(N::from), at, own);
+    let lever = at.lever_arm_m;
+    [
+        N::select(restart.lanes, angle.times(lever), from[0]),
+        N::select(restart.lanes, velocity.times(lever), from[1]),
+    ]
+}
+
 /// Angle \[rad\] and velocity \[rad/s\] of what is driven, where `measured` are those of what is measured.
 #[inline(always)]
 fn driven<N: Number>(
     assembly: &Assembly,
     p: &[N],
-    measured: [N::Real; 2],
+    measured: [N; 2],
     at: &Instant<N>,
     own: &[N],
 ) -> [N; 2] {
-    let [angle, velocity] = measured.map(N::from);
+    let [angle, velocity] = measured;
     let parts = assembly.parts();
     if !moves_elsewhere(parts) {
-        return [angle, velocity];
+        return measured;
     }
     let moment = Moment {
         motion: of_tool(at.x_m, at.v_m_per_s, at.x_m, at.lever_arm_m),
