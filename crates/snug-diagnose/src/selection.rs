@@ -5,6 +5,7 @@ mod differing;
 mod escape;
 pub(crate) mod forward_selection;
 pub(crate) mod full_rate;
+mod in_place;
 pub(crate) mod model_selection;
 mod one_law;
 pub(crate) mod path;

@@ -6,10 +6,9 @@ use crate::error::DiagnoseError;
 use crate::pooled::fitted::Fitted;
 use crate::pooled::long_record;
 use crate::pooled::model::{PooledModel, Start};
-use crate::pooled::parameter_place::{effect_of, first_parameter};
 use crate::pooled::sharing::Sharing;
 use snug_least_squares::PooledSettings;
-use snug_model::{Effect, Law, ParameterSpec};
+use snug_model::Effect;
 
 /// Fits exactly these effects, from where `from` ended where it is given; sizes that differ between groups there, differ here.
 pub(crate) fn fit_effects(
@@ -35,38 +34,8 @@ pub(crate) fn fit_sharing(
     fit_from(&mut pooled, start, clusters)
 }
 
-/// `full` with `other` in place of `effect`; what both have a number for begins where it ended.
-pub(crate) fn fit_in_place(
-    cases: Cases<'_>,
-    full: &Fitted,
-    effect: Effect,
-    other: Effect,
-    clusters: Clusters,
-) -> Result<Fitted, DiagnoseError> {
-    let swap = |known: &Effect| if *known == effect { other } else { *known };
-    let effects: Vec<Effect> = full.effects.iter().map(swap).collect();
-    let mut pooled = PooledModel::shared_by(cases, &effects, &full.sharing)?;
-    let mut start = full.start(&pooled);
-    let (theirs, own) = (
-        effect.description().parameters,
-        other.description().parameters,
-    );
-    let first = first_parameter(&full.effects, effect);
-    for (size, begins) in pooled.shared.iter().zip(&mut start.shared) {
-        let Some((_, offset)) = effect_of(&effects, size.index).filter(|(of, _)| *of == other)
-        else {
-            continue;
-        };
-        let is_same = |spec: &ParameterSpec| spec.name == own[offset].name;
-        let ended = theirs.iter().position(is_same);
-        if let Some(value) = ended.and_then(|place| full.shared_value(first + place, size)) {
-            *begins = value;
-        }
-    }
-    fit_from(&mut pooled, Some(start), clusters)
-}
-
-fn fit_from(
+/// Fits from this start, or where there is none from the usual one.
+pub(crate) fn fit_from(
     pooled: &mut PooledModel<'_>,
     start: Option<Start>,
     clusters: Clusters,

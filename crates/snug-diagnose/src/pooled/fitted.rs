@@ -145,7 +145,7 @@ impl Fitted {
     }
 
     /// What it says of the shared parameter number `index`: of that group, of all, or the mean over its groups.
-    pub(super) fn shared_value(&self, index: usize, of: &SharedSize) -> Option<f64> {
+    pub fn shared_value(&self, index: usize, of: &SharedSize) -> Option<f64> {
         let known = || {
             let all = self.shared_sizes.iter().zip(&self.shared);
             all.filter(move |(known, _)| known.index == index)

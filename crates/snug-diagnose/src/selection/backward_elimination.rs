@@ -1,13 +1,14 @@
 //! After the selection: whether each added term is still needed, and what would do in its place.
 
 use crate::error::DiagnoseError;
-use crate::pooled::fit::{fit_effects, fit_in_place};
+use crate::pooled::fit::fit_effects;
 use crate::pooled::fitted::Fitted;
 use crate::pooled::sizes::{BesideNothing, beside_nothing};
 use crate::ranking::kin::is_simpler;
 use crate::ranking::paired_gain::{clearness, gains};
 use crate::ranking::rank::is_all_size;
 use crate::ranking::thresholds::PLAINLY_MISSED;
+use crate::selection::in_place::fit_in_place;
 use crate::selection::model_selection::ModelSelection;
 use crate::selection::path::{SelectionPath, leaves_more};
 use crate::selection::simpler::does_for;

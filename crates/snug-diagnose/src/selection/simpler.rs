@@ -29,6 +29,11 @@ pub(super) fn does_for(simple: &Fitted, rich: &Fitted, before: &Fitted) -> bool 
     !rich.is_weighted && is_little
 }
 
+/// Whether it is one of the effects of which a plain regression knows: dry friction and an offset are there in most rigs.
+pub(crate) fn is_plain(effect: Effect) -> bool {
+    (Effect::PLAIN.iter()).any(|plain| plain.name() == effect.name())
+}
+
 impl Candidate {
     /// Whether it does for `rich` beside the model `before`. What is known does for a law that nobody knows, and what all recordings
     /// share for what each has of its own, where it explains most of what that does: the other may come in beside it, unless it is this, another
@@ -111,7 +116,6 @@ impl ModelSelection<'_> {
         if all[chosen].effect.of_all().is_none() {
             return Ok(None);
         }
-        let is_plain = |effect: Effect| Effect::PLAIN.iter().any(|one| one.name() == effect.name());
         let plain: Vec<usize> = (0..all.len())
             .filter(|&one| is_plain(all[one].effect))
             .collect();

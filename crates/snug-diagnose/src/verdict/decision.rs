@@ -5,12 +5,15 @@ use crate::pooled::equation::PlainEquation;
 use crate::pooled::fitted::Fitted;
 use crate::pooled::thresholds::AT_FLOOR;
 use crate::question::Goal;
+use crate::selection::simpler::is_plain;
 use crate::selection::thresholds::MOST;
 use crate::verdict::answer::{Examination, Judged, Places};
 use crate::verdict::changes::changes;
 use crate::verdict::earned::{self, leaves_a_motion};
 use crate::verdict::floor;
-use crate::verdict::thresholds::{BESIDE_EFFECTS, MOSTLY_EXPLAINED, REPEATS, WHITE, WIDER};
+use crate::verdict::thresholds::{
+    ALL_BUT_EXPLAINED, BESIDE_EFFECTS, MOSTLY_EXPLAINED, REPEATS, WHITE, WIDER,
+};
 use snug_campaign::Verdict;
 use snug_campaign::words::explained::Explained;
 use snug_campaign::words::suspicion::{FailedFit, OtherUnits, StandsApart, Suspicion};
@@ -202,8 +205,8 @@ impl Examination<'_> {
 
     /// Whether more is left than the noise is uncertain by, or where nobody knows the noise a good part of the output, though no candidate
     /// is chosen or promising: that is no adequate model. A model that is restarted from the measured motion again and again predicts
-    /// nearly all, whatever it lacks: one that was given nothing must leave noise. Beside an effect that lets go, the instants at which the
-    /// grip sets in are never quite right.
+    /// nearly all, whatever it lacks: one that was given nothing must leave noise. Several effects that leave a motion may be something else,
+    /// in pieces. Beside an effect that lets go, the instants at which the grip sets in are never quite right.
     fn is_more_than_noise(&self, explained: Option<&Explained>) -> bool {
         let last = self.path.last();
         let lets_go = last.effects.iter().any(|one| one.has_unilateral_contact());
@@ -211,10 +214,16 @@ impl Examination<'_> {
         let leaves_much = match earned::share(self.question.cases, last) {
             Some(share) => {
                 let leaves_a_motion = explained.is_some_and(Explained::leaves_a_motion);
-                share < MOSTLY_EXPLAINED
-                    || (self.cases.are_restarted()
-                        && leaves_a_motion
-                        && self.path.additions.is_empty())
+                let was_given = &self.path.additions;
+                let may_lack = match was_given.as_slice() {
+                    [] => self.cases.are_restarted(),
+                    [_] => false,
+                    several => {
+                        let are_plain = several.iter().all(|one| is_plain(one.effect));
+                        share < ALL_BUT_EXPLAINED && !are_plain
+                    }
+                };
+                share < MOSTLY_EXPLAINED || (leaves_a_motion && may_lack)
             }
             None => last.error() > floor,
         };
