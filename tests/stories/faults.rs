@@ -23,8 +23,9 @@ fn study(files: usize, seed: u64, folder: &Path) -> Study {
     let mut plan = CampaignPlan::of_size(files, 4);
     plan.effects = vec![HiddenEffect::CubicStiffness];
     let campaign = simulate(&plan, seed).unwrap();
-    campaign.write(folder, MatStyle::default()).unwrap();
-    let mut study = Study::on(folder.to_path_buf());
+    let data = folder.join("data");
+    campaign.write(&data, MatStyle::default()).unwrap();
+    let mut study = Study::on(data);
     study.diagnosis.search.sign_flips = 99;
     study.diagnosis.search.control_campaigns = 0;
     study.diagnosis.search.starts = 1;

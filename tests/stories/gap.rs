@@ -19,9 +19,10 @@ fn every_tightening_comes_down_to_the_noise() {
             .with_noise(NoiseKind::Coloured)
             .hiding(HiddenEffect::Backlash, strength);
         let campaign = simulate(&plan, seed).unwrap();
-        let data = tempfile::tempdir().unwrap();
-        campaign.write(data.path(), MatStyle::default()).unwrap();
-        let study = study_on(data.path(), Preset::Snug);
+        let folder = tempfile::tempdir().unwrap();
+        let data = folder.path().join("data");
+        campaign.write(&data, MatStyle::default()).unwrap();
+        let study = study_on(&data, Preset::Snug);
         let (outcome, out) = diagnose_study(&study, &Verb::Improve);
         assert_eq!(outcome.result.effects, ["backlash"]);
         fits_everywhere(&outcome.result, &campaign.truth);

@@ -39,9 +39,10 @@ fn check(fitted_output: Quantity) {
             .with_noise(noise)
             .with_bias(0.1 * (seed % 3) as f64);
         let campaign = simulate(&plan, 1000 + seed).unwrap();
-        let data = tempfile::tempdir().unwrap();
-        campaign.write(data.path(), MatStyle::default()).unwrap();
-        let mut study = study_on(data.path(), Preset::Snug);
+        let folder = tempfile::tempdir().unwrap();
+        let data = folder.path().join("data");
+        campaign.write(&data, MatStyle::default()).unwrap();
+        let mut study = study_on(&data, Preset::Snug);
         study.identify.fitted_output = fitted_output;
         let (outcome, _out) = run_study(&study).unwrap();
         assert_eq!(outcome.left_out, 0);

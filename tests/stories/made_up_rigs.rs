@@ -9,6 +9,7 @@ mod held;
 mod loads;
 mod loops;
 mod rig;
+mod sensors;
 mod unheld;
 mod zeros;
 

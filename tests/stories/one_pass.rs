@@ -78,8 +78,9 @@ fn opened(most_tightenings: usize) -> (Vec<usize>, Vec<usize>) {
     let mut plan = CampaignPlan::of_size(4, 4);
     plan.effects = vec![HiddenEffect::CubicStiffness];
     let campaign = simulate(&plan, 5).unwrap();
-    campaign.write(folder.path(), MatStyle::default()).unwrap();
-    let mut study = Study::on(folder.path().to_path_buf());
+    let data = folder.path().join("data");
+    campaign.write(&data, MatStyle::default()).unwrap();
+    let mut study = Study::on(data);
     study.diagnosis.most_tightenings = most_tightenings;
     study.diagnosis.search.sign_flips = 99;
     study.diagnosis.search.control_campaigns = 0;

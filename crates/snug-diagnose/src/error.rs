@@ -10,7 +10,7 @@ use thiserror::Error;
 #[non_exhaustive]
 pub enum DiagnoseError {
     /// No tightening can be compared with a simulation.
-    #[error("no tightening can be compared with the model: {reason}")]
+    #[error("nothing can be compared with the model: {reason}")]
     NothingToCompare {
         /// Why not.
         reason: String,

@@ -11,6 +11,7 @@ use crate::law::{
 use crate::numeric::number::Number;
 use snug_campaign::Quantity;
 
+pub mod ac_coupling;
 pub mod acceleration_bias;
 pub mod acceleration_lag;
 pub mod actuator_lag;
@@ -90,6 +91,7 @@ macro_rules! catalogue {
                 torque_lag::TorqueLag,
                 acceleration_lag::AccelerationLag,
                 acceleration_bias::AccelerationBias,
+                ac_coupling::AcCoupling,
                 initial_motion::InitialMotion,
                 output_offset::OutputOffset,
                 output_drift::OutputDrift,

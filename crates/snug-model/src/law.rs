@@ -106,6 +106,17 @@ pub struct Kinematics<N> {
 }
 
 impl<N: Number> Kinematics<N> {
+    /// That of a displacement \[m\] and a velocity \[m/s\] which are an effect's first two own states.
+    #[inline(always)]
+    pub fn of_states(at: &Instant<N>, own: &[N], own_rates: &[N]) -> Self {
+        let per_lever = at.lever_arm_m.constant(1.0) / at.lever_arm_m;
+        Self {
+            displacement_rad: own[0].times(per_lever),
+            velocity_rad_per_s: own[1].times(per_lever),
+            acceleration_rad_per_s2: own_rates[1].times(per_lever),
+        }
+    }
+
     /// The same with `more` on whichever of the three is looked at, in its own unit.
     #[inline(always)]
     pub fn shifted(self, more: N) -> Self {

@@ -104,12 +104,7 @@ impl Law for SecondMode {
         own: &[N],
         own_rates: &[N],
     ) -> Option<Kinematics<N>> {
-        let per_lever = at.lever_arm_m.constant(1.0) / at.lever_arm_m;
-        Some(Kinematics {
-            displacement_rad: own[0].times(per_lever),
-            velocity_rad_per_s: own[1].times(per_lever),
-            acceleration_rad_per_s2: own_rates[1].times(per_lever),
-        })
+        Some(Kinematics::of_states(at, own, own_rates))
     }
 
     fn resonance(&self) -> Option<Resonance> {
