@@ -6,6 +6,7 @@ mod encoder;
 mod ended;
 mod free_motion;
 mod held;
+mod hysteresis;
 mod loads;
 mod loops;
 mod rig;

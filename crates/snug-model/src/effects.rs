@@ -27,6 +27,7 @@ pub mod cubic_stiffness;
 pub mod directional_damping;
 pub mod exponential_stiffness;
 pub mod fatigue;
+pub mod general_bouc_wen;
 pub mod gravity_leakage;
 pub mod gravity_torque;
 pub mod grip_slip;
@@ -69,6 +70,7 @@ macro_rules! catalogue {
                 second_mass::SecondMass,
                 grip_slip::GripSlip,
                 bouc_wen::BoucWen,
+                general_bouc_wen::GeneralBoucWen,
                 exponential_stiffness::ExponentialStiffness,
                 stribeck_friction::StribeckFriction,
                 asymmetric_viscous_friction::AsymmetricViscousFriction,
@@ -173,6 +175,13 @@ macro_rules! forward {
 
             fn likelier(&self) -> Option<&'static str> {
                 catalogue!(ask, self, law => law.likelier())
+            }
+
+            fn is_general(&self) -> bool {
+                if let Self::Custom(law) = self {
+                    return Self::named(law.description().name).is_some_and(|one| one.is_general());
+                }
+                catalogue!(ask, self, law => law.is_general())
             }
 
             fn of_all(&self) -> Option<&'static str> {

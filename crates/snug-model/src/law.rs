@@ -259,6 +259,11 @@ macro_rules! declare_law {
                 None
             }
 
+            /// Whether it bends to a little of everything, so that it is believed only where it explains nearly all that is missing.
+            fn is_general(&self) -> bool {
+                false
+            }
+
             /// The effect that it is where it is the same in all recordings.
             fn of_all(&self) -> Option<&'static str> {
                 None

@@ -178,6 +178,7 @@ impl Axis {
             Self::Turns(l) => match unit {
                 "N" => (l, "Nm"),
                 "m" => (1.0 / l, "rad"),
+                "1/m" => (l, "1/rad"),
                 "m/s" => (1.0 / l, "rad/s"),
                 "kg" => (l * l, "kg m^2"),
                 "1/kg" => (1.0 / (l * l), "1/(kg m^2)"),

@@ -61,10 +61,15 @@ fn begins_at_rest(cases: &[FitTask<'_>], current: &Fitted) -> bool {
         && !cases.iter().enumerate().any(swings)
 }
 
-/// Whether `effect` can be told beside these, and a simulation can carry it: it has states and parameters for so many only.
+/// Whether `effect` can be told beside these, and a simulation can carry it: it has states and parameters for so many only. A law that bends
+/// to a little of everything would take the rest of any other.
 pub(crate) fn can_stand_beside(others: &[Effect], effect: Effect, case: &FitTask<'_>) -> bool {
     let is_one_of = |&other: &Effect| is_of_all(other, effect) || is_of_all(effect, other);
-    !others.iter().any(is_one_of) && case.model_with(&[others, &[effect]].concat()).is_ok()
+    let is_mechanical = |other: &Effect| other.description().kind == Kind::Mechanical;
+    let takes_theirs = effect.is_general() && others.iter().any(is_mechanical);
+    !takes_theirs
+        && !others.iter().any(is_one_of)
+        && case.model_with(&[others, &[effect]].concat()).is_ok()
 }
 
 /// Whether `effect` could be what a measurement like `case` shows.
@@ -136,6 +141,19 @@ mod tests {
         "gravity_torque",
         "asymmetric_viscous_friction",
     ];
+
+    #[test]
+    fn a_general_law_stands_beside_sensors_and_no_other_mechanics() {
+        let case = machine(0.1);
+        let can_come = |others: &[Effect]| can_stand_beside(others, Effect::GeneralBoucWen, &case);
+        assert!(can_come(&[]) && can_come(&[Effect::TorqueOffset]));
+        assert!(!can_come(&[Effect::TorqueOffset, Effect::CubicStiffness]));
+        assert!(can_stand_beside(
+            &[Effect::GeneralBoucWen],
+            Effect::CubicStiffness,
+            &case
+        ));
+    }
 
     /// With every candidate more, what is missing must be clearer to be named.
     #[test]

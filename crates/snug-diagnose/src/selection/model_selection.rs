@@ -15,11 +15,12 @@ use crate::ranking::paired_gain::gains;
 use crate::ranking::rank::{Candidate, Ranking, rank};
 use crate::selection::path::{Addition, SelectionPath, justified, laws_may_matter, misfit, twins};
 use crate::selection::thresholds::{
-    ENOUGH_AHEAD, EQUAL, JUST_AS_MUCH, LITTLE_LEFT, MOST_EFFECTS, MUCH_LEFT, SEEDS,
+    ENOUGH_AHEAD, EQUAL, JUST_AS_MUCH, LEAVES_OF_GENERAL, LITTLE_LEFT, MOST_EFFECTS, MUCH_LEFT,
+    SEEDS,
 };
 use crate::settings::DiagnoseSettings;
 use snug_least_squares::PooledSettings;
-use snug_model::Effect;
+use snug_model::{Effect, Law};
 
 /// What stays the same while effects are looked for.
 #[derive(Clone, Copy)]
@@ -119,7 +120,7 @@ impl ModelSelection<'_> {
         let mut all = candidates(&self.cases, current, self.custom)?;
         let laws_may_matter = laws_may_matter(&path.rungs[0], current);
         all.retain(|effect| laws_may_matter || !is_unlisted(*effect));
-        rank(
+        let mut ranking = rank(
             self.cases,
             current,
             &all,
@@ -127,7 +128,10 @@ impl ModelSelection<'_> {
             self.settings,
             self.settings.control_campaigns,
             self.watch,
-        )
+        )?;
+        let most = LEAVES_OF_GENERAL * current.squares();
+        (ranking.candidates).retain(|one| !one.effect.is_general() || one.fitted.squares() < most);
+        Ok(ranking)
     }
 
     /// The same effects, fitted from there to the end; sizes that differed between groups are one again where what was added makes
