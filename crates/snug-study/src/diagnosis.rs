@@ -16,7 +16,7 @@ use crate::tasks::settling::{Settled, settle};
 use restarted::Restarted;
 use snug_campaign::words::number::significant;
 use snug_campaign::words::reason::Reason;
-use snug_campaign::{GroupSize, GroupSizes};
+use snug_campaign::{Diagnosis, GroupSize, GroupSizes};
 use snug_diagnose::{Answer, DiagnoseError, Goal, Pieces, Question, RungModel, Watch, examine};
 use snug_identify::{FitTask, IdentifyError};
 use snug_least_squares::SolveError;
@@ -213,14 +213,15 @@ impl Search<'_> {
             return Ok((straight, None));
         }
         let last = with_last_model(study, &straight);
-        if !held_input::is_worth_it(&straight.diagnosis, study, &last, cases)? {
-            return Ok((straight, None));
-        }
+        let is_worth_it = held_input::is_worth_it(&straight.diagnosis, study, &last, cases)?;
         let (held_study, cases) = held_input::held(study, cases)?;
         let question = Question {
             cases: &cases,
             ..question.clone()
         };
+        if !is_worth_it && !self.fewer_do(&held_study, &question, &straight.diagnosis)? {
+            return Ok((straight, None));
+        }
         // Of a model whose delay is half an interval the rest is the model, whatever a search afresh would find.
         let interval_s = cases[0].tightening.time_base.interval_s;
         let rest = held_input::without_stand_ins(&straight.diagnosis, interval_s);
@@ -252,6 +253,34 @@ impl Search<'_> {
             }
         }
         Ok((straight, None))
+    }
+
+    /// Whether with the `held` input a model before the last leaves as little as that does without, its sizes fitted again: what came in
+    /// after it may stand in for the hold.
+    fn fewer_do(
+        &self,
+        held: &Study,
+        question: &Question<'_>,
+        straight: &Diagnosis,
+    ) -> Result<bool, StudyError> {
+        let Some((last, before)) = straight.ladder.split_last() else {
+            return Ok(false);
+        };
+        for rung in before.iter().skip(1) {
+            // A law that is in no catalogue has no name in the study.
+            let Ok(effects) = effects(held, &rung.effects, question.cases) else {
+                continue;
+            };
+            let compared = self.examined(&Question {
+                effects,
+                goal: Goal::Compare,
+                ..question.clone()
+            })?;
+            if held_input::leaves_as_little(&compared.diagnosis, rung, last) {
+                return Ok(true);
+            }
+        }
+        Ok(false)
     }
 
     /// What a search with a held input finds, where one effect already leaves far less with it than any does without.

@@ -7,7 +7,7 @@ use crate::error::StudyError;
 use crate::study::Study;
 use crate::tasks::cases::with_settled;
 use snug_campaign::words::reason::Reason;
-use snug_campaign::{Diagnosis, Intersample};
+use snug_campaign::{Diagnosis, Intersample, Rung};
 use snug_identify::{FitTask, identify_all};
 use snug_model::{BASE_PARAMETERS, Law, ParameterSettings, Scale};
 use std::borrow::Cow;
@@ -130,6 +130,15 @@ fn needs_nothing(study: &Study, last: &Study, cases: &[FitTask<'_>]) -> Result<b
         leaves_less(&held, cases, SOMEWHAT_LESS)
             && leaves_less(&held, &last, AS_LITTLE * AS_LITTLE),
     )
+}
+
+/// Whether the last model of `held` leaves plainly less than its like `without` that input, and as little as the `last` model does.
+pub(crate) fn leaves_as_little(held: &Diagnosis, without: &Rung, last: &Rung) -> bool {
+    let left = held.ladder.last().map(|held| held.rms_fitted_output);
+    left.is_some_and(|left| {
+        left < PLAINLY_LESS * without.rms_fitted_output
+            && left <= AS_LITTLE * last.rms_fitted_output
+    })
 }
 
 /// Whether less than `share` of what is left `without` is left `with` a held input.
