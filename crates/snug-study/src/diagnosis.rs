@@ -16,7 +16,7 @@ use crate::tasks::settling::{Settled, settle};
 use restarted::Restarted;
 use snug_campaign::words::number::significant;
 use snug_campaign::words::reason::Reason;
-use snug_campaign::{Diagnosis, GroupSize, GroupSizes};
+use snug_campaign::{GroupSize, GroupSizes};
 use snug_diagnose::{Answer, DiagnoseError, Goal, Pieces, Question, RungModel, Watch, examine};
 use snug_identify::{FitTask, IdentifyError};
 use snug_least_squares::SolveError;
@@ -219,7 +219,7 @@ impl Search<'_> {
             cases: &cases,
             ..question.clone()
         };
-        if !is_worth_it && !self.fewer_do(&held_study, &question, &straight.diagnosis)? {
+        if !is_worth_it && !self.fewer_do(&held_study, &question, &straight)? {
             return Ok((straight, None));
         }
         // Of a model whose delay is half an interval the rest is the model, whatever a search afresh would find.
@@ -255,24 +255,26 @@ impl Search<'_> {
         Ok((straight, None))
     }
 
-    /// Whether with the `held` input a model before the last leaves as little as that does without, its sizes fitted again: what came in
-    /// after it may stand in for the hold.
+    /// Whether with the `held` input a model before the last leaves as little as that does without, fitted again from where it ended: what
+    /// came in after it may stand in for the hold.
     fn fewer_do(
         &self,
         held: &Study,
         question: &Question<'_>,
-        straight: &Diagnosis,
+        straight: &Answer,
     ) -> Result<bool, StudyError> {
-        let Some((last, before)) = straight.ladder.split_last() else {
+        let rungs = straight.diagnosis.ladder.iter().zip(&straight.models);
+        let Some((last, before)) = straight.diagnosis.ladder.split_last() else {
             return Ok(false);
         };
-        for rung in before.iter().skip(1) {
-            // A law that is in no catalogue has no name in the study.
-            let Ok(effects) = effects(held, &rung.effects, question.cases) else {
-                continue;
-            };
+        for (rung, model) in rungs.take(before.len()).skip(1) {
+            let begun = begun_with(held, model);
+            let cases = question.cases.iter().map(FitTask::lent).collect();
+            let cases = with_settled(&begun, cases)?;
             let compared = self.examined(&Question {
-                effects,
+                cases: &cases,
+                effects: effects(&begun, &begun.model.effects, &cases)?,
+                custom: begun.model.custom_effects()?,
                 goal: Goal::Compare,
                 ..question.clone()
             })?;
@@ -396,6 +398,19 @@ fn values_by_group(sizes: &GroupSizes) -> ValuesByGroup {
 fn with_last_model(study: &Study, answer: &Answer) -> Study {
     let last = answer.models.last();
     last.map_or_else(|| study.clone(), |model| with_model(study, model, true))
+}
+
+/// The study with a rung's model, whose sizes begin where they ended there.
+fn begun_with(study: &Study, model: &RungModel) -> Study {
+    let mut begun = with_model(study, model, true);
+    for parameter in &model.parameters {
+        let is_told = study.model.parameters.contains_key(&parameter.name);
+        let told = begun.model.parameters.get_mut(&parameter.name);
+        if let Some(told) = told.filter(|_| !is_told) {
+            (told.fixed, told.standard_error) = (false, None);
+        }
+    }
+    begun
 }
 
 /// The study with a rung's model. What all tightenings share is held where they put it together.
