@@ -23,6 +23,12 @@ pub enum DiagnoseError {
         /// Parameters that a tightening has of its own.
         own: usize,
     },
+    /// What is found is not resolved by a simulation in so few steps from sample to sample.
+    #[error("what is found asks for {steps} steps from sample to sample")]
+    Unresolved {
+        /// How many resolve it.
+        steps: usize,
+    },
     /// Whoever watches ended it.
     #[error("interrupted before there was a result")]
     Interrupted,

@@ -46,6 +46,7 @@ pub fn examine(
         clusters,
         settings,
         watch,
+        may_ask_for_steps: question.may_ask_for_steps,
     };
     let compared = selection.compare()?;
     let units = (!settings.loads_differ)
@@ -118,6 +119,7 @@ fn searched(
         Some(slow) => {
             let search = ModelSelection {
                 cases: selection.cases.others(slow),
+                may_ask_for_steps: false,
                 ..*selection
             };
             let path = selected(&search, goal, search.compare()?)?;

@@ -32,6 +32,7 @@ impl<'a> Question<'a> {
             by_group: Vec::new(),
             custom: Vec::new(),
             goal,
+            may_ask_for_steps: false,
         }
     }
 
@@ -79,4 +80,6 @@ pub struct Question<'a> {
     pub custom: Vec<Effect>,
     /// What is asked.
     pub goal: Goal,
+    /// Whether to end with [`DiagnoseError::Unresolved`] where the simulation takes too few steps for what is found.
+    pub may_ask_for_steps: bool,
 }

@@ -20,7 +20,7 @@ use snug_campaign::{GroupSize, GroupSizes};
 use snug_diagnose::{Answer, DiagnoseError, Goal, Pieces, Question, RungModel, Watch, examine};
 use snug_identify::{FitTask, IdentifyError};
 use snug_least_squares::SolveError;
-use snug_model::{Effect, GroupValue, ParameterSettings, ValuesByGroup};
+use snug_model::{Effect, GroupValue, ParameterSettings, Scale, ValuesByGroup};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// A verb of the diagnosis.
@@ -103,7 +103,7 @@ pub fn diagnose(
         return nothing_to_compare(study, workplace, settings, progress, interrupted);
     }
     let (last, ladder) =
-        pool.install(|| climbed(study, comparable, verb, progress, interrupted))?;
+        pool.install(|| climbed(study, &comparable, verb, progress, interrupted))?;
     // Who ended the search wants to see what it found of all tightenings.
     let never = AtomicBool::new(false);
     let interrupted = match interrupted.load(Ordering::Relaxed) {
@@ -122,17 +122,34 @@ pub fn diagnose(
 /// ladder up to there.
 pub(crate) fn climbed(
     study: &Study,
-    comparable: Comparable,
+    comparable: &Comparable,
     verb: &Verb,
     progress: &(dyn Fn(ProgressEvent<'_>) + Sync),
     interrupted: &AtomicBool,
 ) -> Result<(Study, Ladder), StudyError> {
-    let Comparable {
-        cases,
-        reasons: left_out,
-    } = comparable;
-    let settled = settle(study, &cases);
-    let (as_told, recorded) = (study, &cases);
+    match climbed_in_steps(study, comparable, verb, progress, interrupted) {
+        Err(StudyError::Diagnose(DiagnoseError::Unresolved { steps })) => {
+            let what = format!("simulating in {steps} steps from sample to sample");
+            progress(ProgressEvent::Stage { what: &what });
+            let mut shorter = study.clone();
+            shorter.model.steps_per_sample = Some(steps);
+            climbed_in_steps(&shorter, comparable, verb, progress, interrupted)
+        }
+        found => found,
+    }
+}
+
+/// The same, simulated as the study says.
+fn climbed_in_steps(
+    study: &Study,
+    comparable: &Comparable,
+    verb: &Verb,
+    progress: &(dyn Fn(ProgressEvent<'_>) + Sync),
+    interrupted: &AtomicBool,
+) -> Result<(Study, Ladder), StudyError> {
+    let (recorded, left_out) = (&comparable.cases, &comparable.reasons);
+    let settled = settle(study, recorded);
+    let as_told = study;
     let lent = || recorded.iter().map(FitTask::lent).collect();
     let (study, cases, reasons) = match &settled {
         Some(Settled { study, reasons, .. }) => {
@@ -149,6 +166,8 @@ pub(crate) fn climbed(
         by_group: study.sizes_by_group(),
         custom: study.model.custom_effects()?,
         goal: goal(study, verb, &cases)?,
+        may_ask_for_steps: as_told.model.steps_per_sample.is_none()
+            && matches!(study.model.scale, Scale::Rig { .. }),
     };
     let search = Search {
         settings: &search,
@@ -167,13 +186,13 @@ pub(crate) fn climbed(
             found: &answer,
         };
         if let Some((free, mut answer)) = restarted.run_freely(&lent, &question, &search)? {
-            answer.diagnosis.reasons.extend(left_out);
+            answer.diagnosis.reasons.extend_from_slice(left_out);
             return Ok(climb(&free, answer));
         }
     }
     let study = held.as_ref().unwrap_or(study);
     answer.diagnosis.reasons.extend_from_slice(reasons);
-    answer.diagnosis.reasons.extend(left_out);
+    answer.diagnosis.reasons.extend_from_slice(left_out);
     Ok(climb(study, answer))
 }
 
@@ -268,7 +287,7 @@ impl Search<'_> {
             return Ok(false);
         };
         for (rung, model) in rungs.take(before.len()).skip(1) {
-            let begun = begun_with(held, model);
+            let begun = with_model(held, model, true);
             let cases = question.cases.iter().map(FitTask::lent).collect();
             let cases = with_settled(&begun, cases)?;
             let compared = self.examined(&Question {
@@ -398,19 +417,6 @@ fn values_by_group(sizes: &GroupSizes) -> ValuesByGroup {
 fn with_last_model(study: &Study, answer: &Answer) -> Study {
     let last = answer.models.last();
     last.map_or_else(|| study.clone(), |model| with_model(study, model, true))
-}
-
-/// The study with a rung's model, whose sizes begin where they ended there.
-fn begun_with(study: &Study, model: &RungModel) -> Study {
-    let mut begun = with_model(study, model, true);
-    for parameter in &model.parameters {
-        let is_told = study.model.parameters.contains_key(&parameter.name);
-        let told = begun.model.parameters.get_mut(&parameter.name);
-        if let Some(told) = told.filter(|_| !is_told) {
-            (told.fixed, told.standard_error) = (false, None);
-        }
-    }
-    begun
 }
 
 /// The study with a rung's model. What all tightenings share is held where they put it together.

@@ -106,6 +106,7 @@ mod tests {
             clusters: WHOLE,
             settings: &settings,
             watch: &Watch::new(&tell).until(&ended),
+            may_ask_for_steps: false,
         };
         let path = selection.compare().expect("it can be fitted");
         selection.improve(&[], path).expect("it can be fitted")

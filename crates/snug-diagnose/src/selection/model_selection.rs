@@ -9,6 +9,7 @@ use crate::pooled::fit::{fit_effects, fit_part, fit_sharing};
 use crate::pooled::fitted::Fitted;
 use crate::pooled::model::PooledModel;
 use crate::pooled::sharing::{Groups, Sharing};
+use crate::pooled::steps::resolved::shorter_steps;
 use crate::ranking::applicability::candidates;
 use crate::ranking::by_group::{by_group, explains_more};
 use crate::ranking::paired_gain::gains;
@@ -16,7 +17,7 @@ use crate::ranking::rank::{Candidate, Ranking, rank};
 use crate::selection::path::{Addition, SelectionPath, justified, laws_may_matter, misfit, twins};
 use crate::selection::thresholds::{
     ENOUGH_AHEAD, EQUAL, JUST_AS_MUCH, LEAVES_OF_GENERAL, LITTLE_LEFT, MOST_EFFECTS, MUCH_LEFT,
-    SEEDS,
+    RESOLVED, SEEDS,
 };
 use crate::settings::DiagnoseSettings;
 use snug_least_squares::PooledSettings;
@@ -35,6 +36,8 @@ pub(crate) struct ModelSelection<'a> {
     pub clusters: Clusters,
     pub settings: &'a DiagnoseSettings,
     pub watch: &'a Watch<'a>,
+    /// Whether to end where the simulation takes too few steps for what is found.
+    pub may_ask_for_steps: bool,
 }
 
 impl ModelSelection<'_> {
@@ -131,7 +134,14 @@ impl ModelSelection<'_> {
         )?;
         let most = LEAVES_OF_GENERAL * current.squares();
         (ranking.candidates).retain(|one| !one.effect.is_general() || one.fitted.squares() < most);
-        Ok(ranking)
+        let best = ranking.candidates.iter().take(RESOLVED);
+        let steps = best
+            .filter(|best| self.may_ask_for_steps && best.is_supported(self.settings))
+            .filter_map(|best| shorter_steps(&self.cases, &best.fitted));
+        match steps.max() {
+            Some(steps) => Err(DiagnoseError::Unresolved { steps }),
+            None => Ok(ranking),
+        }
     }
 
     /// The same effects, fitted from there to the end; sizes that differed between groups are one again where what was added makes

@@ -35,6 +35,9 @@ pub(crate) const MUCH_MORE: f64 = 3.0;
 /// Share of the squared error up to which a law that bends to a little of everything may leave, to be believed \[–\]. Chosen: of the
 /// hysteretic benchmark's rig, whose law it is, a general loop leaves 0.1 %.
 pub(crate) const LEAVES_OF_GENERAL: f64 = 0.02;
+/// Candidates, the best, whose simulation must be resolved \[–\]. Chosen: one that is not may come second to a law that is fitted to what the
+/// simulation makes of it.
+pub(crate) const RESOLVED: usize = 3;
 /// Growth of the squared residual of a long record that is no matter of chance \[–\]. Chosen.
 pub(crate) const PLAINLY_MORE: f64 = 1.3;
 /// Share of the squared error of the study's own model below which, where the noise is not known, an effect is told as small

@@ -170,6 +170,7 @@ pub(crate) fn with_selection<T>(
         clusters: WHOLE,
         settings,
         watch: &watch,
+        may_ask_for_steps: false,
     })
 }
 

@@ -49,6 +49,7 @@ impl Restarted<'_> {
                 false => Goal::Improve,
             },
             cases: &cases,
+            may_ask_for_steps: false,
             ..question.clone()
         };
         let mut settings = free.diagnosis.search.clone();

@@ -58,7 +58,7 @@ pub fn diagnose_prepared(
     let compared = common(&comparable.cases)?;
     let pool = pool(threads)?;
     let (last, ladder) =
-        pool.install(|| climbed(study, comparable, verb, progress, interrupted))?;
+        pool.install(|| climbed(study, &comparable, verb, progress, interrupted))?;
     progress(ProgressEvent::Stage {
         what: "evaluating every rung",
     });

@@ -73,6 +73,7 @@ pub fn prepare(study: &Study, tell: &(dyn Fn(FilesRead) + Sync)) -> Result<Prepa
         by_group: study.sizes_by_group(),
         custom: study.model.custom_effects()?,
         goal: Goal::Compare,
+        may_ask_for_steps: false,
     };
     let mut search = study.diagnosis.search.clone();
     search.seed = search.seed.wrapping_add(study.seed);

@@ -4,6 +4,7 @@
 //! good part of what is measured, and half a step is enough for it not to show.
 
 use crate::pooled::equation::DryFriction;
+use crate::pooled::steps::MOST_STEPS;
 use snug_campaign::Quantity;
 use snug_identify::FitTask;
 use snug_signal::white_noise_level;
@@ -11,8 +12,6 @@ use snug_signal::white_noise_level;
 /// Steps from sample to sample where friction stops the motion within one \[–\]. Chosen: of a drive at 20 Hz that rests half of the time, its
 /// friction and lag given, 1.38 times the noise is left with one step, 1.16 with two and 1.15 with eight.
 const STEPS: usize = 2;
-/// Steps of all recordings together up to which they are made shorter: a search takes as long as with as many samples. Chosen.
-const MOST_STEPS: usize = 200_000;
 /// Dry friction over the typical torque from which on it is looked at \[–\]. Chosen.
 const LEAST_FRICTION: f64 = 0.02;
 /// What friction takes of the speed over a sample, over the speed across which it turns along a measured motion, up to which it does not stop
