@@ -134,9 +134,12 @@ impl ModelSelection<'_> {
         )?;
         let most = LEAVES_OF_GENERAL * current.squares();
         (ranking.candidates).retain(|one| !one.effect.is_general() || one.fitted.squares() < most);
+        // In what steps dry friction, which has no state, is simulated was settled before.
+        let has_states = |one: &&Candidate| !one.effect.description().states.is_empty();
         let best = ranking.candidates.iter().take(RESOLVED);
         let steps = best
             .filter(|best| self.may_ask_for_steps && best.is_supported(self.settings))
+            .filter(has_states)
             .filter_map(|best| shorter_steps(&self.cases, &best.fitted));
         match steps.max() {
             Some(steps) => Err(DiagnoseError::Unresolved { steps }),
