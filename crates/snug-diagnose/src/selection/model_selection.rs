@@ -140,7 +140,7 @@ impl ModelSelection<'_> {
         let steps = best
             .filter(|best| self.may_ask_for_steps && best.is_supported(self.settings))
             .filter(has_states)
-            .filter_map(|best| shorter_steps(&self.cases, &best.fitted));
+            .filter_map(|best| shorter_steps(self.cases, &best.fitted));
         match steps.max() {
             Some(steps) => Err(DiagnoseError::Unresolved { steps }),
             None => Ok(ranking),

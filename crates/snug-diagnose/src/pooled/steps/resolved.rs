@@ -1,5 +1,7 @@
 //! In how many steps from sample to sample a model must be simulated, for what it adds to be resolved.
 
+use crate::data::cases::Cases;
+use crate::pooled::equation::values;
 use crate::pooled::fitted::Fitted;
 use crate::pooled::steps::MOST_STEPS;
 use crate::ranking::thresholds::FEW;
@@ -15,7 +17,7 @@ const HARDLY_ANY: f64 = 1e-6;
 const MOST_PER_SAMPLE: usize = 8;
 
 /// The steps where those that `cases` are simulated in are too long for `fitted`; `None` where they do.
-pub(crate) fn shorter_steps(cases: &[FitTask<'_>], fitted: &Fitted) -> Option<usize> {
+pub(crate) fn shorter_steps(cases: Cases<'_>, fitted: &Fitted) -> Option<usize> {
     let samples: usize = cases.iter().map(|case| case.measured().len()).sum();
     let members = fitted.spread(FEW);
     let begun = cases.first()?.input.substeps();
@@ -24,10 +26,19 @@ pub(crate) fn shorter_steps(cases: &[FitTask<'_>], fitted: &Fitted) -> Option<us
         .flat_map(|&member| cases[member].measured())
         .map(|y| y * y)
         .sum();
+    let values = values(cases, fitted)?;
+    let left_in = |steps: usize| -> Option<f64> {
+        let of_members = members.iter().map(|&member| {
+            let (case, values) = (&cases[member], &values[member]);
+            squares_left(case, fitted, values, steps)
+        });
+        let squares: f64 = of_members.sum::<Option<f64>>()?;
+        squares.is_finite().then_some(squares)
+    };
     let mut steps = begun;
-    let mut left = squares_left(cases, fitted, &members, steps)?;
+    let mut left = left_in(steps)?;
     while may_be(2 * steps) {
-        let finer = squares_left(cases, fitted, &members, 2 * steps)?;
+        let finer = left_in(2 * steps)?;
         let is_alike = (1.0 / ALIKE..=ALIKE).contains(&(left / finer));
         if is_alike || (left - finer).abs() < HARDLY_ANY * whole {
             break;
@@ -37,45 +48,25 @@ pub(crate) fn shorter_steps(cases: &[FitTask<'_>], fitted: &Fitted) -> Option<us
     (steps > begun).then_some(steps)
 }
 
-/// What it leaves of these `members`, simulated in so many steps; `None` where an input has a grid of its own, or it cannot be simulated.
-fn squares_left(
-    cases: &[FitTask<'_>],
-    fitted: &Fitted,
-    members: &[usize],
-    steps: usize,
-) -> Option<f64> {
-    let mut squares = 0.0;
-    for &member in members {
-        let case = &cases[member];
-        if case.input.is_band_limited() {
-            return None;
-        }
-        let model = case.model_with(&fitted.effects).ok()?;
-        let named = fitted.all_named(member);
-        let known = |name: &str| {
-            named
-                .iter()
-                .find(|(known, _)| known == name)
-                .map(|one| one.1)
-        };
-        let parameters = model.parameters().iter();
-        let values: Vec<f64> = parameters
-            .map(|one| known(&one.name).unwrap_or(one.value))
-            .collect();
-        let input = case.input.clone().into_owned().in_steps(steps);
-        let finer = FitTask {
-            input: Cow::Owned(input),
-            ..case.lent()
-        };
-        squares += finer.squares_left(&model, &values).ok()?;
+/// What `fitted` leaves of a case with these `values`, simulated in so many steps; `None` where the input has a grid of its own, or it cannot be
+/// simulated.
+fn squares_left(case: &FitTask<'_>, fitted: &Fitted, values: &[f64], steps: usize) -> Option<f64> {
+    if case.input.is_band_limited() {
+        return None;
     }
-    squares.is_finite().then_some(squares)
+    let input = case.input.clone().into_owned().in_steps(steps);
+    let in_steps = FitTask {
+        input: Cow::Owned(input),
+        ..case.lent()
+    };
+    let model = case.model_with(&fitted.effects).ok()?;
+    in_steps.squares_left(&model, values).ok()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::data::cases::{Cases, Tally};
+    use crate::data::cases::Tally;
     use crate::pooled::fit::fit_effects;
     use crate::tests::made_up::{WHOLE, exact};
     use snug_model::Effect::{self, BoucWen, CubicStiffness};
@@ -85,8 +76,9 @@ mod tests {
             .map(|number| exact(number, &[effect], sizes))
             .collect();
         let tally = Tally::default();
-        let fitted = fit_effects(Cases::new(&cases, &tally), &[effect], None, WHOLE);
-        shorter_steps(&cases, &fitted.expect("it can be fitted"))
+        let cases = Cases::new(&cases, &tally);
+        let fitted = fit_effects(cases, &[effect], None, WHOLE);
+        shorter_steps(cases, &fitted.expect("it can be fitted"))
     }
 
     #[test]
