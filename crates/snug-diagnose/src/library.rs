@@ -174,6 +174,7 @@ mod tests {
         ("slack_spring_law", 0.01),
         // 2 tanh(600).
         ("preload_law", 2.0),
+        ("abs_torque_law", 50.0),
         // 2 (25 − 62.5).
         ("torque2_law", -75.0),
         ("torque_abs_torque_law", -75.0),
@@ -263,6 +264,7 @@ mod tests {
             "lower_end_stop_law",
             "slack_spring_law",
             "preload_law",
+            "abs_torque_law",
             "torque2_law",
             "torque_abs_torque_law",
             "torque_x_law",

@@ -120,10 +120,19 @@ impl<'a> FitTask<'a> {
     /// # Errors
     /// What the model refuses.
     pub fn squares_left(&self, model: &Model, values: &[f64]) -> Result<f64, ModelError> {
-        let mut simulated = vec![0.0; self.measured().len()];
-        model.output(values, &self.input, self.quantity(), &mut simulated)?;
+        let simulated = self.simulated(model, values)?;
         let scored = simulated.iter().zip(self.measured()).skip(self.unscored());
         Ok(scored.map(|(s, y)| (y - s).powi(2)).sum())
+    }
+
+    /// The fitted output of every sample, in its unit, where `model` has these values of all its parameters.
+    ///
+    /// # Errors
+    /// What the model refuses.
+    pub fn simulated(&self, model: &Model, values: &[f64]) -> Result<Vec<f64>, ModelError> {
+        let mut simulated = vec![0.0; self.measured().len()];
+        model.output(values, &self.input, self.quantity(), &mut simulated)?;
+        Ok(simulated)
     }
 
     /// Its first `samples` samples.

@@ -127,21 +127,24 @@ pub(crate) fn climbed(
     progress: &(dyn Fn(ProgressEvent<'_>) + Sync),
     interrupted: &AtomicBool,
 ) -> Result<(Study, Ladder), StudyError> {
-    match climbed_in_steps(study, comparable, verb, progress, interrupted) {
-        Err(StudyError::Diagnose(DiagnoseError::Unresolved { steps })) => {
-            let what = format!("simulating in {steps} steps from sample to sample");
-            progress(ProgressEvent::Stage { what: &what });
-            let mut shorter = study.clone();
-            shorter.model.steps_per_sample = Some(steps);
-            climbed_in_steps(&shorter, comparable, verb, progress, interrupted)
+    let may_ask = study.model.steps_per_sample.is_none();
+    let mut study = study.clone();
+    loop {
+        match climbed_in_steps(&study, may_ask, comparable, verb, progress, interrupted) {
+            Err(StudyError::Diagnose(DiagnoseError::Unresolved { steps })) => {
+                let what = format!("simulating in {steps} steps from sample to sample");
+                progress(ProgressEvent::Stage { what: &what });
+                study.model.steps_per_sample = Some(steps);
+            }
+            found => return found,
         }
-        found => found,
     }
 }
 
-/// The same, simulated as the study says.
+/// The same, simulated as the study says; asking for shorter steps where it may.
 fn climbed_in_steps(
     study: &Study,
+    may_ask: bool,
     comparable: &Comparable,
     verb: &Verb,
     progress: &(dyn Fn(ProgressEvent<'_>) + Sync),
@@ -166,8 +169,7 @@ fn climbed_in_steps(
         by_group: study.sizes_by_group(),
         custom: study.model.custom_effects()?,
         goal: goal(study, verb, &cases)?,
-        may_ask_for_steps: as_told.model.steps_per_sample.is_none()
-            && matches!(study.model.scale, Scale::Rig { .. }),
+        may_ask_for_steps: may_ask && matches!(study.model.scale, Scale::Rig { .. }),
     };
     let search = Search {
         settings: &search,

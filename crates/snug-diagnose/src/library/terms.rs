@@ -297,6 +297,13 @@ pub(super) const OF_A_MACHINE: &[Term] = &[
         parameters: &[p("N")],
     },
     Term {
+        name: "abs_torque_law",
+        says: "an input that acts less forwards than backwards",
+        says_below_zero: "an input that acts more forwards than backwards",
+        expression: "p*abs(T)",
+        parameters: &[p("N/Nm")],
+    },
+    Term {
         name: "torque2_law",
         says: "an input whose square acts as well, or instead",
         says_below_zero: "an input whose square acts against it",

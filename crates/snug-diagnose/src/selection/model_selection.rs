@@ -134,17 +134,25 @@ impl ModelSelection<'_> {
         )?;
         let most = LEAVES_OF_GENERAL * current.squares();
         (ranking.candidates).retain(|one| !one.effect.is_general() || one.fitted.squares() < most);
-        // In what steps dry friction, which has no state, is simulated was settled before.
-        let has_states = |one: &&Candidate| !one.effect.description().states.is_empty();
-        let best = ranking.candidates.iter().take(RESOLVED);
-        let steps = best
-            .filter(|best| self.may_ask_for_steps && best.is_supported(self.settings))
-            .filter(has_states)
-            .filter_map(|best| shorter_steps(self.cases, &best.fitted));
-        match steps.max() {
+        match self.steps_asked_for(current, &ranking) {
             Some(steps) => Err(DiagnoseError::Unresolved { steps }),
             None => Ok(ranking),
         }
+    }
+
+    /// The shorter steps in which `current` and the best candidates must be simulated, where this search may ask for them: what was exchanged
+    /// for a candidate was none itself. In what steps dry friction, which has no state, is simulated was settled before.
+    fn steps_asked_for(&self, current: &Fitted, ranking: &Ranking) -> Option<usize> {
+        if !self.may_ask_for_steps {
+            return None;
+        }
+        let has_states = |effect: &Effect| !effect.description().states.is_empty();
+        let last = Some(current).filter(|last| last.effects.iter().any(has_states));
+        let best = (ranking.candidates.iter().take(RESOLVED))
+            .filter(|best| best.is_supported(self.settings) && has_states(&best.effect))
+            .map(|best| &best.fitted);
+        let steps = best.chain(last);
+        steps.filter_map(|one| shorter_steps(self.cases, one)).max()
     }
 
     /// The same effects, fitted from there to the end; sizes that differed between groups are one again where what was added makes
