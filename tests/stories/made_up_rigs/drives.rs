@@ -1,6 +1,6 @@
 //! Rigs of which an engineer would name the drive, or that a controller holds them where they would not stay.
 
-use super::rig::{Noise, Rig, TORQUE, moved, moved_from};
+use super::rig::{FORCE, Noise, Rig, TORQUE, moved, moved_from};
 use super::{names, says};
 use snug_campaign::{Diagnosis, Verdict};
 use snug_study::Verb;
@@ -275,4 +275,40 @@ fn a_pendulum_that_is_held_upright_lacks_its_weight_and_dry_friction() {
         let size = &added.find(|one| one.effect == effect).unwrap().parameters[0];
         assert!((size.value / made - 1.0).abs() < 0.1, "{size:?}");
     }
+}
+
+/// Oil acts on less area beside a cylinder's rod. Alone, the law leaves no less than a damper that is stronger one way, which is known and comes
+/// in first; an offset came in beside it, and the verdict was open.
+#[test]
+fn a_cylinder_that_pulls_with_less_than_it_pushes_is_told_so_beside_its_friction() {
+    const SPEED_NOISE: f64 = 5e-3;
+    let mut noise = Noise(58);
+    let mut recording = || {
+        let inputs = noise.levels([-200.0, 200.0], 80, 1600);
+        let rate = |[v]: [f64; 1], u: f64| {
+            let acts = if u > 0.0 { u } else { 0.65 * u };
+            [(acts - 40.0 * v - 30.0 * (v / 2e-3).tanh()) / 2.4]
+        };
+        let speeds = moved(&inputs, 80, rate).map(|[v]| v);
+        noise.with(&inputs, speeds, SPEED_NOISE)
+    };
+    let rig = Rig {
+        recordings: (0..3).map(|_| recording()).collect(),
+        declared: [FORCE, "Velocity", "MetrePerSecond"],
+        fitted: "Velocity",
+    };
+    let diagnosis = rig.told_with("intersample: ZeroOrder", &Verb::Improve);
+    let headline = &diagnosis.headline;
+    assert_eq!(
+        names(&diagnosis),
+        ["abs_torque_law", "coulomb_friction"],
+        "{headline}"
+    );
+    // Of the mean of both gains, 0.825.
+    for (one, size) in diagnosis.added.iter().zip([-0.175 / 0.825, 30.0 / 0.825]) {
+        let found = one.parameters[0].value;
+        assert!((found / size - 1.0).abs() < 0.01, "{found}: {headline}");
+    }
+    let left = diagnosis.ladder.last().unwrap().rms_fitted_output;
+    assert!(left < 1.1 * SPEED_NOISE, "{left}: {headline}");
 }

@@ -1,15 +1,18 @@
 //! One law in no catalogue in place of what was taken for it.
 //!
 //! Of few long records what is known comes in first, also where it leaves more: what the law does beyond it may be another effect. Where in
-//! the end only others that stand in for the rest leave as little, or nothing does, the law that was passed over is the likelier story.
+//! the end only others that stand in for the rest leave as little, or nothing does, the law that was passed over is the likelier story; so is
+//! one that beside all that came in since leaves plainly less than what was taken for it.
 
 use crate::error::DiagnoseError;
 use crate::library::is_unlisted;
 use crate::pooled::fitted::Fitted;
-use crate::ranking::rank::Candidate;
+use crate::ranking::rank::{Candidate, Ranking};
+use crate::selection::in_place::fit_in_place;
 use crate::selection::model_selection::{ModelSelection, Step};
 use crate::selection::path::{Ranked, SelectionPath};
-use crate::selection::thresholds::{MUCH_MORE, ONE_LAW};
+use crate::selection::thresholds::{CAME_AS_NEAR, FEW_LAWS, MUCH_MORE, ONE_LAW};
+use snug_model::Effect;
 
 impl ModelSelection<'_> {
     /// The rung to go back to, and what to add there; `None` where no law passed over does for what was added instead.
@@ -25,7 +28,12 @@ impl ModelSelection<'_> {
                     && law.is_supported(self.settings)
                     && does_for_all(&law.fitted, taken, last)
             };
-            let Some(index) = ranking.candidates.iter().position(does) else {
+            let alone = ranking.candidates.iter().position(does);
+            if let Some(index) = self.law_beside_the_others(path, place, ranking)? {
+                let (addition, fitted) = self.step(ranking, index, beside);
+                return Ok(Some((place, (addition, self.settled(&fitted)?))));
+            }
+            let Some(index) = alone else {
                 continue;
             };
             let (addition, fitted) = self.step(ranking, index, beside);
@@ -35,6 +43,45 @@ impl ModelSelection<'_> {
             }
         }
         Ok(None)
+    }
+
+    /// Which of the laws that came nearest beside rung number `place` leaves plainly less than the last model does, in the place of what
+    /// was added there and beside all that came in since.
+    fn law_beside_the_others(
+        &self,
+        path: &SelectionPath,
+        place: usize,
+        ranking: &Ranking,
+    ) -> Result<Option<usize>, DiagnoseError> {
+        let (last, taken) = (path.last(), &path.rungs[place + 1]);
+        let is_new = |effect: &&Effect| !path.rungs[place].effects.contains(effect);
+        let Some(&known) = taken.effects.iter().find(is_new) else {
+            return Ok(None);
+        };
+        if last.is_weighted || !last.effects.contains(&known) || is_unlisted(known) {
+            return Ok(None);
+        }
+        let came_as_near = |law: &Candidate| {
+            is_unlisted(law.effect)
+                && law.is_supported(self.settings)
+                && law.fitted.squares() <= CAME_AS_NEAR * taken.squares()
+        };
+        let all = ranking.candidates.iter().enumerate();
+        let laws = all.filter(|(_, law)| came_as_near(law)).take(FEW_LAWS);
+        let mut least = ONE_LAW[0] * last.squares();
+        let mut best = None;
+        for (index, law) in laws {
+            let doing = format!("trying {} in place of {}", law.effect.name(), known.name());
+            self.watch.begin(&doing)?;
+            let swapped = fit_in_place(self.cases, last, known, law.effect, self.clusters);
+            if let Ok(swapped) = swapped
+                && swapped.squares() <= least
+            {
+                least = swapped.squares();
+                best = Some(index);
+            }
+        }
+        Ok(best)
     }
 }
 
@@ -51,7 +98,7 @@ fn does_for_all(law: &Fitted, taken: &Fitted, last: &Fitted) -> bool {
 mod tests {
     use super::*;
     use crate::tests::made_up::{SAMPLES, term};
-    use snug_model::Effect::{self, Backlash, CubicStiffness, MaxwellBranch};
+    use snug_model::Effect::{Backlash, CubicStiffness, MaxwellBranch};
 
     /// A model of a few long records whose noise nobody knows.
     fn left(effects: &[Effect], squares: f64) -> Fitted {

@@ -32,6 +32,11 @@ pub(crate) const ONE_LAW: [f64; 3] = [0.5, 0.98, 1.05];
 /// Times the law's squared error that the known effect must have left in its place \[–\]. Chosen: springs of x |x| were called cubic with
 /// a ripple, or exponential with play and a spring in series with a damper, where the known one alone left 10 to 30 times as much.
 pub(crate) const MUCH_MORE: f64 = 3.0;
+/// Times the squared error of what was added that a law may leave to be tried in its place beside all that came in since \[–\], ... Chosen:
+/// of a cylinder that pulls with less than it pushes, the law and a damper that is stronger one way left as much without dry friction.
+pub(crate) const CAME_AS_NEAR: f64 = 1.2;
+/// ... and how many such laws are. Chosen.
+pub(crate) const FEW_LAWS: usize = 3;
 /// Share of the squared error up to which a law that bends to a little of everything may leave, to be believed \[–\]. Chosen: of the
 /// hysteretic benchmark's rig, whose law it is, a general loop leaves 0.1 %.
 pub(crate) const LEAVES_OF_GENERAL: f64 = 0.02;
