@@ -8,11 +8,11 @@ use crate::ranking::thresholds::FEW;
 use snug_identify::FitTask;
 use std::borrow::Cow;
 
-/// Mean square of what half the step changes of the output, over that of what is left, up to which the step is short enough \[–\]. Compared
-/// are the simulations and not their errors: a fit in too long a step bends until half a step leaves as much, in another place. Chosen: of a
-/// loop that turns within a sample under a sensor that lets nothing slow through, two, four and eight steps changed 0.77 to 0.89 of it and led to
-/// other effects, sixteen found both at the noise; where the step did for all that mattered it was 0.035 and less.
-const SHORT_ENOUGH: f64 = 0.1;
+/// Mean square of what half the step changes of the output, over that of the motion and of the noise that are left, up to which the step is short
+/// enough \[–\]. Compared are the simulations and not their errors: a fit in too long a step bends until half a step leaves as much, in
+/// another place. Of the motion, chosen: where half the step changed 0.03 to 0.09 of it, fits had bent to a third and to three times the sizes.
+/// Of the noise, chosen: where it reaches that and changes less, no shorter step finds more.
+const SHORT_ENOUGH: [f64; 2] = [0.02, 0.1];
 /// Share of the squared output below which a difference is none, however little is left \[–\]. Chosen: a thousandth of the output.
 const HARDLY_ANY: f64 = 1e-6;
 /// Steps from sample to sample at most \[–\]. Chosen: beyond, it is a rig for which the recordings are sampled too slowly.
@@ -37,12 +37,12 @@ pub(crate) fn shorter_steps(cases: Cases<'_>, fitted: &Fitted) -> Option<usize> 
         .collect();
     let begun = cases.first()?.input.substeps();
     let (mut steps, mut output) = (begun, simulated_in(begun)?);
-    let left = squares_between(&output, &measured);
+    let most = short_enough(&measured, &output);
     let whole: f64 = measured.iter().map(|y| y * y).sum();
     while may_be(2 * steps) {
         let finer = simulated_in(2 * steps)?;
         let changed = squares_between(&finer, &output);
-        if changed <= SHORT_ENOUGH * left || changed < HARDLY_ANY * whole {
+        if changed <= most || changed < HARDLY_ANY * whole {
             break;
         }
         (steps, output) = (2 * steps, finer);
@@ -70,6 +70,21 @@ fn simulated(
     let mut output = in_steps.simulated(&model, values).ok()?;
     output.drain(..case.unscored());
     output.iter().all(|y| y.is_finite()).then_some(output)
+}
+
+/// How much half a step may change \[the output's unit squared\]. What neighbours of what is left do not share is noise: of white noise half the
+/// squared differences between them are its power.
+fn short_enough(measured: &[f64], simulated: &[f64]) -> f64 {
+    let left: Vec<f64> = (measured.iter().zip(simulated))
+        .map(|(y, s)| y - s)
+        .collect();
+    let whole: f64 = left.iter().map(|e| e * e).sum();
+    let apart: f64 = (left.windows(2))
+        .map(|both| (both[1] - both[0]).powi(2))
+        .sum();
+    let noise = whole.min(0.5 * apart);
+    let [of_motion, of_noise] = SHORT_ENOUGH;
+    of_motion * (whole - noise) + of_noise * noise
 }
 
 fn squares_between(one: &[f64], other: &[f64]) -> f64 {
