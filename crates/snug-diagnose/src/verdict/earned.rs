@@ -303,10 +303,12 @@ pub(crate) fn suspicions(
         .chain(changed.derivatives())
         .collect();
     if found.is_empty() {
-        found.push(match is_still(cases) {
-            true => Suspicion::Still,
-            false if lost_their_sign(cases) => Suspicion::NoSign(explained.output),
-            false => left_over.unwrap_or(Suspicion::NoOscillator),
+        // A spike hides whatever moves beside it, and is as white as what does not.
+        found.push(match left_over {
+            Some(spikes @ Suspicion::Outliers { .. }) => spikes,
+            _ if is_still(cases) => Suspicion::Still,
+            _ if lost_their_sign(cases) => Suspicion::NoSign(explained.output),
+            left_over => left_over.unwrap_or(Suspicion::NoOscillator),
         });
     }
     found

@@ -163,6 +163,25 @@ fn where_noise_alone_is_measured_nothing_moves() {
     assert_eq!(found, [Suspicion::Still]);
 }
 
+#[test]
+fn one_spike_is_told_before_that_nothing_moves() {
+    let (torque_nm, mut angle_rad) = oscillator();
+    angle_rad[SAMPLES / 2] = 1e12;
+    let spike = told_of(&angle_rad, 0.0);
+    let task = declared(torque_nm, angle_rad, Quantity::Displacement);
+    let explained = Explained {
+        output: "displacement",
+        share: 0.0,
+        neighbours: 0.0,
+        is_exact: false,
+    };
+    let found = suspicions(&[task], explained, spike);
+    assert!(
+        matches!(found[..], [Suspicion::Outliers { share, .. }] if share > 0.99),
+        "{found:?}"
+    );
+}
+
 /// What is told of a model that leaves `left` of a motion.
 fn told_of(left: &[f64], share: f64) -> Option<Suspicion> {
     let (torque_nm, angle_rad) = oscillator();
