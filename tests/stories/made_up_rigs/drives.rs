@@ -84,7 +84,7 @@ fn a_motor_whose_current_rises_slowly_lacks_that_and_dry_friction() {
         noise.with(&inputs, speeds, 0.01)
     };
     let rig = Rig {
-        recordings: (0..4).map(|_| recording()).collect(),
+        recordings: (0..2).map(|_| recording()).collect(),
         declared: [TORQUE, "Velocity", "RadianPerSecond"],
         fitted: "Velocity",
     };
@@ -119,7 +119,7 @@ fn a_motor_with_a_load_on_a_shaft_lacks_the_load_and_dry_friction() {
         noise.with(&inputs, speeds, SPEED_NOISE)
     };
     let rig = Rig {
-        recordings: (0..3).map(|_| recording()).collect(),
+        recordings: (0..2).map(|_| recording()).collect(),
         declared: [TORQUE, "Velocity", "RadianPerSecond"],
         fitted: "Velocity",
     };
@@ -164,7 +164,7 @@ fn a_servo_in_its_loop_lacks_dry_friction_and_is_no_speed() {
         }
         rows
     };
-    let rig = Rig::that_turns((0..4).map(|_| recording()).collect());
+    let rig = Rig::that_turns((0..2).map(|_| recording()).collect());
     let diagnosis = rig.told(&Verb::Improve);
     let headline = &diagnosis.headline;
     assert_eq!(names(&diagnosis), ["coulomb_friction"], "{headline}");
