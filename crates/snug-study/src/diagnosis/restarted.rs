@@ -35,9 +35,7 @@ impl Restarted<'_> {
         };
         let added = &self.found.diagnosis.added;
         let is_listed = added.iter().all(|one| one.expression.is_none());
-        let follows = is_listed
-            && !added.is_empty()
-            && is_followed(&with_found(&free, self.found, recorded())?);
+        let follows = !added.is_empty() && is_followed(&with_found(&free, self.found, recorded())?);
         if !follows && !leaves_a_motion(&with_found(self.study, self.found, recorded())?) {
             return Ok(None);
         }
@@ -45,7 +43,12 @@ impl Restarted<'_> {
         let names: Vec<String> = added.iter().map(|one| one.effect.clone()).collect();
         let question = Question {
             goal: match follows {
-                true => Goal::ImproveFrom(effects(&free, &names, &cases)?),
+                // It declares the laws that are in no catalogue.
+                true => Goal::ImproveFrom(effects(
+                    &with_last_model(&free, self.found),
+                    &names,
+                    &cases,
+                )?),
                 false => Goal::Improve,
             },
             cases: &cases,
