@@ -11,6 +11,7 @@ mod loads;
 mod loops;
 mod rig;
 mod sensors;
+mod stops;
 mod unheld;
 mod zeros;
 
