@@ -53,8 +53,7 @@ impl LiveCases {
             None => case.model_with(&fitted.effects)?,
         };
         let values: Vec<f64> = model.parameters().iter().map(|p| p.value).collect();
-        let mut output = vec![0.0; case.measured().len()];
-        model.output(&values, &case.input, case.quantity(), &mut output)?;
+        let output = case.simulated(&model, &values)?;
         let mut estimate = identify(&model, &case.input, &case.tightening, &case.settings)?;
         let shared: Vec<(&str, Interval)> = (fit.sizes().iter().flat_map(|(_, sizes)| sizes))
             .filter_map(|size| {

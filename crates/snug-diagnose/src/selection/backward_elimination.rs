@@ -8,7 +8,6 @@ use crate::ranking::kin::is_simpler;
 use crate::ranking::paired_gain::{clearness, gains};
 use crate::ranking::rank::is_all_size;
 use crate::ranking::thresholds::PLAINLY_MISSED;
-use crate::selection::in_place::fit_in_place;
 use crate::selection::model_selection::ModelSelection;
 use crate::selection::path::{SelectionPath, leaves_more};
 use crate::selection::simpler::does_for;
@@ -110,10 +109,7 @@ pub(crate) fn prefer_simpler(
         let full = path.last().clone();
         let heldout = full.heldout_beyond_torque_noise();
         for simple in selection.in_place_of(rich, &full, is_simpler)? {
-            let doing = format!("trying {} in place of {}", simple.name(), rich.name());
-            selection.watch.begin(&doing)?;
-            let swapped =
-                fit_in_place(selection.cases, &full, rich, simple, selection.clusters).ok();
+            let swapped = selection.with_other(&full, rich, simple)?;
             let does = |one: &Fitted| match are_whole {
                 true => is_as_good(selection, &full, &heldout, one),
                 false => does_for(one, &full, &path.rungs[0]),
@@ -178,10 +174,7 @@ fn as_good(
         .filter(|twin| !full.effects.contains(twin));
     let mut found = Vec::new();
     for &twin in others {
-        let (effect, clusters) = (addition.effect, selection.clusters);
-        let doing = format!("trying {} in place of {}", twin.name(), effect.name());
-        selection.watch.begin(&doing)?;
-        let swapped = fit_in_place(selection.cases, full, effect, twin, clusters).ok();
+        let swapped = selection.with_other(full, addition.effect, twin)?;
         let as_good = swapped.filter(|one| is_as_good(selection, full, &heldout, one));
         found.extend(as_good.map(|swapped| (twin, swapped)));
     }

@@ -9,11 +9,26 @@ use crate::pooled::model::{PooledModel, Start};
 use crate::pooled::parameter_place::{effect_of, first_parameter};
 use crate::ranking::refit::with_effect;
 use crate::ranking::resonances;
+use crate::selection::model_selection::ModelSelection;
 use snug_model::{Effect, Law, ParameterSpec};
+
+impl ModelSelection<'_> {
+    /// `full` with `other` in place of `effect`; `None` where that cannot be fitted.
+    pub(super) fn with_other(
+        &self,
+        full: &Fitted,
+        effect: Effect,
+        other: Effect,
+    ) -> Result<Option<Fitted>, DiagnoseError> {
+        let doing = format!("trying {} in place of {}", other.name(), effect.name());
+        self.watch.begin(&doing)?;
+        Ok(fit_in_place(self.cases, full, effect, other, self.clusters).ok())
+    }
+}
 
 /// `full` with `other` in place of `effect`, from whichever of its starts leads lowest: what both have a number for begins where it ended, and
 /// a resonance also where the spectra show one.
-pub(super) fn fit_in_place(
+fn fit_in_place(
     cases: Cases<'_>,
     full: &Fitted,
     effect: Effect,

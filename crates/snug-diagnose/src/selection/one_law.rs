@@ -8,7 +8,6 @@ use crate::error::DiagnoseError;
 use crate::library::is_unlisted;
 use crate::pooled::fitted::Fitted;
 use crate::ranking::rank::{Candidate, Ranking};
-use crate::selection::in_place::fit_in_place;
 use crate::selection::model_selection::{ModelSelection, Step};
 use crate::selection::path::{Ranked, SelectionPath};
 use crate::selection::thresholds::{CAME_AS_NEAR, FEW_LAWS, MUCH_MORE, ONE_LAW};
@@ -28,17 +27,14 @@ impl ModelSelection<'_> {
                     && law.is_supported(self.settings)
                     && does_for_all(&law.fitted, taken, last)
             };
-            let alone = ranking.candidates.iter().position(does);
-            if let Some(index) = self.law_beside_the_others(path, place, ranking)? {
-                let (addition, fitted) = self.step(ranking, index, beside);
-                return Ok(Some((place, (addition, self.settled(&fitted)?))));
-            }
-            let Some(index) = alone else {
+            let beside_the_others = self.law_beside_the_others(path, place, ranking)?;
+            let alone = || ranking.candidates.iter().position(does);
+            let Some(index) = beside_the_others.or_else(alone) else {
                 continue;
             };
             let (addition, fitted) = self.step(ranking, index, beside);
             let settled = self.settled(&fitted)?;
-            if does_for_all(&settled, taken, last) {
+            if beside_the_others.is_some() || does_for_all(&settled, taken, last) {
                 return Ok(Some((place, (addition, settled))));
             }
         }
@@ -71,10 +67,7 @@ impl ModelSelection<'_> {
         let mut least = ONE_LAW[0] * last.squares();
         let mut best = None;
         for (index, law) in laws {
-            let doing = format!("trying {} in place of {}", law.effect.name(), known.name());
-            self.watch.begin(&doing)?;
-            let swapped = fit_in_place(self.cases, last, known, law.effect, self.clusters);
-            if let Ok(swapped) = swapped
+            if let Some(swapped) = self.with_other(last, known, law.effect)?
                 && swapped.squares() <= least
             {
                 least = swapped.squares();

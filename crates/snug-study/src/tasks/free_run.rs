@@ -154,9 +154,7 @@ fn missed(cases: &[FitTask<'_>]) -> Option<Missed> {
         sprung += usize::from(shows(2));
         let error = found.and_then(|found| {
             let values: Vec<f64> = found.parameters.iter().map(|p| p.value).collect();
-            let mut error = vec![0.0; measured.len()];
-            case.model
-                .output(&values, &case.input, case.quantity(), &mut error)?;
+            let mut error = case.simulated(&case.model, &values)?;
             error
                 .iter_mut()
                 .zip(measured)
