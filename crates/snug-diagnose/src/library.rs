@@ -175,6 +175,8 @@ mod tests {
         // 2 tanh(600).
         ("preload_law", 2.0),
         ("abs_torque_law", 50.0),
+        ("peak_v_law", -0.06),
+        ("level_v_law", -0.189_736_659_610_102_8),
         // 2 (25 − 62.5).
         ("torque2_law", -75.0),
         ("torque_abs_torque_law", -75.0),
@@ -264,6 +266,8 @@ mod tests {
             "lower_end_stop_law",
             "slack_spring_law",
             "preload_law",
+            "peak_v_law",
+            "level_v_law",
             "abs_torque_law",
             "torque2_law",
             "torque_abs_torque_law",

@@ -34,6 +34,42 @@ fn an_axis_with_an_unrecorded_load_lacks_what_air_does_or_nothing() {
     }
 }
 
+/// A rotor with a brake of eddy currents, and one in a fluid that gives way: as a damper while they are slow, dry friction came closest to
+/// what is weaker beyond a speed.
+#[test]
+fn a_rotor_lacks_a_brake_that_is_weaker_beyond_a_speed() {
+    type Brake = fn(f64) -> f64;
+    let brakes: [(&str, Brake); 2] = [
+        ("peak_v_law", |v| 0.9 * v / (1.0 + (v / 25.0).powi(2))),
+        ("level_v_law", |v| {
+            0.9 * v / (1.0 + (v / 25.0).powi(2)).sqrt()
+        }),
+    ];
+    for (law, brake) in brakes {
+        let mut noise = Noise(67);
+        let mut recording = || {
+            let inputs = noise.levels([-30.0, 30.0], 150, 4000);
+            let rate = |[v]: [f64; 1], u: f64| [(u - 0.04 * v - brake(v)) / 0.04];
+            let speeds = moved(&inputs, 4, rate).map(|[v]| v);
+            noise.with(&inputs, speeds, 0.05)
+        };
+        let rig = Rig {
+            recordings: (0..2).map(|_| recording()).collect(),
+            declared: [TORQUE, "Velocity", "RadianPerSecond"],
+            fitted: "Velocity",
+        };
+        let diagnosis = rig.told_with("intersample: ZeroOrder", &Verb::Improve);
+        let headline = &diagnosis.headline;
+        assert_eq!(names(&diagnosis), [law], "{headline}");
+        for (one, size) in diagnosis.added[0].parameters.iter().zip([0.9, 25.0]) {
+            let found = one.value;
+            assert!((found / size - 1.0).abs() < 0.02, "{found}: {headline}");
+        }
+        let left = diagnosis.ladder.last().unwrap().rms_fitted_output;
+        assert!(left < 0.055, "{left}: {headline}");
+    }
+}
+
 /// A drive with a fine encoder, its torque held from sample to sample: what a straight torque misses is more than the encoder's noise and no
 /// reason to restart, and nothing is missing.
 #[test]

@@ -297,6 +297,20 @@ pub(super) const OF_A_MACHINE: &[Term] = &[
         parameters: &[p("N")],
     },
     Term {
+        name: "peak_v_law",
+        says: "a brake that is strongest at the speed v0, as of eddy currents",
+        says_below_zero: "a pull along the motion that is strongest at the speed v0",
+        expression: "p*v/(1+(v/v0)^2)",
+        parameters: BRAKE,
+    },
+    Term {
+        name: "level_v_law",
+        says: "damping that levels off beyond the speed v0",
+        says_below_zero: "damping that is weaker below the speed v0 than beyond",
+        expression: "p*v/sqrt(1+(v/v0)^2)",
+        parameters: BRAKE,
+    },
+    Term {
         name: "abs_torque_law",
         says: "an input that acts less forwards than backwards",
         says_below_zero: "an input that acts more forwards than backwards",
@@ -337,5 +351,20 @@ pub(super) const OF_A_MACHINE: &[Term] = &[
         says_below_zero: "an input that acts more the faster the rig moves",
         expression: "p*T*abs(v)",
         parameters: &[p("s/m^2")],
+    },
+];
+
+/// Numbers of a damper that is another one beyond a speed.
+const BRAKE: &[Factor] = &[
+    Factor {
+        starts: &[10.0],
+        ..p("N s/m")
+    },
+    Factor {
+        name: "v0",
+        unit: "m/s",
+        starts: &[0.1, 0.3],
+        minimum: 0.01,
+        maximum: 3.0,
     },
 ];
