@@ -4,6 +4,7 @@ pub(crate) mod cases;
 pub(crate) mod clusters;
 pub(crate) mod follower;
 pub(crate) mod machine;
+pub(crate) mod neighbours;
 pub(crate) mod power;
 pub(crate) mod simulation;
 pub(crate) mod thresholds;

@@ -62,7 +62,7 @@ pub fn examine(
     };
     let changes = match goal {
         Goal::Diagnose | Goal::Improve => changes_above_all(counted, &compared.rungs)?,
-        Goal::Compare | Goal::Add(_) | Goal::ImproveFrom(_) => None,
+        Goal::Compare | Goal::Add(_) | Goal::ImproveFrom(..) => None,
     };
     let goal = match changes.is_some() {
         true => &Goal::Compare,
@@ -139,7 +139,7 @@ fn selected(
         Goal::Diagnose => selection.diagnose(compared),
         Goal::Add(effects) => selection.add(effects, compared),
         Goal::Improve => selection.improve(&[], compared),
-        Goal::ImproveFrom(effects) => selection.improve(effects, compared),
+        Goal::ImproveFrom(begun) => selection.improve(begun, compared),
     }
 }
 

@@ -32,7 +32,7 @@ pub use pooled::shared_block::{SharedBlock, SharedParameter, shared_blocks, shar
 pub use pooled::steps::friction::steps_per_sample;
 pub use pooled::thresholds::{FALSE_DISCOVERIES, ROUNDING};
 pub use pooled::together::{Together, fit_together};
-pub use question::{Goal, Question};
+pub use question::{Begun, Goal, Question};
 pub use ranking::free_run::is_followed_with_an_effect;
 pub use settings::DiagnoseSettings;
 pub use snug_identify::derived::Derived;

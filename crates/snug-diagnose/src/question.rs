@@ -20,7 +20,17 @@ pub enum Goal {
     /// Effects are added as long as the data justify it.
     Improve,
     /// The same, begun with these.
-    ImproveFrom(Vec<Effect>),
+    ImproveFrom(Vec<Begun>),
+}
+
+/// An effect to begin with.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Begun {
+    /// The effect.
+    pub effect: Effect,
+    /// Values of parameters that all tightenings share, by name, where a model with it and those before it may begin: where another fit of
+    /// that ended.
+    pub values: Vec<(String, f64)>,
 }
 
 impl<'a> Question<'a> {
@@ -62,7 +72,7 @@ impl Goal {
             Self::Compare => "compare",
             Self::Diagnose => "diagnose",
             Self::Add(_) => "add",
-            Self::Improve | Self::ImproveFrom(_) => "improve",
+            Self::Improve | Self::ImproveFrom(..) => "improve",
         }
     }
 }

@@ -17,7 +17,9 @@ use restarted::Restarted;
 use snug_campaign::words::number::significant;
 use snug_campaign::words::reason::Reason;
 use snug_campaign::{GroupSize, GroupSizes};
-use snug_diagnose::{Answer, DiagnoseError, Goal, Pieces, Question, RungModel, Watch, examine};
+use snug_diagnose::{
+    Answer, Begun, DiagnoseError, Goal, Pieces, Question, RungModel, Watch, examine,
+};
 use snug_identify::{FitTask, IdentifyError};
 use snug_least_squares::SolveError;
 use snug_model::{Effect, GroupValue, ParameterSettings, Scale, ValuesByGroup};
@@ -247,8 +249,9 @@ impl Search<'_> {
         let interval_s = cases[0].tightening.time_base.interval_s;
         let rest = held_input::without_stand_ins(&straight.diagnosis, interval_s);
         let from = rest.map(|names| effects(&held_study, &names, &cases));
-        let goals =
-            std::iter::once(question.goal.clone()).chain(from.transpose()?.map(Goal::ImproveFrom));
+        let from = from.transpose()?;
+        let from = from.map(|rest| Goal::ImproveFrom(begun(rest, &straight)));
+        let goals = std::iter::once(question.goal.clone()).chain(from);
         for goal in goals {
             let question = Question {
                 goal,
@@ -419,6 +422,27 @@ fn values_by_group(sizes: &GroupSizes) -> ValuesByGroup {
 fn with_last_model(study: &Study, answer: &Answer) -> Study {
     let last = answer.models.last();
     last.map_or_else(|| study.clone(), |model| with_model(study, model, true))
+}
+
+/// These effects one after the other as the rungs of `answer` have them; where none has just these, as its last has them.
+fn begun(effects: Vec<Effect>, answer: &Answer) -> Vec<Begun> {
+    let names: Vec<&str> = effects.iter().map(Effect::name).collect();
+    let with = |first: &[&str]| {
+        let has_just = |rung: &&RungModel| {
+            rung.effects.len() == first.len()
+                && first
+                    .iter()
+                    .all(|name| rung.effects.iter().any(|one| one == name))
+        };
+        let mut rungs = answer.models.iter().rev();
+        rungs.find(has_just).or(answer.models.last())
+    };
+    (effects.iter().enumerate())
+        .map(|(place, &effect)| Begun {
+            effect,
+            values: with(&names[..=place]).map_or_else(Vec::new, RungModel::values),
+        })
+        .collect()
 }
 
 /// The study with a rung's model. What all tightenings share is held where they put it together.

@@ -51,6 +51,21 @@ pub(crate) fn fit_from(
     Ok(Fitted::new(pooled, end, &clusters))
 }
 
+/// Fits exactly these effects, from where the parameters that are `named` have these values and the others as in `from`, to ever longer
+/// beginnings; sizes that differ between groups there, differ here.
+pub(crate) fn fit_named(
+    cases: Cases<'_>,
+    effects: &[Effect],
+    from: &Fitted,
+    named: &[(String, f64)],
+    clusters: Clusters,
+) -> Result<Fitted, DiagnoseError> {
+    let mut pooled = PooledModel::shared_by(cases, effects, &from.sharing)?;
+    let start = pooled.with_named(&from.start(&pooled), named);
+    let end = long_record::grown(&mut pooled, &start)?;
+    Ok(Fitted::new(&pooled, end, &clusters))
+}
+
 /// What `fitted` says of the tightenings `members`, which are `cases`, when they are asked alone.
 pub(crate) fn fit_part(
     cases: Cases<'_>,

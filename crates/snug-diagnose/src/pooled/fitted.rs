@@ -468,6 +468,7 @@ pub(super) fn add_in(sum: &mut SymmetricMatrix, part: &SymmetricMatrix, places: 
 }
 
 pub(super) mod evidence;
+mod left;
 #[cfg(test)]
 mod made_up;
 #[cfg(test)]

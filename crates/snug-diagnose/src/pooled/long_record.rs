@@ -4,7 +4,8 @@ use crate::error::DiagnoseError;
 use crate::pooled::equation::regression_start;
 use crate::pooled::model::{PooledModel, Start};
 use crate::pooled::thresholds::{
-    A_FEW_STEPS, BEGINNING, SAME_END, SHORTEST_BEGINNING, SIEVE, SIEVED, SOON, TRIAL_OF_A_START,
+    A_FEW_STEPS, BEGINNING, GROWN, SAME_END, SHORTEST_BEGINNING, SHORTEST_GROWN, SIEVE, SIEVED,
+    SOON, TRIAL_OF_A_START,
 };
 use snug_identify::{FitTask, TighteningResidual, convex_set};
 use snug_least_squares::{DenseResidual, PooledFit, PooledSettings, Settings, solve};
@@ -61,6 +62,26 @@ fn with_own_afresh(pooled: &PooledModel<'_>, starts: &[Start]) -> Vec<Start> {
     (starts.iter())
         .flat_map(|start| [start.clone(), pooled.with_base_afresh(start)])
         .collect()
+}
+
+/// Fits from `start` to ever longer beginnings, up to the whole. Of a motion that a stop throws back and forth, whatever is a little wrong
+/// grows with every blow: a fit of the whole finds its way from next to the minimum only, and a beginning's leads there.
+pub(crate) fn grown(
+    pooled: &mut PooledModel<'_>,
+    start: &Start,
+) -> Result<PooledFit, DiagnoseError> {
+    let mut start = start.clone();
+    for parts in GROWN {
+        let part = |record: &FitTask<'_>| {
+            let scored = record.measured().len() - record.unscored();
+            let samples = (scored / parts).max(SHORTEST_GROWN).min(scored);
+            record.beginning(record.unscored() + samples)
+        };
+        let beginnings: Vec<FitTask<'_>> = pooled.cases.iter().map(part).collect();
+        let mut there = pooled.with_cases(&beginnings)?;
+        start = Start::at(&there.fit(&start, &PooledSettings::default())?);
+    }
+    to_the_end(pooled, &start)
 }
 
 /// Fits from the starts that the records themselves give.

@@ -1,6 +1,8 @@
 //! A set of effects as one statement about all tightenings: each its own m, c, k, the effects' sizes shared; of a few recordings
 //! of one machine m, c, k are shared, too.
 
+mod starts;
+
 use crate::data::cases::Cases;
 use crate::data::follower::Follower;
 use crate::data::simulation::{Asked, Simulated, simulate};
@@ -164,78 +166,6 @@ impl<'a> PooledModel<'a> {
     /// Whether all residuals are in units of a measured noise.
     pub fn is_weighted(&self) -> bool {
         self.whitenings.iter().all(Option::is_some)
-    }
-
-    /// Where the parameters begin by themselves: the study's values, the effects' usual starts.
-    pub fn usual_start(&self) -> Start {
-        let value = |model: &Model, index: usize| model.parameters()[index].value;
-        let own = |model: &Model| self.own.iter().map(|&index| value(model, index)).collect();
-        Start {
-            own: self.models.iter().map(own).collect(),
-            shared: self.usual_shared(),
-        }
-    }
-
-    /// What is shared as the first tightening that has it begins.
-    fn usual_shared(&self) -> Vec<f64> {
-        let has = |place: usize| self.shared_of.iter().position(|own| own.contains(&place));
-        (self.shared.iter().enumerate())
-            .map(|(place, size)| {
-                let model = &self.models[has(place).unwrap_or(0)];
-                model.parameters()[size.index].value
-            })
-            .collect()
-    }
-
-    /// What all share, as a model has it.
-    fn shared_values(&self, model: &Model) -> Vec<f64> {
-        let values = self
-            .shared
-            .iter()
-            .map(|size| model.parameters()[size.index].value);
-        values.collect()
-    }
-
-    /// Where the parameters begin by themselves, one start for each record where all share mass, damping and stiffness, else another
-    /// from where each ends by itself: what one of them asks for may be far from what the others do.
-    pub fn usual_starts(&self) -> Vec<Start> {
-        let usual = self.usual_start();
-        if self.models.len() == 1 {
-            return vec![usual];
-        }
-        if !self.cases.are_of_one_machine() {
-            let alone = self.each_alone(&usual);
-            return vec![usual, alone];
-        }
-        (self.models.iter())
-            .map(|model| Start {
-                own: usual.own.clone(),
-                shared: self.shared_values(model),
-            })
-            .collect()
-    }
-
-    /// From `start`, each member's own parameters where its fit by itself ends.
-    fn each_alone(&self, start: &Start) -> Start {
-        let members: Vec<usize> = (0..self.models.len()).collect();
-        let ends = self.fit_alone(&members, &start.own, &start.shared);
-        let own = (ends.into_iter().zip(&start.own))
-            .map(|(end, start)| end.map_or_else(|| start.clone(), |(own, _)| own));
-        Start {
-            own: own.collect(),
-            shared: start.shared.clone(),
-        }
-    }
-
-    /// The sizes of `start` with the study's own mass, damping and stiffness as they usually begin.
-    pub fn with_base_afresh(&self, start: &Start) -> Start {
-        let Start { own, mut shared } = self.usual_start();
-        for ((to, from), size) in shared.iter_mut().zip(&start.shared).zip(&self.shared) {
-            if size.index >= BASE_PARAMETERS.len() {
-                *to = *from;
-            }
-        }
-        Start { own, shared }
     }
 
     /// Names of parameters by index.

@@ -30,6 +30,10 @@ pub(crate) const SOON: usize = 30_000;
 pub(crate) const BEGINNING: f64 = 0.125;
 /// Fewest scored samples of a beginning. Chosen.
 pub(crate) const SHORTEST_BEGINNING: usize = 1000;
+/// Parts of a record of which the first is fitted, one after the other, before the whole is \[–\]. Chosen.
+pub(crate) const GROWN: [usize; 4] = [16, 8, 4, 2];
+/// Fewest scored samples of such a part. Chosen.
+pub(crate) const SHORTEST_GROWN: usize = 100;
 /// When the trial of one start on a long record stops. Chosen.
 pub(crate) const TRIAL_OF_A_START: PooledSettings = PooledSettings {
     max_iterations: 15,

@@ -9,9 +9,9 @@ use crate::ranking::paired_gain::{clearness, gains};
 use crate::ranking::rank::is_all_size;
 use crate::ranking::thresholds::PLAINLY_MISSED;
 use crate::selection::model_selection::ModelSelection;
-use crate::selection::path::{SelectionPath, leaves_more};
+use crate::selection::path::{Addition, SelectionPath, least_share, leaves_more};
 use crate::selection::simpler::does_for;
-use crate::selection::thresholds::{EQUAL, PLAINLY_BETTER};
+use crate::selection::thresholds::{EQUAL, PLAINLY_BETTER, SMALL};
 use snug_model::Effect;
 
 /// Tries to do without each added term once.
@@ -22,17 +22,19 @@ pub(crate) fn try_removals(
     if path.additions.len() < 2 {
         return Ok(());
     }
-    let added: Vec<Effect> = path.additions.iter().map(|one| one.effect).collect();
-    for effect in added {
+    for added in path.additions.clone() {
+        let effect = added.effect;
         let full = path.last().clone();
         let Some(without) = without(selection, &full, effect)? else {
             path.needs(effect);
             continue;
         };
         let losses = gains(&without.heldout_beyond_torque_noise(), &full);
-        let loss: f64 = losses.iter().sum();
+        let loss = lost(&losses, &full, &without);
         let hardly_matters = loss / full.squares() < without.smallest_gain(selection.settings);
-        match hardly_matters || clearness(&losses, full.scale()) < 1.0 {
+        let is_chance = clearness(&losses, full.scale()) < 1.0;
+        let stands_in = || is_stand_in(selection, path, &added, [loss, without.squares()]);
+        match hardly_matters || is_chance || stands_in() {
             true => path.take_out(effect, without, loss),
             false => path.keep(effect, loss),
         }
@@ -90,6 +92,33 @@ fn without(
     let mut effects = full.effects.clone();
     effects.retain(|known| *known != effect);
     Ok(fit_effects(selection.cases, &effects, Some(full), selection.clusters).ok())
+}
+
+/// What held-out clusters lose of `full` without an effect. Of stretches, as what they gain: no more than the error rises.
+fn lost(losses: &[f64], full: &Fitted, without: &Fitted) -> f64 {
+    let loss: f64 = losses.iter().sum();
+    match full.are_stretches() {
+        true => loss.min(without.squares() - full.squares()),
+        false => loss,
+    }
+}
+
+/// Whether an effect without which so much is lost, in all and of what is left `without` it, would not have come in: where the noise is not
+/// known, what takes next to nothing, or little of a motion that stays one. It bends to a law that is not there.
+fn is_stand_in(
+    selection: &ModelSelection<'_>,
+    path: &SelectionPath,
+    added: &Addition,
+    [loss, without]: [f64; 2],
+) -> bool {
+    let full = path.last();
+    let of_all = loss / path.rungs[0].squares();
+    let is_part = loss < selection.settings.of_the_rest() * without;
+    let is_small = added.share_of_first.max(of_all) < SMALL;
+    !full.is_weighted
+        && is_part
+        && (of_all < least_share(added.effect)
+            || (is_small && full.leaves_a_motion(selection.cases)))
 }
 
 /// Puts for each added effect a simpler one that does as well in its place beside the others: while another was missing, the richer
@@ -217,7 +246,9 @@ fn is_as_good(
 mod tests {
     use super::*;
     use crate::selection::path::Addition;
-    use crate::tests::made_up::{WHOLE, custom_force, noisy, quick, with_selection};
+    use crate::tests::made_up::{
+        WHOLE, custom_force, machine_with_friction, noisy, quick, with_selection,
+    };
     use snug_identify::FitTask;
     use snug_model::Effect::{
         CoulombFriction, CubicStiffness, QuadraticDamping, StribeckFriction, TorqueDelay,
@@ -367,5 +398,50 @@ mod tests {
             assert_eq!(path.last().effects, [CoulombFriction, CubicStiffness]);
             assert!(!path.ranking.candidates.is_empty(), "it was ranked against");
         });
+    }
+
+    /// Of an effect that took such a share of the first error as it came in, so many times what is left would be lost; that is a hundredth of
+    /// the first error.
+    #[test]
+    fn a_small_part_of_a_motion_that_stays_one_is_a_stand_in() {
+        let cases = [machine_with_friction(3.0)];
+        with_selection(&cases, &quick(9), |selection| {
+            let left = fit_effects(selection.cases, &[], None, WHOLE).expect("it can be fitted");
+            assert!(left.leaves_a_motion(selection.cases));
+            let squares = left.squares();
+            let mut path = SelectionPath::only(left);
+            path.rungs.insert(
+                0,
+                Fitted::made_up(&[], &[100.0 * squares], 100).unweighted(),
+            );
+            let added = |share_of_first| Addition {
+                effect: QuadraticDamping,
+                p_family: 0.01,
+                heldout_gain: 0.3,
+                share_of_first,
+                twins: Vec::new(),
+            };
+            let stands_in = |path: &SelectionPath, share: f64, times: f64| {
+                let loss = times * squares;
+                is_stand_in(selection, path, &added(share), [loss, loss + squares])
+            };
+            assert!(stands_in(&path, 0.02, 0.5), "a third of the rest");
+            assert!(!stands_in(&path, 0.02, 2.0), "two thirds of the rest");
+            assert!(!stands_in(&path, 0.2, 0.5), "it took a fifth as it came in");
+            assert!(stands_in(&path, 0.2, 0.05), "half a thousandth of all");
+            path.rungs[1] = Fitted::made_up(&[], &[squares], 100).unweighted();
+            path.rungs[1].is_weighted = true;
+            assert!(!stands_in(&path, 0.02, 0.5), "the noise is known");
+        });
+    }
+
+    #[test]
+    fn stretches_lose_no_more_than_the_error_rises() {
+        let fitted = |squares| Fitted::made_up(&[], &[squares; 8], 100).unweighted();
+        let [full, without] = [fitted(1.0), fitted(1.5)];
+        assert_eq!(lost(&[1.0; 8], &full, &without), 8.0);
+        let [full, without] = [full, without].map(Fitted::in_stretches);
+        assert_eq!(lost(&[1.0; 8], &full, &without), 4.0);
+        assert_eq!(lost(&[0.125; 8], &full, &without), 1.0);
     }
 }

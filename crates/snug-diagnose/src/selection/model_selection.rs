@@ -85,15 +85,11 @@ impl ModelSelection<'_> {
         path.until_interrupted(ended)
     }
 
-    pub(super) fn put_in(
-        &self,
-        effects: &[Effect],
-        path: &mut SelectionPath,
-    ) -> Result<(), DiagnoseError> {
+    fn put_in(&self, effects: &[Effect], path: &mut SelectionPath) -> Result<(), DiagnoseError> {
         for &effect in effects {
-            let ranking = self.rank_these(path.last(), effect)?;
-            let index = ranking.candidates.iter().position(|c| c.effect == effect);
-            let Some(index) = index else { continue };
+            let Some((ranking, index)) = self.rank_these(path.last(), effect)? else {
+                continue;
+            };
             let (addition, fitted) = self.step(&ranking, index, path.last());
             let settled = self.settled(&fitted)?;
             path.ranking = ranking;
@@ -214,22 +210,21 @@ impl ModelSelection<'_> {
         Ok((!explains_more(&one, fitted, least)).then_some(one))
     }
 
-    /// The ranking, with `effect` among the candidates whatever it is.
-    fn rank_these(&self, current: &Fitted, effect: Effect) -> Result<Ranking, DiagnoseError> {
+    /// The ranking, with `effect` among the candidates whatever it is, and which of them that is; `None` where it cannot be run.
+    pub(super) fn rank_these(
+        &self,
+        current: &Fitted,
+        effect: Effect,
+    ) -> Result<Option<(Ranking, usize)>, DiagnoseError> {
         let mut all = candidates(&self.cases, current, self.custom)?;
         if !all.contains(&effect) {
             all.push(effect);
         }
         self.watch.begin(&format!("adding {}", effect.name()))?;
-        rank(
-            self.cases,
-            current,
-            &all,
-            self.clusters,
-            self.settings,
-            0,
-            self.watch,
-        )
+        let (cases, clusters, settings) = (self.cases, self.clusters, self.settings);
+        let ranking = rank(cases, current, &all, clusters, settings, 0, self.watch)?;
+        let index = ranking.candidates.iter().position(|c| c.effect == effect);
+        Ok(index.map(|index| (ranking, index)))
     }
 
     /// The best candidate, or a supported one that is as good and the likelier story: an effect of the catalogue, else the

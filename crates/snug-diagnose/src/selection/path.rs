@@ -313,10 +313,7 @@ pub(crate) fn justified(
     let share = |index: usize, of: &Fitted| all[index].gain_beside(current) / of.squares();
     let matters = |index: &usize| share(*index, current) >= current.smallest_gain(settings);
     // What takes most of the rest leaves the other sizes wrong while it is missing, however little that is beside the beginning.
-    let of_the_rest = match settings.for_prediction {
-        true => OF_PREDICTIONS,
-        false => MOST,
-    };
+    let of_the_rest = settings.of_the_rest();
     let takes_much =
         |index: usize| !is_unlisted(all[index].effect) && share(index, current) > of_the_rest;
     let is_enough = |index: &usize| {
@@ -349,6 +346,16 @@ pub(crate) fn justified(
             Err(Stop::NothingSupported {
                 best_p: gaining.map(|one| one.p_family).fold(1.0, f64::min),
             })
+        }
+    }
+}
+
+impl DiagnoseSettings {
+    /// Share of what is left that an effect must take which takes next to nothing of all \[–\].
+    pub(super) fn of_the_rest(&self) -> f64 {
+        match self.for_prediction {
+            true => OF_PREDICTIONS,
+            false => MOST,
         }
     }
 }

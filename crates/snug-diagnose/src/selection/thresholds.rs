@@ -47,7 +47,8 @@ pub(crate) const RESOLVED: usize = 3;
 pub(crate) const PLAINLY_MORE: f64 = 1.3;
 /// Share of the squared error of the study's own model below which, where the noise is not known, an effect is told as small
 /// \[–\]: of a rig with two motors friction and offset take 91 %, and what is left changes with how warm it is; two effects take 2.6
-/// and 2 % of it, and an engineer names neither. Of a drive three took 0.7 %.
+/// and 2 % of it, and an engineer names neither. Of a drive three took 0.7 %. Beside a spring of air, told as quadratic and cubic, play, a
+/// relaxation and an offset took 34, 11 and 7 % of what was left, a motion as before: less than `MOST` of that is none.
 pub(crate) const SMALL: f64 = 0.05;
 /// Share of what the others leave that an effect must take to be told whatever it is of all \[–\]. Chosen: beside an angle that is read 5 rad
 /// too large friction takes more than 99 %; of a linear axis with friction alone an offset that is not there took 56 % of the rest and 0.03 %

@@ -46,6 +46,15 @@ pub struct RungModel {
     pub parameters: Vec<EffectParameter>,
 }
 
+impl RungModel {
+    /// What all tightenings share, by name.
+    pub fn values(&self) -> Vec<(String, f64)> {
+        let shared = self.parameters.iter().filter(|one| !one.per_tightening);
+        let sizes = shared.map(|one| (one.name.clone(), one.value));
+        self.base.iter().cloned().chain(sizes).collect()
+    }
+}
+
 /// What the data answer.
 #[derive(Debug, Clone)]
 pub struct Answer {

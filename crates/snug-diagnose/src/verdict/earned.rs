@@ -1,5 +1,6 @@
 //! Whether there is a model at all that a verdict could be about, and what to check where there is none.
 
+use crate::data::neighbours::correlation;
 use crate::data::power::power;
 use crate::locate::Seen;
 use crate::pooled::equation::PlainEquation;
@@ -90,21 +91,6 @@ fn left_of_all(quantity: Quantity, seen: &[Seen<'_>]) -> Vec<Vec<f64>> {
     (seen.iter())
         .filter_map(|one| left(quantity, one))
         .collect()
-}
-
-/// Of neighbouring samples, in any of the recordings \[–\]; 0 where nothing is.
-fn correlation(recordings: &[Vec<f64>]) -> f64 {
-    let (mut products, mut squares) = (0.0, 0.0);
-    for one in recordings {
-        products += one.windows(2).map(|pair| pair[0] * pair[1]).sum::<f64>();
-        squares += one.iter().map(|r| r * r).sum::<f64>();
-    }
-    let correlation = products / squares;
-    if correlation.is_finite() {
-        correlation
-    } else {
-        0.0
-    }
 }
 
 /// Whether what is left is a motion of which no promising candidate explains much, where nobody knows the noise.

@@ -1,6 +1,6 @@
 //! What restarts found, and what a free run over the whole of each recording finds then.
 
-use super::{Search, effects, with_last_model};
+use super::{Search, begun, effects, with_last_model};
 use crate::error::StudyError;
 use crate::study::Study;
 use crate::tasks::cases::with_settled;
@@ -44,11 +44,10 @@ impl Restarted<'_> {
         let question = Question {
             goal: match follows {
                 // It declares the laws that are in no catalogue.
-                true => Goal::ImproveFrom(effects(
-                    &with_last_model(&free, self.found),
-                    &names,
-                    &cases,
-                )?),
+                true => {
+                    let last = with_last_model(&free, self.found);
+                    Goal::ImproveFrom(begun(effects(&last, &names, &cases)?, self.found))
+                }
                 false => Goal::Improve,
             },
             cases: &cases,

@@ -1,8 +1,9 @@
 //! Whether a model leaves much of some recordings and hardly anything of the others: what happened there it does not know, and those
 //! that it explains do not make it adequate.
 
-use super::{correlation, left, outliers};
+use super::{left, outliers};
 use crate::data::clusters::Clusters;
+use crate::data::neighbours::correlation;
 use crate::data::power::power;
 use crate::locate::Seen;
 use crate::verdict::changes::name;
