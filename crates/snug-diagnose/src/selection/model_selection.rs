@@ -12,12 +12,13 @@ use crate::pooled::sharing::{Groups, Sharing};
 use crate::pooled::steps::resolved::shorter_steps;
 use crate::ranking::applicability::candidates;
 use crate::ranking::by_group::{by_group, explains_more};
+use crate::ranking::kin::is_simpler;
 use crate::ranking::paired_gain::gains;
 use crate::ranking::rank::{Candidate, Ranking, rank};
 use crate::selection::path::{Addition, SelectionPath, justified, laws_may_matter, misfit, twins};
 use crate::selection::thresholds::{
     ENOUGH_AHEAD, EQUAL, JUST_AS_MUCH, LEAVES_OF_GENERAL, LITTLE_LEFT, MOST_EFFECTS, MUCH_LEFT,
-    RESOLVED, SEEDS,
+    PLAINLY_MORE, RESOLVED, SEEDS,
 };
 use crate::settings::DiagnoseSettings;
 use snug_least_squares::PooledSettings;
@@ -137,15 +138,18 @@ impl ModelSelection<'_> {
     }
 
     /// The shorter steps in which `current` and the best candidates must be simulated, where this search may ask for them: what was exchanged
-    /// for a candidate was none itself. In what steps dry friction, which has no state, is simulated was settled before.
+    /// for a candidate was none itself. In what steps dry friction, which has no state, is simulated was settled before; what only bends to that,
+    /// as a loop that turns at once, would ask for ever shorter ones.
     fn steps_asked_for(&self, current: &Fitted, ranking: &Ranking) -> Option<usize> {
         if !self.may_ask_for_steps {
             return None;
         }
         let has_states = |effect: &Effect| !effect.description().states.is_empty();
         let last = Some(current).filter(|last| last.effects.iter().any(has_states));
-        let best = (ranking.candidates.iter().take(RESOLVED))
+        let all = &ranking.candidates;
+        let best = (all.iter().take(RESOLVED))
             .filter(|best| best.is_supported(self.settings) && has_states(&best.effect))
+            .filter(|best| !only_bends_to_a_simpler(best, all))
             .map(|best| &best.fitted);
         let steps = best.chain(last);
         steps.filter_map(|one| shorter_steps(self.cases, one)).max()
@@ -448,6 +452,14 @@ impl ModelSelection<'_> {
         };
         (addition, candidate.fitted.clone())
     }
+}
+
+/// Whether a simpler one of `all` leaves hardly more than this.
+fn only_bends_to_a_simpler(rich: &Candidate, all: &[Candidate]) -> bool {
+    let leaves_as_little =
+        |simple: &Candidate| simple.fitted.squares() < PLAINLY_MORE * rich.fitted.squares();
+    all.iter()
+        .any(|simple| is_simpler(simple.effect, rich.effect) && leaves_as_little(simple))
 }
 
 /// What is added, and the model with it.

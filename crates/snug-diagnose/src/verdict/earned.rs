@@ -7,7 +7,7 @@ use crate::pooled::equation::PlainEquation;
 use crate::pooled::fitted::Fitted;
 use crate::ranking::rank::Candidate;
 use crate::selection::path::SelectionPath;
-use crate::selection::thresholds::MOST;
+use crate::selection::thresholds::{MOST, SMALL};
 use crate::settings::DiagnoseSettings;
 use crate::verdict::pushed_away::{is_a_weight, may_be_held_back, may_push_away, pushed_away};
 use crate::verdict::thresholds::{
@@ -103,6 +103,16 @@ pub(crate) fn leaves_a_motion(
     let promising = path.is_promising(settings);
     let explains_much = |one: &Candidate| one.gain_beside(last) > MOST * last.squares();
     explained.is_some_and(Explained::leaves_a_motion) && !promising.is_some_and(explains_much)
+}
+
+/// Whether the model `after` leaves more than noise, or where nobody knows that a motion that is no small part of what `before` left.
+pub(crate) fn leaves_more_than_noise(
+    before: &Fitted,
+    after: &Fitted,
+    explained: Option<&Explained>,
+) -> bool {
+    let is_part = after.squares() > SMALL * before.squares();
+    after.is_beyond_noise() || (is_part && explained.is_some_and(Explained::leaves_a_motion))
 }
 
 /// Whether a model that explains so much deserves a question about effects.

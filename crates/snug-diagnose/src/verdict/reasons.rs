@@ -9,6 +9,7 @@ use crate::selection::path::{Addition, Attempt, Stop, laws_may_matter, least_sha
 use crate::selection::thresholds::{MATTERS, NEARLY_ALL, SMALL};
 use crate::settings::DiagnoseSettings;
 use crate::verdict::changes::are_above_all;
+use crate::verdict::earned::leaves_more_than_noise;
 use snug_campaign::words::changes::Changes;
 use snug_campaign::words::effect_name::Named;
 use snug_campaign::words::explained::Explained;
@@ -166,7 +167,11 @@ pub(crate) fn headline(situation: &Situation<'_>) -> Headline {
         (Verdict::UnlistedEffect, None) if !added.is_empty() => Headline::Unlisted {
             added,
             further,
-            describes: !situation.after.is_beyond_noise(),
+            describes: !leaves_more_than_noise(
+                situation.before,
+                situation.after,
+                situation.explained.as_ref(),
+            ),
             fall: fell,
         },
         (Verdict::UnlistedEffect, None) => Headline::Unexplained(fell.after),

@@ -94,7 +94,7 @@ pub enum Headline {
         added: Vec<Named>,
         /// What was added and is small beside it.
         further: Vec<Named>,
-        /// Whether nothing but noise is left.
+        /// Whether hardly more than noise is left.
         describes: bool,
         /// How the error fell.
         fall: Fall,

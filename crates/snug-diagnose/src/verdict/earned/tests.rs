@@ -223,3 +223,21 @@ fn spikes_and_noise_are_told_from_a_motion_that_is_left() {
     let motion: Vec<f64> = (0..SAMPLES).map(|k| (0.05 * k as f64).sin()).collect();
     assert_eq!(told_of(&motion, 0.4), None);
 }
+
+/// A motion that is a tenth of what was missing is more than noise; a hundredth of it, or as much that is white, is not told as more.
+#[test]
+fn only_a_motion_that_is_no_small_part_is_more_than_noise_of_an_unknown_size() {
+    let left = |squares| Fitted::made_up(&[], &[squares], 100).unweighted();
+    let leaves_more = |squares, neighbours| {
+        let explained = Explained {
+            output: "displacement",
+            share: 0.99,
+            neighbours,
+            is_exact: false,
+        };
+        leaves_more_than_noise(&left(1000.0), &left(squares), Some(&explained))
+    };
+    assert!(leaves_more(100.0, 0.9));
+    assert!(!leaves_more(10.0, 0.9));
+    assert!(!leaves_more(100.0, 0.1));
+}
