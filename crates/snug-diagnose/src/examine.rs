@@ -62,7 +62,7 @@ pub fn examine(
     };
     let changes = match goal {
         Goal::Diagnose | Goal::Improve => changes_above_all(counted, &compared.rungs)?,
-        Goal::Compare | Goal::Add(_) | Goal::ImproveFrom(..) => None,
+        Goal::Compare | Goal::Add(_) | Goal::ImproveFrom(_) => None,
     };
     let goal = match changes.is_some() {
         true => &Goal::Compare,

@@ -33,6 +33,16 @@ pub struct Begun {
     pub values: Vec<(String, f64)>,
 }
 
+impl Begun {
+    /// From where its parameters usually begin.
+    pub(crate) fn as_usual(effect: Effect) -> Self {
+        Self {
+            effect,
+            values: Vec::new(),
+        }
+    }
+}
+
 impl<'a> Question<'a> {
     /// Of the base model of `cases`, with no effect in it and none but the catalogue's as candidates.
     pub fn new(cases: &'a [FitTask<'a>], goal: Goal) -> Self {
@@ -72,7 +82,7 @@ impl Goal {
             Self::Compare => "compare",
             Self::Diagnose => "diagnose",
             Self::Add(_) => "add",
-            Self::Improve | Self::ImproveFrom(..) => "improve",
+            Self::Improve | Self::ImproveFrom(_) => "improve",
         }
     }
 }

@@ -9,6 +9,7 @@ mod in_place;
 pub(crate) mod model_selection;
 mod one_law;
 pub(crate) mod path;
+mod put_in;
 pub(crate) mod simpler;
 pub(crate) mod thresholds;
 pub(crate) mod two_at_once;

@@ -1,6 +1,6 @@
 //! Rigs of which an engineer would name the drive, or that a controller holds them where they would not stay.
 
-use super::rig::{FORCE, Noise, Rig, TORQUE, moved, moved_from};
+use super::rig::{Noise, Rig, moved, moved_from};
 use super::{names, says};
 use snug_campaign::{Diagnosis, Verdict};
 use snug_study::Verb;
@@ -59,11 +59,7 @@ fn a_slowly_sampled_drive_rests_where_friction_holds_it() {
         let speeds = moved(&inputs, 120, rate).map(|[v, _]| v);
         noise.with(&inputs, speeds, SPEED_NOISE)
     };
-    let rig = Rig {
-        recordings: (0..2).map(|_| recording()).collect(),
-        declared: [TORQUE, "Velocity", "RadianPerSecond"],
-        fitted: "Velocity",
-    };
+    let rig = Rig::that_turns_at_speeds((0..2).map(|_| recording()).collect());
     let said = r#"effects: ["coulomb_friction", "actuator_lag"], intersample: ZeroOrder"#;
     let diagnosis = rig.told_with(said, &Verb::Compare);
     let left = diagnosis.ladder[0].rms_fitted_output;
@@ -83,11 +79,7 @@ fn a_motor_whose_current_rises_slowly_lacks_that_and_dry_friction() {
         let speeds = moved(&inputs, 20, rate).map(|[v, _]| v);
         noise.with(&inputs, speeds, 0.01)
     };
-    let rig = Rig {
-        recordings: (0..2).map(|_| recording()).collect(),
-        declared: [TORQUE, "Velocity", "RadianPerSecond"],
-        fitted: "Velocity",
-    };
+    let rig = Rig::that_turns_at_speeds((0..2).map(|_| recording()).collect());
     let diagnosis = rig.told(&Verb::Improve);
     let mut names = names(&diagnosis);
     names.sort_unstable();
@@ -118,11 +110,7 @@ fn a_motor_with_a_load_on_a_shaft_lacks_the_load_and_dry_friction() {
         let speeds = moved(&inputs, 20, rate).map(|[_, v, _, _]| v);
         noise.with(&inputs, speeds, SPEED_NOISE)
     };
-    let rig = Rig {
-        recordings: (0..2).map(|_| recording()).collect(),
-        declared: [TORQUE, "Velocity", "RadianPerSecond"],
-        fitted: "Velocity",
-    };
+    let rig = Rig::that_turns_at_speeds((0..2).map(|_| recording()).collect());
     let diagnosis = rig.told(&Verb::Improve);
     let mut names = names(&diagnosis);
     names.sort_unstable();
@@ -292,11 +280,7 @@ fn a_cylinder_that_pulls_with_less_than_it_pushes_is_told_so_beside_its_friction
         let speeds = moved(&inputs, 80, rate).map(|[v]| v);
         noise.with(&inputs, speeds, SPEED_NOISE)
     };
-    let rig = Rig {
-        recordings: (0..3).map(|_| recording()).collect(),
-        declared: [FORCE, "Velocity", "MetrePerSecond"],
-        fitted: "Velocity",
-    };
+    let rig = Rig::that_slides_at_speeds((0..3).map(|_| recording()).collect());
     let diagnosis = rig.told_with("intersample: ZeroOrder", &Verb::Improve);
     let headline = &diagnosis.headline;
     assert_eq!(

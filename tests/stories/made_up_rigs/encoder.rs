@@ -88,11 +88,7 @@ fn a_counter_that_sees_no_direction_is_told_before_a_search() {
         let speeds = moved(&inputs, 6, rate).map(|[_, v]| v.abs());
         noise.with(&inputs, speeds, 0.005)
     };
-    let rig = Rig {
-        recordings: (0..3).map(|_| recording()).collect(),
-        declared: [TORQUE, "Velocity", "RadianPerSecond"],
-        fitted: "Velocity",
-    };
+    let rig = Rig::that_turns_at_speeds((0..3).map(|_| recording()).collect());
     let diagnosis = rig.told(&Verb::Improve);
     assert_eq!(diagnosis.verdict, Verdict::NotFitted);
     assert!(says(&diagnosis, "has its sign"), "{:?}", diagnosis.reasons);

@@ -1,6 +1,6 @@
 //! Rigs that are let go and that no torque moves, and such of which hardly anything was recorded.
 
-use super::rig::{Noise, Rig, TORQUE, moved};
+use super::rig::{Noise, Rig, moved};
 use super::{names, says};
 use snug_campaign::Verdict;
 use snug_study::Verb;
@@ -64,11 +64,7 @@ fn a_wheel_that_coasts_lacks_what_bearing_and_air_do() {
         |[v]: [f64; 1]| [(-0.3 * (v / 0.02).tanh() - 0.0016 * v * v.abs() - 0.004 * v) / 0.05];
     let mut noise = Noise(32);
     let recordings = let_go(&mut noise, [[40.0], [60.0], [25.0]], rate, |[v]| v, 0.02);
-    let rig = Rig {
-        recordings,
-        declared: [TORQUE, "Velocity", "RadianPerSecond"],
-        fitted: "Velocity",
-    };
+    let rig = Rig::that_turns_at_speeds(recordings);
     let diagnosis = rig.told_with(
         r#"parameters: {"mass_kg": (value: 0.05, fixed: true)}"#,
         &Verb::Improve,
@@ -96,11 +92,7 @@ fn a_wheel_that_coasts_lacks_what_bearing_and_air_do() {
 fn where_nothing_moves_that_is_said() {
     let mut noise = Noise(33);
     let mut recording = || noise.with(&[0.5; 2000], std::iter::repeat(10.0), 0.02);
-    let rig = Rig {
-        recordings: (0..3).map(|_| recording()).collect(),
-        declared: [TORQUE, "Velocity", "RadianPerSecond"],
-        fitted: "Velocity",
-    };
+    let rig = Rig::that_turns_at_speeds((0..3).map(|_| recording()).collect());
     let diagnosis = rig.told(&Verb::Improve);
     assert_eq!(
         diagnosis.verdict,

@@ -1,7 +1,7 @@
 //! Hoists whose load is another in each recording.
 
 use super::names;
-use super::rig::{FORCE, Noise, Rig, moved};
+use super::rig::{Noise, Rig, moved};
 use snug_campaign::{Diagnosis, Verdict};
 use snug_study::Verb;
 
@@ -18,11 +18,7 @@ fn hoist(loads: &[[f64; 2]]) -> Diagnosis {
         let speeds = moved(&forces, 12, rate).map(|[_, v]| v);
         noise.with(&forces, speeds, 2e-3)
     };
-    let rig = Rig {
-        recordings: loads.iter().map(recording).collect(),
-        declared: [FORCE, "Velocity", "MetrePerSecond"],
-        fitted: "Velocity",
-    };
+    let rig = Rig::that_slides_at_speeds(loads.iter().map(recording).collect());
     rig.told(&Verb::Improve)
 }
 

@@ -36,6 +36,24 @@ impl Rig {
         }
     }
 
+    /// A drive whose speed is measured.
+    pub fn that_turns_at_speeds(recordings: Vec<Vec<[f64; 2]>>) -> Self {
+        Self {
+            recordings,
+            declared: [TORQUE, "Velocity", "RadianPerSecond"],
+            fitted: "Velocity",
+        }
+    }
+
+    /// A slide whose speed is measured.
+    pub fn that_slides_at_speeds(recordings: Vec<Vec<[f64; 2]>>) -> Self {
+        Self {
+            recordings,
+            declared: [FORCE, "Velocity", "MetrePerSecond"],
+            fitted: "Velocity",
+        }
+    }
+
     /// The diagnosis of a study as README teaches it, sampled at 1 kHz.
     pub fn told(&self, verb: &Verb) -> Diagnosis {
         self.told_with("", verb)

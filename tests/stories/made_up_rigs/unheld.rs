@@ -1,6 +1,6 @@
 //! Rigs that nothing brings back, on which a load pulls that nobody recorded.
 
-use super::rig::{Noise, Rig, TORQUE, moved};
+use super::rig::{Noise, Rig, moved};
 use super::{names, says};
 use snug_campaign::Verdict;
 use snug_study::Verb;
@@ -53,11 +53,7 @@ fn a_rotor_lacks_a_brake_that_is_weaker_beyond_a_speed() {
             let speeds = moved(&inputs, 4, rate).map(|[v]| v);
             noise.with(&inputs, speeds, 0.05)
         };
-        let rig = Rig {
-            recordings: (0..2).map(|_| recording()).collect(),
-            declared: [TORQUE, "Velocity", "RadianPerSecond"],
-            fitted: "Velocity",
-        };
+        let rig = Rig::that_turns_at_speeds((0..2).map(|_| recording()).collect());
         let diagnosis = rig.told_with("intersample: ZeroOrder", &Verb::Improve);
         let headline = &diagnosis.headline;
         assert_eq!(names(&diagnosis), [law], "{headline}");
@@ -176,11 +172,7 @@ fn a_flywheel_with_an_unrecorded_load_lacks_dry_friction_or_nothing() {
             let speeds = moved(&acting, 4, rate).map(|[v]| v);
             noise.with(&inputs, speeds, 0.02)
         };
-        let rig = Rig {
-            recordings: (0..3).map(|_| recording()).collect(),
-            declared: [TORQUE, "Velocity", "RadianPerSecond"],
-            fitted: "Velocity",
-        };
+        let rig = Rig::that_turns_at_speeds((0..3).map(|_| recording()).collect());
         let diagnosis = rig.told(&Verb::Improve);
         assert_eq!(names(&diagnosis), expected, "{}", diagnosis.headline);
         assert!(

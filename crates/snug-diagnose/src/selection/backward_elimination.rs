@@ -429,8 +429,7 @@ mod tests {
             assert!(!stands_in(&path, 0.02, 2.0), "two thirds of the rest");
             assert!(!stands_in(&path, 0.2, 0.5), "it took a fifth as it came in");
             assert!(stands_in(&path, 0.2, 0.05), "half a thousandth of all");
-            path.rungs[1] = Fitted::made_up(&[], &[squares], 100).unweighted();
-            path.rungs[1].is_weighted = true;
+            path.rungs[1] = Fitted::made_up(&[], &[squares], 100);
             assert!(!stands_in(&path, 0.02, 0.5), "the noise is known");
         });
     }

@@ -1,57 +1,28 @@
 //! Forward selection: rank, add the best, again, until nothing more is justified; then backward elimination.
 
 use crate::error::DiagnoseError;
-use crate::pooled::fit::fit_named;
-use crate::pooled::fitted::Fitted;
 use crate::question::Begun;
 use crate::selection::backward_elimination::{
     look_at_twins_again, prefer_simpler, take_out_what_may_be_nothing, try_removals,
 };
 use crate::selection::model_selection::{ModelSelection, Step};
 use crate::selection::path::{SelectionPath, Stop, justified};
-use crate::selection::thresholds::{ESCAPED, MOST_EFFECTS, SMALL};
+use crate::selection::thresholds::{MOST_EFFECTS, SMALL};
 
 impl ModelSelection<'_> {
-    /// Adds to the study's own effects, begun with those `from` which the way is known to lead, as far as the data justify, or until
-    /// whoever watches ends it.
+    /// Adds to the study's own effects, begun with those `from` which the way is known to lead that are supported beside those before or take
+    /// much, as far as the data justify, or until whoever watches ends it.
     pub fn improve(
         &self,
         from: &[Begun],
         mut path: SelectionPath,
     ) -> Result<SelectionPath, DiagnoseError> {
-        let put_in = self.begin_with(from, &mut path);
+        let least = SMALL * path.rungs[0].squares();
+        let put_in = self.put_in(from, &mut path, |candidate, falls| {
+            candidate.is_supported(self.settings) || falls > least
+        });
         let ended = put_in.and_then(|()| self.add_justified(&mut path));
         path.until_interrupted(ended)
-    }
-
-    /// Puts in what is supported beside those before, or takes much from where it is begun.
-    fn begin_with(&self, from: &[Begun], path: &mut SelectionPath) -> Result<(), DiagnoseError> {
-        for Begun { effect, values } in from {
-            let Some((ranking, index)) = self.rank_these(path.last(), *effect)? else {
-                continue;
-            };
-            let (addition, fitted) = self.step(&ranking, index, path.last());
-            let settled = self.begun_with(self.settled(&fitted)?, values);
-            let is_supported = ranking.candidates[index].is_supported(self.settings);
-            let falls = path.last().squares() - settled.squares();
-            if is_supported || falls > SMALL * path.rungs[0].squares() {
-                path.ranking = ranking;
-                path.add(addition, settled);
-            }
-        }
-        Ok(())
-    }
-
-    /// The fit from where these parameters have these values, if that is plainly lower than `settled`: a rig that is thrown back and forth
-    /// leads one from the usual values astray.
-    fn begun_with(&self, settled: Fitted, values: &[(String, f64)]) -> Fitted {
-        if values.is_empty() {
-            return settled;
-        }
-        let (cases, clusters) = (self.cases, self.clusters);
-        let known = fit_named(cases, &settled.effects, &settled, values, clusters);
-        let is_lower = |known: &Fitted| known.squares() < ESCAPED * settled.squares();
-        known.ok().filter(is_lower).unwrap_or(settled)
     }
 
     /// Rung by rung; `path` holds those that were reached also where this fails.

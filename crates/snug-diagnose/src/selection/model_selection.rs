@@ -10,6 +10,7 @@ use crate::pooled::fitted::Fitted;
 use crate::pooled::model::PooledModel;
 use crate::pooled::sharing::{Groups, Sharing};
 use crate::pooled::steps::resolved::shorter_steps;
+use crate::question::Begun;
 use crate::ranking::applicability::candidates;
 use crate::ranking::by_group::{by_group, explains_more};
 use crate::ranking::kin::is_simpler;
@@ -81,22 +82,10 @@ impl ModelSelection<'_> {
         effects: &[Effect],
         mut path: SelectionPath,
     ) -> Result<SelectionPath, DiagnoseError> {
-        let ended = self.put_in(effects, &mut path);
+        let begun: Vec<Begun> = effects.iter().copied().map(Begun::as_usual).collect();
+        let ended = self.put_in(&begun, &mut path, |_, _| true);
         let ended = ended.and_then(|()| self.name_the_next(&mut path));
         path.until_interrupted(ended)
-    }
-
-    fn put_in(&self, effects: &[Effect], path: &mut SelectionPath) -> Result<(), DiagnoseError> {
-        for &effect in effects {
-            let Some((ranking, index)) = self.rank_these(path.last(), effect)? else {
-                continue;
-            };
-            let (addition, fitted) = self.step(&ranking, index, path.last());
-            let settled = self.settled(&fitted)?;
-            path.ranking = ranking;
-            path.add(addition, settled);
-        }
-        Ok(())
     }
 
     fn name_the_next(&self, path: &mut SelectionPath) -> Result<(), DiagnoseError> {
@@ -212,23 +201,6 @@ impl ModelSelection<'_> {
         let one = Fitted::new(&pooled, end, &self.clusters);
         let least = one.smallest_gain(self.settings) * one.squares();
         Ok((!explains_more(&one, fitted, least)).then_some(one))
-    }
-
-    /// The ranking, with `effect` among the candidates whatever it is, and which of them that is; `None` where it cannot be run.
-    pub(super) fn rank_these(
-        &self,
-        current: &Fitted,
-        effect: Effect,
-    ) -> Result<Option<(Ranking, usize)>, DiagnoseError> {
-        let mut all = candidates(&self.cases, current, self.custom)?;
-        if !all.contains(&effect) {
-            all.push(effect);
-        }
-        self.watch.begin(&format!("adding {}", effect.name()))?;
-        let (cases, clusters, settings) = (self.cases, self.clusters, self.settings);
-        let ranking = rank(cases, current, &all, clusters, settings, 0, self.watch)?;
-        let index = ranking.candidates.iter().position(|c| c.effect == effect);
-        Ok(index.map(|index| (ranking, index)))
     }
 
     /// The best candidate, or a supported one that is as good and the likelier story: an effect of the catalogue, else the
