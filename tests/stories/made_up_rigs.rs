@@ -16,7 +16,7 @@ mod unheld;
 mod zeros;
 
 use held::pendulum;
-use rig::{Noise, Rig, TORQUE, moved};
+use rig::{Noise, Rig, moved};
 use snug_campaign::{Diagnosis, Verdict};
 use snug_study::Verb;
 use std::f64::consts::TAU;
@@ -46,11 +46,7 @@ fn a_motor_turned_both_ways_lacks_dry_friction_and_an_offset() {
         noise.with(&inputs, speeds, 0.03)
     };
     let ways = [1.0, -1.0, 1.0, -1.0];
-    let rig = Rig {
-        recordings: ways.map(|way| recording(way, &mut noise)).to_vec(),
-        declared: [TORQUE, "Velocity", "RadianPerSecond"],
-        fitted: "Velocity",
-    };
+    let rig = Rig::that_turns_at_speeds(ways.map(|way| recording(way, &mut noise)).to_vec());
     let diagnosis = rig.told(&Verb::Improve);
     let mut added: Vec<(&str, f64)> = (diagnosis.added.iter())
         .map(|one| (one.effect.as_str(), one.parameters[0].value))
@@ -133,7 +129,6 @@ fn a_valve_that_sticks_lacks_dry_friction_and_no_law_that_nobody_knows() {
     let rig = Rig {
         recordings: (0..3).map(|_| recording()).collect(),
         declared: ["signal: Torque, unit: Newton", "Displacement", "Metre"],
-        fitted: "Displacement",
     };
     let diagnosis = rig.told(&Verb::Improve);
     assert_ne!(
@@ -178,7 +173,6 @@ fn a_spring_of_its_own_kind_is_no_cubic_one_with_play() {
             "Acceleration",
             "MetrePerSecondSquared",
         ],
-        fitted: "Acceleration",
     };
     let diagnosis = rig.told_with("intersample: ZeroOrder", &Verb::Improve);
     let headline = &diagnosis.headline;
@@ -334,11 +328,7 @@ fn a_fan_that_runs_already_lacks_what_air_and_bearing_do() {
         let speeds: Vec<f64> = moved(&inputs, 4, rate).map(|[w]| w).collect();
         noise.with(&inputs[1050..], speeds[1050..].iter().copied(), NOISE)
     };
-    let rig = Rig {
-        recordings: (0..3).map(|_| recording()).collect(),
-        declared: [TORQUE, "Velocity", "RadianPerSecond"],
-        fitted: "Velocity",
-    };
+    let rig = Rig::that_turns_at_speeds((0..3).map(|_| recording()).collect());
     let diagnosis = rig.told(&Verb::Improve);
     let names = names(&diagnosis);
     assert_eq!(names[..2], ["initial_motion", "quadratic_damping"]);
@@ -359,11 +349,7 @@ fn a_tachometer_that_reads_too_much_at_rest_is_no_motion() {
         let speeds: Vec<f64> = moved(&inputs, 4, rate).map(|[w]| w + 2.0).collect();
         noise.with(&inputs, speeds.into_iter(), 0.01)
     };
-    let rig = Rig {
-        recordings: (0..3).map(|_| recording()).collect(),
-        declared: [TORQUE, "Velocity", "RadianPerSecond"],
-        fitted: "Velocity",
-    };
+    let rig = Rig::that_turns_at_speeds((0..3).map(|_| recording()).collect());
     let diagnosis = rig.told(&Verb::Diagnose);
     assert!(
         !says(&diagnosis, "begin in motion"),
@@ -386,11 +372,8 @@ fn what_one_recording_reads_at_rest_is_no_motion_in_the_other() {
     let rate = |[w]: [f64; 1], u: f64| [(u - 0.02 * w) / 0.01];
     let speeds: Vec<f64> = moved(&driven, 4, rate).map(|[w]| w + 2.0).collect();
     let resting = noise.with(&[0.0; 2000], std::iter::repeat(2.0), 0.01);
-    let rig = Rig {
-        recordings: vec![resting, noise.with(&driven, speeds.into_iter(), 0.01)],
-        declared: [TORQUE, "Velocity", "RadianPerSecond"],
-        fitted: "Velocity",
-    };
+    let rig =
+        Rig::that_turns_at_speeds(vec![resting, noise.with(&driven, speeds.into_iter(), 0.01)]);
     let diagnosis = rig.told(&Verb::Improve);
     assert_eq!(
         names(&diagnosis),

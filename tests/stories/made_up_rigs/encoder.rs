@@ -53,7 +53,6 @@ fn an_angle_that_begins_anew_after_every_turn_is_put_together() {
     let rig = Rig {
         recordings: driven(&mut Noise(41), [0.0, 1.7, -2.5], 5e-4, seen),
         declared: [TORQUE, "Displacement", "Degree"],
-        fitted: "Displacement",
     };
     lacks_dry_friction(&rig.told(&Verb::Improve));
 }

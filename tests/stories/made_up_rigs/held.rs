@@ -54,7 +54,6 @@ fn a_slide_with_an_accelerometer_and_a_held_force_lacks_nothing() {
     let rig = Rig {
         recordings: (0..6).map(|_| recording()).collect(),
         declared: [FORCE, "Acceleration", "MetrePerSecondSquared"],
-        fitted: "Acceleration",
     };
     let diagnosis = rig.told(&Verb::Improve);
     let none: [&str; 0] = [];

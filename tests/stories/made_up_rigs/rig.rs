@@ -12,9 +12,8 @@ pub const FORCE: &str = "signal: Force, unit: Newton";
 /// Recordings of one machine: input and output, row by row.
 pub struct Rig {
     pub recordings: Vec<Vec<[f64; 2]>>,
-    /// Unit of the input, signal and unit of the output.
+    /// Input, and the output that is fitted: its signal and its unit.
     pub declared: [&'static str; 3],
-    pub fitted: &'static str,
 }
 
 impl Rig {
@@ -23,7 +22,6 @@ impl Rig {
         Self {
             recordings,
             declared: [TORQUE, "Displacement", "Radian"],
-            fitted: "Displacement",
         }
     }
 
@@ -32,7 +30,6 @@ impl Rig {
         Self {
             recordings,
             declared: [FORCE, "Displacement", "Metre"],
-            fitted: "Displacement",
         }
     }
 
@@ -41,7 +38,6 @@ impl Rig {
         Self {
             recordings,
             declared: [TORQUE, "Velocity", "RadianPerSecond"],
-            fitted: "Velocity",
         }
     }
 
@@ -50,7 +46,6 @@ impl Rig {
         Self {
             recordings,
             declared: [FORCE, "Velocity", "MetrePerSecond"],
-            fitted: "Velocity",
         }
     }
 
@@ -79,7 +74,7 @@ impl Rig {
             let table: String = std::iter::once("u,y\n".to_owned()).chain(rows).collect();
             std::fs::write(folder.path().join(format!("r{number}.csv")), table).unwrap();
         }
-        let ([input, signal, unit], fitted) = (self.declared, self.fitted);
+        let [input, signal, unit] = self.declared;
         let text = format!(
             r#"(
                 source: (path: {path:?}, format: Csv(
@@ -91,7 +86,7 @@ impl Rig {
                 )),
                 preprocess: (window: Whole, rig: (lever_arm_m: 1.0, known_inertia: Fixed(0.0))),
                 model: ({model}),
-                identify: (fitted_output: {fitted}, constraints: [Positive]),
+                identify: (fitted_output: {signal}, constraints: [Positive]),
             )"#,
             path = folder.path(),
         );

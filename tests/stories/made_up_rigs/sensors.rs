@@ -28,7 +28,6 @@ fn an_accelerometer_that_is_ac_coupled_is_told_with_its_corner() {
     let rig = Rig {
         recordings: (0..3).map(|_| recording()).collect(),
         declared: [FORCE, "Acceleration", "MetrePerSecondSquared"],
-        fitted: "Acceleration",
     };
     let diagnosis = rig.told_with("intersample: ZeroOrder", &Verb::Improve);
     let headline = &diagnosis.headline;
