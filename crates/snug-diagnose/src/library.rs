@@ -20,6 +20,18 @@ const NEAR_M: f64 = 2e-5;
 /// factor is of the size of 1 over the lever arm.
 const LARGE_NM: f64 = 10.0;
 
+/// Terms, and those of fewer numbers that each is where some of its own are equal or out of reach.
+const SPECIAL_CASES: [(&str, &[&str]); 1] = [(
+    "uneven_slack_spring_law",
+    &["slack_spring_law", "end_stop_law", "lower_end_stop_law"],
+)];
+
+/// Whether `simple` is a special case of the term `rich`.
+pub(crate) fn is_special_case(simple: Effect, rich: Effect) -> bool {
+    let mut all = SPECIAL_CASES.iter();
+    all.any(|(of, cases)| *of == rich.name() && cases.contains(&simple.name()))
+}
+
 /// Every term that can act on a rig of this scale, as an effect.
 pub(crate) fn terms(scale: Scale, rig: &Rig) -> Result<Vec<Effect>, DiagnoseError> {
     let more = match scale {
@@ -170,6 +182,7 @@ mod tests {
         ("abs_x_law", 0.024),
         // It is 5 mm on the other side.
         ("lower_end_stop_law", 0.0),
+        ("uneven_slack_spring_law", 0.01),
         // Beyond 5 mm.
         ("slack_spring_law", 0.01),
         // 2 tanh(600).
@@ -219,6 +232,7 @@ mod tests {
         close(pushes("end_stop_law", 0.012), 0.014, 1e-12);
         close(pushes("lower_end_stop_law", -0.012), -0.014, 1e-12);
         assert_eq!(pushes("end_stop_law", -0.012), 0.0);
+        close(pushes("uneven_slack_spring_law", -0.012), -0.01, 1e-12);
     }
 
     /// Half of 2 · v, 25 ms after it has begun at 80 ms.
@@ -265,6 +279,7 @@ mod tests {
             "abs_x_law",
             "lower_end_stop_law",
             "slack_spring_law",
+            "uneven_slack_spring_law",
             "preload_law",
             "peak_v_law",
             "level_v_law",

@@ -130,15 +130,26 @@ pub(crate) fn climbed(
     interrupted: &AtomicBool,
 ) -> Result<(Study, Ladder), StudyError> {
     let may_ask = study.model.steps_per_sample.is_none();
-    let mut study = study.clone();
+    let (_, climbed) = in_short_enough_steps(study.clone(), progress, |study| {
+        climbed_in_steps(study, may_ask, comparable, verb, progress, interrupted)
+    })?;
+    Ok(climbed)
+}
+
+/// What is found with a study, simulated in shorter steps as long as it asks for them, and the study with those.
+fn in_short_enough_steps<T>(
+    mut study: Study,
+    progress: &(dyn Fn(ProgressEvent<'_>) + Sync),
+    find: impl Fn(&Study) -> Result<T, StudyError>,
+) -> Result<(Study, T), StudyError> {
     loop {
-        match climbed_in_steps(&study, may_ask, comparable, verb, progress, interrupted) {
+        match find(&study) {
             Err(StudyError::Diagnose(DiagnoseError::Unresolved { steps })) => {
                 let what = format!("simulating in {steps} steps from sample to sample");
                 progress(ProgressEvent::Stage { what: &what });
                 study.model.steps_per_sample = Some(steps);
             }
-            found => return found,
+            found => return found.map(|found| (study, found)),
         }
     }
 }

@@ -96,19 +96,7 @@ pub(super) const TERMS: &[Term] = &[
         says: "a second spring that is met beyond the displacement x0",
         says_below_zero: "a spring that gives way beyond the displacement x0",
         expression: "p*max(0,x-x0)",
-        parameters: &[
-            Factor {
-                starts: &[1000.0],
-                ..p("N/m")
-            },
-            Factor {
-                name: "x0",
-                unit: "m",
-                starts: &[0.005, 0.01],
-                minimum: 0.0005,
-                maximum: 0.05,
-            },
-        ],
+        parameters: &[SPRING, SIDE],
     },
     Term {
         name: "x4_law",
@@ -256,37 +244,24 @@ pub(super) const OF_A_MACHINE: &[Term] = &[
         says: "a second spring that is met below the displacement -x0",
         says_below_zero: "a spring that gives way below the displacement -x0",
         expression: "p*min(0,x+x0)",
-        parameters: &[
-            Factor {
-                starts: &[1000.0],
-                ..p("N/m")
-            },
-            Factor {
-                name: "x0",
-                unit: "m",
-                starts: &[0.005, 0.01],
-                minimum: 0.0005,
-                maximum: 0.05,
-            },
-        ],
+        parameters: &[SPRING, SIDE],
     },
     Term {
         name: "slack_spring_law",
         says: "a spring that is stiffer within b of rest than beyond",
         says_below_zero: "a spring that is softer within b of rest than beyond, or does not act there",
         expression: "p*max(-b,min(b,x))",
+        parameters: &[SPRING, Factor { name: "b", ..SIDE }],
+    },
+    Term {
+        name: "uneven_slack_spring_law",
+        says: "a spring that is stiffer between the displacements -x1 and x2 than beyond",
+        says_below_zero: "a spring that is softer between the displacements -x1 and x2 than beyond, or does not act there, as between two stops",
+        expression: "p*max(-x1,min(x2,x))",
         parameters: &[
-            Factor {
-                starts: &[1000.0],
-                ..p("N/m")
-            },
-            Factor {
-                name: "b",
-                unit: "m",
-                starts: &[0.005, 0.01],
-                minimum: 0.0005,
-                maximum: 0.05,
-            },
+            SPRING,
+            Factor { name: "x1", ..SIDE },
+            Factor { name: "x2", ..SIDE },
         ],
     },
     Term {
@@ -368,3 +343,18 @@ const BRAKE: &[Factor] = &[
         maximum: 3.0,
     },
 ];
+
+/// How much stiffer a spring is beyond some displacement, or within.
+const SPRING: Factor = Factor {
+    starts: &[1000.0],
+    ..p("N/m")
+};
+
+/// How far from rest, to one side, it changes.
+const SIDE: Factor = Factor {
+    name: "x0",
+    unit: "m",
+    starts: &[0.005, 0.01],
+    minimum: 0.0005,
+    maximum: 0.05,
+};

@@ -1,16 +1,19 @@
 //! Which effects are shapes of one another.
 
+use crate::library::is_special_case;
 use snug_model::{Effect, Law};
 
 /// Whether `simple` is what `rich` is easily taken for, and has fewer sizes, shapes and states to do it with: dry friction for a
-/// friction that comes with the way, or goes with the speed; one offset of all recordings for a load that each has of its own.
+/// friction that comes with the way, or goes with the speed; one offset of all recordings for a load that each has of its own; one stop for two.
 pub(crate) fn is_simpler(simple: Effect, rich: Effect) -> bool {
     let numbers = |effect: Effect| {
         let description = effect.description();
         description.parameters.len() + description.states.len()
     };
     let is_taken_for = rich.description().twins.contains(&simple.name());
-    (is_taken_for && numbers(simple) < numbers(rich)) || is_of_all(simple, rich)
+    (is_taken_for && numbers(simple) < numbers(rich))
+        || is_of_all(simple, rich)
+        || is_special_case(simple, rich)
 }
 
 /// Whether `shared` is what `own` is where it is the same in all recordings.
@@ -26,6 +29,7 @@ pub(crate) fn are_kin(one: Effect, other: Effect) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::tests::made_up::term;
     use snug_model::Effect::{
         BoucWen, ConstantLoad, CoulombFriction, CubicStiffness, ExponentialStiffness,
         MaxwellBranch, QuadraticDamping, StribeckFriction, TorqueOffset,
@@ -38,6 +42,8 @@ mod tests {
         assert!(is_simpler(CubicStiffness, ExponentialStiffness));
         assert!(are_kin(BoucWen, CoulombFriction));
         assert!(is_simpler(TorqueOffset, ConstantLoad) && !is_simpler(ConstantLoad, TorqueOffset));
+        let [one, two] = ["end_stop_law", "uneven_slack_spring_law"].map(term);
+        assert!(is_simpler(one, two) && !is_simpler(two, one));
     }
 
     #[test]

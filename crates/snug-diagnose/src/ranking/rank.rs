@@ -58,21 +58,36 @@ impl Candidate {
         heldout: &[f64],
     ) -> Result<(), DiagnoseError> {
         let from = Some(&self.fitted);
-        self.fitted = match clusters.are_whole() {
+        let end = match clusters.are_whole() {
             true => fit_effects(cases, &self.fitted.effects, from, clusters)?,
             false => followed(cases, &self.fitted, clusters)?,
         };
-        self.gains = gains(heldout, &self.fitted);
-        self.is_told_from_nothing =
-            is_told(&cases, &self.fitted, self.effect, heldout, &self.gains);
+        self.ends_as(end, &cases, heldout);
         Ok(())
+    }
+
+    /// Takes this fit in the place of its own.
+    fn ends_as(&mut self, fitted: Fitted, cases: &Cases<'_>, heldout: &[f64]) {
+        self.gains = gains(heldout, &fitted);
+        self.is_told_from_nothing = is_told(cases, &fitted, self.effect, heldout, &self.gains);
+        self.fitted = fitted;
+    }
+
+    /// Takes a fit that was begun elsewhere, beside `current` and as one of so many.
+    pub fn ends_elsewhere(
+        &mut self,
+        fitted: Fitted,
+        cases: &Cases<'_>,
+        current: &Fitted,
+        family: usize,
+    ) {
+        self.ends_as(fitted, cases, &current.heldout_beyond_torque_noise());
+        self.p_family = self.p_family.min(self.p_of_gain(family));
     }
 
     /// Takes sizes by group in the place of one for all; it was chosen among so many.
     fn becomes(&mut self, fitted: Fitted, cases: &Cases<'_>, heldout: &[f64], forms: usize) {
-        self.gains = gains(heldout, &fitted);
-        self.is_told_from_nothing = is_told(cases, &fitted, self.effect, heldout, &self.gains);
-        self.fitted = fitted;
+        self.ends_as(fitted, cases, heldout);
         let of_groups = self.fitted.chance_of_groups(self.effect).unwrap_or(1.0);
         let chances = [self.p_of_gain(forms), of_groups * forms as f64];
         self.p_family = chances.into_iter().fold(self.p_family, f64::min);

@@ -104,6 +104,7 @@ impl ModelSelection<'_> {
     /// Ranks what is missing beside the last model.
     pub(super) fn rank(&self, path: &SelectionPath) -> Result<Ranking, DiagnoseError> {
         let current = path.last();
+        self.must_be_resolved(&[current])?;
         let beside = list(&current.effects);
         (self.watch).begin(&format!("ranking what is missing beside {beside}"))?;
         let mut all = candidates(&self.cases, current, self.custom)?;
@@ -120,28 +121,22 @@ impl ModelSelection<'_> {
         )?;
         let most = LEAVES_OF_GENERAL * current.squares();
         (ranking.candidates).retain(|one| !one.effect.is_general() || one.fitted.squares() < most);
-        match self.steps_asked_for(current, &ranking) {
-            Some(steps) => Err(DiagnoseError::Unresolved { steps }),
-            None => Ok(ranking),
-        }
+        self.must_be_resolved(&may_come_in(&ranking, self.settings))?;
+        Ok(ranking)
     }
 
-    /// The shorter steps in which `current` and the best candidates must be simulated, where this search may ask for them: what was exchanged
-    /// for a candidate was none itself. In what steps dry friction, which has no state, is simulated was settled before; what only bends to that,
-    /// as a loop that turns at once, would ask for ever shorter ones.
-    fn steps_asked_for(&self, current: &Fitted, ranking: &Ranking) -> Option<usize> {
+    /// Ends where one of these must be simulated in shorter steps, and this search may ask for them.
+    pub(super) fn must_be_resolved(&self, all: &[&Fitted]) -> Result<(), DiagnoseError> {
         if !self.may_ask_for_steps {
-            return None;
+            return Ok(());
         }
-        let has_states = |effect: &Effect| !effect.description().states.is_empty();
-        let last = Some(current).filter(|last| last.effects.iter().any(has_states));
-        let all = &ranking.candidates;
-        let best = (all.iter().take(RESOLVED))
-            .filter(|best| best.is_supported(self.settings) && has_states(&best.effect))
-            .filter(|best| !only_bends_to_a_simpler(best, all))
-            .map(|best| &best.fitted);
-        let steps = best.chain(last);
-        steps.filter_map(|one| shorter_steps(self.cases, one)).max()
+        let asked = (all.iter())
+            .filter(|one| one.effects.iter().any(needs_short_steps))
+            .filter_map(|one| shorter_steps(self.cases, one));
+        match asked.max() {
+            Some(steps) => Err(DiagnoseError::Unresolved { steps }),
+            None => Ok(()),
+        }
     }
 
     /// The same effects, fitted from there to the end; sizes that differed between groups are one again where what was added makes
@@ -224,7 +219,22 @@ impl ModelSelection<'_> {
             .into_iter()
             .rev()
             .max_by_key(|&one| all[one].fitted.makes_superfluous(&fits));
-        likeliest.unwrap_or(best)
+        self.special_case(current, ranking, likeliest.unwrap_or(best))
+    }
+
+    /// The law in no catalogue itself, or a supported special case of it that does for it or explains as much.
+    pub(super) fn special_case(&self, current: &Fitted, ranking: &Ranking, law: usize) -> usize {
+        let all = &ranking.candidates;
+        let does = |case: &Candidate| {
+            is_simpler(case.effect, all[law].effect)
+                && case.is_supported(self.settings)
+                && (case.does_for(&all[law], current) || self.explains_as_much(case, &all[law]))
+        };
+        all.iter().position(does).unwrap_or(law)
+    }
+
+    fn explains_as_much(&self, one: &Candidate, other: &Candidate) -> bool {
+        one.gain() > JUST_AS_MUCH * other.gain() && one.keeps_up_with(other, &self.clusters)
     }
 
     /// The first supported effect of the catalogue, or of those that explain as much the one with the fewest sizes and shapes to do
@@ -236,8 +246,7 @@ impl ModelSelection<'_> {
         let first = all.iter().position(is_listed)?;
         let explains_as_much = |&other: &usize| {
             let (other, first) = (&all[other], &all[first]);
-            let as_much = other.gain() > JUST_AS_MUCH * first.gain()
-                && other.keeps_up_with(first, &self.clusters);
+            let as_much = self.explains_as_much(other, first);
             let is_richer = first.is_richer_than(other);
             is_listed(other) && (as_much || (is_richer && other.does_for(first, current)))
         };
@@ -424,6 +433,23 @@ impl ModelSelection<'_> {
         };
         (addition, candidate.fitted.clone())
     }
+}
+
+/// Whether it may ask for shorter steps than the base model: it has a state of its own, or is a law, which may set in within a sample as a stop
+/// does. In what steps dry friction, which has no state, is simulated was settled before.
+fn needs_short_steps(effect: &Effect) -> bool {
+    !effect.description().states.is_empty() || is_unlisted(*effect)
+}
+
+/// The best candidates that may come in for what they add; what only bends to a simpler one, as a loop that turns at once does to dry friction,
+/// would ask for ever shorter steps.
+fn may_come_in<'r>(ranking: &'r Ranking, settings: &DiagnoseSettings) -> Vec<&'r Fitted> {
+    let all = &ranking.candidates;
+    (all.iter().take(RESOLVED))
+        .filter(|best| best.is_supported(settings) && needs_short_steps(&best.effect))
+        .filter(|best| !only_bends_to_a_simpler(best, all))
+        .map(|best| &best.fitted)
+        .collect()
 }
 
 /// Whether a simpler one of `all` leaves hardly more than this.

@@ -32,9 +32,10 @@ impl ModelSelection<'_> {
             let Some(index) = beside_the_others.or_else(alone) else {
                 continue;
             };
+            let index = self.special_case(beside, ranking, index);
             let (addition, fitted) = self.step(ranking, index, beside);
             let settled = self.settled(&fitted)?;
-            if beside_the_others.is_some() || does_for_all(&settled, taken, last) {
+            if beside_the_others == Some(index) || does_for_all(&settled, taken, last) {
                 return Ok(Some((place, (addition, settled))));
             }
         }

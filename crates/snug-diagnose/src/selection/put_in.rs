@@ -20,14 +20,28 @@ impl ModelSelection<'_> {
         path: &mut SelectionPath,
         comes_in: impl Fn(&Candidate, f64) -> bool,
     ) -> Result<(), DiagnoseError> {
-        for Begun { effect, values } in begun {
-            let ranking = self.rank_these(path.last(), *effect)?;
-            let index = ranking.candidates.iter().position(|c| c.effect == *effect);
-            let Some(index) = index else { continue };
-            let (addition, fitted) = self.step(&ranking, index, path.last());
-            let settled = self.begun_with(self.settled(&fitted)?, values);
-            let falls = path.last().squares() - settled.squares();
-            if comes_in(&ranking.candidates[index], falls) {
+        for one in begun {
+            self.watch.begin(&format!("adding {}", one.effect.name()))?;
+            let current = path.last();
+            let does = |index: usize, ranking: &Ranking, settled: &Fitted| {
+                let falls = current.squares() - settled.squares();
+                comes_in(&ranking.candidates[index], falls)
+            };
+            // What does not come in by itself does not among all the others.
+            match self.begun_among(&[one.effect], current, one)? {
+                Some((index, ranking, settled)) if does(index, &ranking, &settled) => {
+                    self.must_be_resolved(&[&settled])?;
+                }
+                _ => continue,
+            }
+            let mut all = candidates(&self.cases, current, self.custom)?;
+            if !all.contains(&one.effect) {
+                all.push(one.effect);
+            }
+            if let Some((index, ranking, settled)) = self.begun_among(&all, current, one)?
+                && does(index, &ranking, &settled)
+            {
+                let (addition, _) = self.step(&ranking, index, current);
                 path.ranking = ranking;
                 path.add(addition, settled);
             }
@@ -35,26 +49,34 @@ impl ModelSelection<'_> {
         Ok(())
     }
 
-    /// The fit from where these parameters have these values, if that is plainly lower than `settled`: a rig that is thrown back and forth
-    /// leads one from the usual values astray.
-    fn begun_with(&self, settled: Fitted, values: &[(String, f64)]) -> Fitted {
-        if values.is_empty() {
-            return settled;
-        }
-        let (cases, clusters) = (self.cases, self.clusters);
-        let known = fit_named(cases, &settled.effects, &settled, values, clusters);
-        let is_lower = |known: &Fitted| known.squares() < ESCAPED * settled.squares();
-        known.ok().filter(is_lower).unwrap_or(settled)
-    }
-
-    /// The ranking, with `effect` among the candidates whatever it is.
-    fn rank_these(&self, current: &Fitted, effect: Effect) -> Result<Ranking, DiagnoseError> {
-        let mut all = candidates(&self.cases, current, self.custom)?;
-        if !all.contains(&effect) {
-            all.push(effect);
-        }
-        self.watch.begin(&format!("adding {}", effect.name()))?;
+    /// The ranking of `all` beside `current`, where among them the one that is `begun` stands, and the fit with that: from where it is begun,
+    /// if that leads plainly lower than the usual values. A rig that is thrown back and forth leads one from there astray.
+    fn begun_among(
+        &self,
+        all: &[Effect],
+        current: &Fitted,
+        begun: &Begun,
+    ) -> Result<Option<(usize, Ranking, Fitted)>, DiagnoseError> {
         let (cases, clusters, settings) = (self.cases, self.clusters, self.settings);
-        rank(cases, current, &all, clusters, settings, 0, self.watch)
+        let mut ranking = rank(cases, current, all, clusters, settings, 0, self.watch)?;
+        let is_it = |one: &Candidate| one.effect == begun.effect;
+        let Some(index) = ranking.candidates.iter().position(is_it) else {
+            return Ok(None);
+        };
+        let candidate = &mut ranking.candidates[index];
+        let settled = self.settled(&candidate.fitted)?;
+        if begun.values.is_empty() {
+            return Ok(Some((index, ranking, settled)));
+        }
+        let known = fit_named(cases, &settled.effects, &settled, &begun.values, clusters);
+        let is_lower = |known: &Fitted| known.squares() < ESCAPED * settled.squares();
+        let settled = match known.ok().filter(is_lower) {
+            Some(known) => {
+                candidate.ends_elsewhere(known.clone(), &cases, current, all.len());
+                known
+            }
+            None => settled,
+        };
+        Ok(Some((index, ranking, settled)))
     }
 }
