@@ -23,6 +23,8 @@ pub(crate) struct Promise {
     pub base: [f64; 3],
     /// Its own numbers.
     pub own: Vec<f64>,
+    /// What the sizes of effects of the model are multiplied with beside it \[–\].
+    pub times: Vec<(Effect, f64)>,
 }
 
 /// What the candidates promise beside `current`, the most promising first; none where a hand holds the rig.
@@ -62,13 +64,17 @@ fn of_some(
     let PlainEquation { equation, .. } = PlainEquation::of(some)?;
     let at = &at[..some.len()];
     let terms = equation.terms(&current.effects, at)?;
-    let terms: Vec<Term> = terms.into_iter().flatten().collect();
+    let pairs = current.effects.iter().copied().zip(terms);
+    let (known, terms): (Vec<Effect>, Vec<Term>) = pairs
+        .filter_map(|(effect, term)| Some((effect, term?)))
+        .unzip();
     let without = equation.fit(&terms).filter(EquationFit::is_driven)?;
     let beside = Beside {
         before: equation.acting(&current.effects, at)?,
         current: &current.effects,
         equation: &equation,
         at,
+        known,
         terms,
         left: 1.0 - without.explained,
     };
@@ -85,6 +91,8 @@ struct Beside<'a> {
     current: &'a [Effect],
     at: &'a [Vec<f64>],
     before: Acting,
+    /// Effects of that model that add something, and what each adds.
+    known: Vec<Effect>,
     terms: Vec<Term>,
     /// Share of the acceleration's power that it leaves.
     left: f64,
@@ -134,8 +142,8 @@ impl Beside<'_> {
         }
         let fit = self.equation.fit(&terms)?;
         let mut own = shape.to_vec();
-        let times = &fit.times[self.terms.len()..];
-        for (&size, &times) in sizes.iter().zip(times) {
+        let (times, own_times) = fit.times.split_at(self.terms.len());
+        for (&size, &times) in sizes.iter().zip(own_times) {
             let (minimum, maximum) = ranges[size].limits;
             // What no fit may reach is no promise.
             if !(minimum..=maximum).contains(&times) {
@@ -148,6 +156,9 @@ impl Beside<'_> {
             share: 1.0 - (1.0 - fit.explained) / self.left,
             base: fit.base,
             own,
+            times: (self.known.iter().copied())
+                .zip(times.iter().copied())
+                .collect(),
         })
     }
 

@@ -247,6 +247,9 @@ fn as_promised(
 /// begins, of which a regression knows nothing, begins as usual: the current model may have bent it to what it lacks.
 pub(crate) fn as_regressed(pooled: &PooledModel<'_>, current: &Fitted, promise: &Promise) -> Start {
     let mut start = with_effect(pooled, current, promise.effect, &promise.own);
+    for &(effect, times) in &promise.times {
+        multiply_sizes(pooled, &mut start, effect, times);
+    }
     let usual = pooled.usual_start();
     for (column, &index) in pooled.own.iter().enumerate() {
         let effect = effect_of(&pooled.effects, index).map(|(effect, _)| effect);
@@ -257,6 +260,18 @@ pub(crate) fn as_regressed(pooled: &PooledModel<'_>, current: &Fitted, promise: 
         }
     }
     simulable(pooled, with_base(pooled, &start, &promise.base))
+}
+
+/// Multiplies the sizes that an effect shares, within their limits.
+fn multiply_sizes(pooled: &PooledModel<'_>, start: &mut Start, effect: Effect, times: f64) {
+    let specs = effect.description().parameters;
+    for (value, size) in start.shared.iter_mut().zip(&pooled.shared) {
+        let place = effect_of(&pooled.effects, size.index).filter(|(of, _)| *of == effect);
+        if place.is_some_and(|(_, offset)| specs[offset].vanishes_at == Some(0.0)) {
+            let limits = &pooled.models[0].parameters()[size.index];
+            *value = (*value * times).clamp(limits.minimum, limits.maximum);
+        }
+    }
 }
 
 /// At most `most` different starts of an effect, those whose columns promise most.

@@ -9,9 +9,10 @@ use crate::ranking::paired_gain::{clearness, gains};
 use crate::ranking::rank::is_all_size;
 use crate::ranking::thresholds::PLAINLY_MISSED;
 use crate::selection::model_selection::ModelSelection;
-use crate::selection::path::{Addition, SelectionPath, least_share, leaves_more};
+use crate::selection::path::{Addition, SelectionPath, justified, least_share, leaves_more};
 use crate::selection::simpler::does_for;
 use crate::selection::thresholds::{EQUAL, PLAINLY_BETTER, SMALL};
+use snug_campaign::words::statement::Fate;
 use snug_model::Effect;
 
 /// Tries to do without each added term once.
@@ -34,13 +35,26 @@ pub(crate) fn try_removals(
         let hardly_matters = loss / full.squares() < without.smallest_gain(selection.settings);
         let is_chance = clearness(&losses, full.scale()) < 1.0;
         let stands_in = || is_stand_in(selection, path, &added, [loss, without.squares()]);
-        match hardly_matters || is_chance || stands_in() {
-            true => path.take_out(effect, without, loss),
-            false => path.keep(effect, loss),
+        let fate = match (hardly_matters || is_chance, stands_in()) {
+            (true, _) => Fate::PredictsAsWell,
+            (false, true) => Fate::StandsIn,
+            (false, false) => Fate::Stays,
+        };
+        match fate {
+            Fate::Stays => path.keep(effect, loss),
+            fate => path.take_out(effect, without, loss, fate),
         }
     }
-    if path.attempts.iter().any(|attempt| attempt.removed) {
+    if path.attempts.iter().any(|one| one.fate != Fate::Stays) {
         selection.rank_last(path)?;
+        // Why nothing came in beside what is gone does not say why nothing does beside the rest.
+        let next = justified(
+            &path.ranking,
+            path.last(),
+            &path.rungs[0],
+            selection.settings,
+        );
+        path.stopped = next.err().or(path.stopped);
     }
     Ok(())
 }
@@ -76,7 +90,8 @@ pub(crate) fn take_out_what_may_be_nothing(
             return Ok(());
         };
         let losses = gains(&without.heldout_beyond_torque_noise(), &full);
-        path.take_out(effect, without, losses.iter().sum());
+        let loss = losses.iter().sum();
+        path.take_out(effect, without, loss, Fate::MayBeNothing);
     }
     Ok(())
 }
@@ -104,7 +119,8 @@ fn lost(losses: &[f64], full: &Fitted, without: &Fitted) -> f64 {
 }
 
 /// Whether an effect without which so much is lost, in all and of what is left `without` it, would not have come in: where the noise is not
-/// known, what takes next to nothing, or little of a motion that stays one. It bends to a law that is not there.
+/// known, what takes next to nothing, or little of a motion that stays one. It bends to a law that is not there, unless it is the dry
+/// friction that every rig has: that of a trolley was found to 1 % while what its load swings further than a spring lets it was left.
 fn is_stand_in(
     selection: &ModelSelection<'_>,
     path: &SelectionPath,
@@ -115,10 +131,11 @@ fn is_stand_in(
     let of_all = loss / path.rungs[0].squares();
     let is_part = loss < selection.settings.of_the_rest() * without;
     let is_small = added.share_of_first.max(of_all) < SMALL;
+    let is_dry_friction = added.effect.name() == Effect::CoulombFriction.name();
     !full.is_weighted
         && is_part
         && (of_all < least_share(added.effect)
-            || (is_small && full.leaves_a_motion(selection.cases)))
+            || (is_small && !is_dry_friction && full.leaves_a_motion(selection.cases)))
 }
 
 /// Puts for each added effect a simpler one that does as well in its place beside the others: while another was missing, the richer
@@ -303,7 +320,7 @@ mod tests {
             let attempts: Vec<(Effect, bool)> = path
                 .attempts
                 .iter()
-                .map(|one| (one.effect, one.removed))
+                .map(|one| (one.effect, one.fate != Fate::Stays))
                 .collect();
             let expected = [
                 (CubicStiffness, false),
@@ -342,7 +359,7 @@ mod tests {
             let [attempt] = path.attempts.as_slice() else {
                 panic!("one was taken out: {:?}", path.attempts)
             };
-            assert!(attempt.removed && attempt.effect == QuadraticDamping);
+            assert!(attempt.fate == Fate::MayBeNothing && attempt.effect == QuadraticDamping);
 
             path.rungs[0] =
                 fit_effects(selection.cases, &[], None, WHOLE).expect("it can be fitted");

@@ -13,6 +13,7 @@ use crate::selection::thresholds::{
     SMALL, TRIFLE,
 };
 use crate::settings::DiagnoseSettings;
+use snug_campaign::words::statement::Fate;
 use snug_model::Effect;
 
 /// An effect that was added, with what spoke for it then.
@@ -31,7 +32,7 @@ pub(crate) struct Addition {
 #[derive(Debug, Clone)]
 pub(crate) struct Attempt {
     pub effect: Effect,
-    pub removed: bool,
+    pub fate: Fate,
     /// Growth of the squared residual without it.
     pub loss: f64,
     /// The same as a share of the squared residual.
@@ -98,8 +99,8 @@ impl SelectionPath {
     }
 
     /// One rung down: the last model does `without` an effect that was added, and loses so much.
-    pub fn take_out(&mut self, effect: Effect, without: Fitted, loss: f64) {
-        self.attempts.push(self.attempt(effect, loss, true));
+    pub fn take_out(&mut self, effect: Effect, without: Fitted, loss: f64, fate: Fate) {
+        self.attempts.push(self.attempt(effect, loss, fate));
         self.additions.retain(|one| one.effect != effect);
         self.stand_on(without);
         if let [only] = self.additions.as_slice() {
@@ -110,13 +111,13 @@ impl SelectionPath {
     /// The last model keeps an effect that was added: it explains at least what is lost without it, whatever it took first.
     pub fn keep(&mut self, effect: Effect, loss: f64) {
         self.explains(effect, loss / misfit(&self.rungs[0]));
-        self.attempts.push(self.attempt(effect, loss, false));
+        self.attempts.push(self.attempt(effect, loss, Fate::Stays));
     }
 
-    fn attempt(&self, effect: Effect, loss: f64, removed: bool) -> Attempt {
+    fn attempt(&self, effect: Effect, loss: f64, fate: Fate) -> Attempt {
         Attempt {
             effect,
-            removed,
+            fate,
             loss,
             growth: loss / self.last().squares(),
         }

@@ -15,7 +15,7 @@ use snug_campaign::words::effect_name::Named;
 use snug_campaign::words::explained::Explained;
 use snug_campaign::words::headline::{Fall, Headline, Left, NoModel};
 use snug_campaign::words::reason::{MoreData, Reason};
-use snug_campaign::words::statement;
+use snug_campaign::words::statement::{self, Fate};
 use snug_campaign::words::stopped::Stopped;
 use snug_campaign::words::suspicion::Suspicion;
 use snug_campaign::{
@@ -423,8 +423,8 @@ pub(crate) fn removal(attempt: &Attempt) -> Removal {
     let name = named(attempt.effect).spoken();
     Removal {
         effect: attempt.effect.name().to_owned(),
-        removed: attempt.removed,
-        statement: statement::removal(&name, attempt.removed, attempt.growth),
+        removed: attempt.fate != Fate::Stays,
+        statement: statement::removal(&name, attempt.fate, attempt.growth),
     }
 }
 

@@ -43,13 +43,35 @@ pub fn unlisted(
     )
 }
 
-/// What became of an attempt to do without a term; `growth` of the squared error as a share of it.
-pub fn removal(name: &str, is_removed: bool, growth: f64) -> String {
-    match is_removed {
-        true => format!("Without {name} the model predicts as well: it was taken out again."),
-        false => format!(
-            "Without {name} the squared error would {}: it stays.",
-            grow(growth)
+/// What became of an attempt to do without a term.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Fate {
+    /// It stays.
+    Stays,
+    /// It went: the model predicts as well without it.
+    PredictsAsWell,
+    /// It went: the interval of its size holds nothing.
+    MayBeNothing,
+    /// It went: it took little, and what is left stays a motion.
+    StandsIn,
+}
+
+/// The same in words; `growth` of the squared error without the term, as a share of it.
+pub fn removal(name: &str, fate: Fate, growth: f64) -> String {
+    let would = || format!("Without {name} the squared error would {}", grow(growth));
+    match fate {
+        Fate::Stays => format!("{}: it stays.", would()),
+        Fate::PredictsAsWell => {
+            format!("Without {name} the model predicts as well: it was taken out again.")
+        }
+        Fate::MayBeNothing => {
+            format!(
+                "There may be nothing of {name}, says the interval of its size: it was taken out again."
+            )
+        }
+        Fate::StandsIn => format!(
+            "{}, and what is left stays a motion with it, too: it may stand in for something else, and was taken out again.",
+            would()
         ),
     }
 }

@@ -32,6 +32,27 @@ fn dry_friction_promises_most_and_knows_its_size() {
     }
 }
 
+/// A model with friction that is a third too large, and beside it an offset that is not there.
+#[test]
+fn what_is_in_the_model_is_told_by_how_much_it_is_off() {
+    let cases = [machine_with_friction(15.0)];
+    let model = &cases[0].model;
+    let friction = model.scale().effect(Effect::CoulombFriction, model.rig());
+    let friction = friction.unwrap();
+    let names = ["mass_kg", "damping_kg_per_s", "stiffness_n_per_m"];
+    let current = Fitted::made_up(&[friction], &[1.0], 3000).unweighted();
+    let current = (current.with_own(&names, vec![vec![0.4, 1.9, 30.0]], 0))
+        .with_shared(("fc_n", 3, 20.0), &[(0.0, 1.0)]);
+    let tally = Tally::default();
+    let offset = [Effect::TorqueOffset];
+    let promises = first_ranking(Cases::new(&cases, &tally), &current, &offset);
+    let [(effect, times)] = promises[0].times[..] else {
+        panic!("{promises:?}")
+    };
+    assert_eq!(effect, friction);
+    assert!((times - 0.75).abs() < 0.02, "{promises:?}");
+}
+
 /// Somebody holds the tool: nothing is promised, and nothing is spent.
 #[test]
 fn a_hand_is_promised_nothing() {
