@@ -192,7 +192,7 @@ pub(crate) fn look_at_twins_again(
     let mut is_changed = false;
     for place in 0..path.additions.len() {
         let mut twins = as_good(selection, path, place)?;
-        if let Some((twin, settled)) = better_twin(selection, path.last(), &twins)? {
+        if let Some((twin, settled)) = better_twin(selection, path, place, &twins)? {
             path.additions[place].effect = twin;
             path.replace_last(settled);
             twins = as_good(selection, path, place)?;
@@ -227,18 +227,26 @@ fn as_good(
     Ok(found)
 }
 
-/// The best of these `twins`, with its model settled, where the `full` model does plainly worse, of few long records.
+/// The best of these `twins`, with its model settled, where the last model does plainly worse with the effect at this `place`, of few long
+/// records. No richer one for which that does: one load of three recordings was told another in each, the same but for less than its error.
 fn better_twin(
     selection: &ModelSelection<'_>,
-    full: &Fitted,
+    path: &SelectionPath,
+    place: usize,
     twins: &[(Effect, Fitted)],
 ) -> Result<Option<(Effect, Fitted)>, DiagnoseError> {
     if selection.clusters.are_whole() {
         return Ok(None);
     }
     let least = (twins.iter()).min_by(|(_, a), (_, b)| a.squares().total_cmp(&b.squares()));
-    let is_less = |(_, one): &&(Effect, Fitted)| one.squares() < PLAINLY_BETTER * full.squares();
-    let Some((twin, fitted)) = least.filter(is_less) else {
+    let (full, effect) = (path.last(), path.additions[place].effect);
+    let does = |twin: Effect, rich: &Fitted| {
+        is_simpler(effect, twin) && does_for(full, rich, &path.rungs[0])
+    };
+    let is_better = |(twin, one): &&(Effect, Fitted)| {
+        one.squares() < PLAINLY_BETTER * full.squares() && !does(*twin, one)
+    };
+    let Some((twin, fitted)) = least.filter(is_better) else {
         return Ok(None);
     };
     let settled = selection.settled(fitted)?;
