@@ -27,6 +27,9 @@ impl Diagnosis {
             Verdict::Undecided if matches!(self.headline, Headline::MoreThanNoise { .. }) => {
                 "more than noise is left, and nothing tried explains it"
             }
+            Verdict::Undecided if matches!(self.headline, Headline::TooNoisy { .. }) => {
+                "nothing but noise is left, and too much of it"
+            }
             Verdict::Undecided => "too little data to say",
             Verdict::NotFitted => "no model was found that fits",
         }

@@ -61,12 +61,13 @@ pub(crate) fn try_removals(
 
 /// Takes out what may be nothing beside the others, the interval of its size says: it stood in for what has come in since. Where of
 /// several each may be nothing, they stand in for each other, and the one without which least is lost goes first. What has no shape and is
-/// missed plainly is not nothing, whatever its interval says.
+/// missed plainly is not nothing, whatever its interval says. Of fewer additions than `least` none is looked at.
 pub(crate) fn take_out_what_may_be_nothing(
     selection: &ModelSelection<'_>,
     path: &mut SelectionPath,
+    least: usize,
 ) -> Result<(), DiagnoseError> {
-    while path.additions.len() > 1 {
+    while path.additions.len() >= least {
         let full = path.last().clone();
         let may_be_nothing = |effect: &Effect| {
             beside_nothing(&selection.cases, &full, *effect) == BesideNothing::Held
@@ -360,7 +361,7 @@ mod tests {
     fn what_stands_in_for_another_is_taken_out_and_what_is_needed_is_not_small() {
         let added = [QuadraticDamping, CubicStiffness, TorqueOffset];
         after_selection(&added, &[], |selection, path| {
-            take_out_what_may_be_nothing(selection, path).expect("it can be fitted");
+            take_out_what_may_be_nothing(selection, path, 2).expect("it can be fitted");
             let left: Vec<Effect> = path.additions.iter().map(|one| one.effect).collect();
             assert_eq!(left, [CubicStiffness, TorqueOffset]);
             assert_eq!(path.last().effects, left);

@@ -75,7 +75,7 @@ impl ModelSelection<'_> {
             path.add(addition, self.settled(&fitted)?);
         }
         self.exchange_kin(path)?;
-        take_out_what_may_be_nothing(self, path)
+        take_out_what_may_be_nothing(self, path, 2)
     }
 }
 

@@ -3,13 +3,15 @@
 use crate::error::DiagnoseError;
 use crate::pooled::fit::fit_effects;
 use crate::pooled::fitted::Fitted;
+use crate::selection::backward_elimination::take_out_what_may_be_nothing;
 use crate::selection::model_selection::ModelSelection;
 use crate::selection::path::SelectionPath;
 use rayon::prelude::*;
 
 impl ModelSelection<'_> {
     /// `path` with every model fitted to all samples from where it ended, the study's own as `compared` where that is better, and what
-    /// the candidates gain in proportion to the samples.
+    /// the candidates gain in proportion to the samples. What every sample says may be nothing goes: in fewer samples an input that is held looks
+    /// late.
     pub fn at_full_rate(
         &self,
         mut path: SelectionPath,
@@ -47,6 +49,13 @@ impl ModelSelection<'_> {
             let chosen = &mut path.ranking.candidates[chosen];
             chosen.fitted = at_full_rate(&chosen.fitted)?;
         }
+        let to_the_end = ModelSelection {
+            watch: &watch,
+            ..*self
+        };
+        let ranking = std::mem::take(&mut path.ranking);
+        take_out_what_may_be_nothing(&to_the_end, &mut path, 1)?;
+        path.ranking = ranking;
         Ok(path)
     }
 }

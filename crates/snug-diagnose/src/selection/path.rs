@@ -100,7 +100,9 @@ impl SelectionPath {
 
     /// One rung down: the last model does `without` an effect that was added, and loses so much.
     pub fn take_out(&mut self, effect: Effect, without: Fitted, loss: f64, fate: Fate) {
-        self.attempts.push(self.attempt(effect, loss, fate));
+        let attempt = self.attempt(effect, loss, fate);
+        self.attempts.retain(|earlier| earlier.effect != effect);
+        self.attempts.push(attempt);
         self.additions.retain(|one| one.effect != effect);
         self.stand_on(without);
         if let [only] = self.additions.as_slice() {

@@ -12,10 +12,10 @@ use crate::verdict::changes::changes;
 use crate::verdict::earned::{self, leaves_a_motion};
 use crate::verdict::floor;
 use crate::verdict::thresholds::{
-    ALL_BUT_EXPLAINED, BESIDE_EFFECTS, MOSTLY_EXPLAINED, REPEATS, WHITE, WIDER,
+    ALL_BUT_EXPLAINED, BESIDE_EFFECTS, MOSTLY_EXPLAINED, REPEATS, WIDER,
 };
 use snug_campaign::Verdict;
-use snug_campaign::words::explained::Explained;
+use snug_campaign::words::explained::{Explained, is_white};
 use snug_campaign::words::suspicion::{FailedFit, OtherUnits, StandsApart, Suspicion};
 
 impl Examination<'_> {
@@ -61,7 +61,7 @@ impl Examination<'_> {
         places: &Places,
         plain: Option<&PlainEquation<'_>>,
     ) -> (Verdict, Vec<Suspicion>) {
-        let is_white = (places.explained.as_ref()).is_some_and(|all| all.neighbours.abs() < WHITE);
+        let is_white = (places.explained.as_ref()).is_some_and(|all| is_white(all.neighbours));
         let wrong = [
             self.turned_round.clone().map(Suspicion::TurnedRound),
             self.units_that_differ(true).map(Suspicion::Units),

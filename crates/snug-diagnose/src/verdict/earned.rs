@@ -11,12 +11,12 @@ use crate::selection::thresholds::{MOST, SMALL};
 use crate::settings::DiagnoseSettings;
 use crate::verdict::pushed_away::{is_a_weight, may_be_held_back, may_push_away, pushed_away};
 use crate::verdict::thresholds::{
-    FAR_BETTER, FEW_SAMPLES, LEAST_EXPLAINED, MOST_IN_FEW, MOSTLY_EXPLAINED, SHORTFALL, WHITE,
+    FAR_BETTER, FEW_SAMPLES, LEAST_EXPLAINED, MOST_IN_FEW, MOSTLY_EXPLAINED, SHORTFALL,
 };
 use crate::verdict::unsigned::lost_their_sign;
 use crate::verdict::white_noise::is_white_noise;
 use snug_campaign::Quantity;
-use snug_campaign::words::explained::Explained;
+use snug_campaign::words::explained::{Explained, is_white};
 use snug_campaign::words::suspicion::Suspicion;
 use snug_identify::{EquationFit, FitTask, spectral_start};
 use snug_signal::without_trend;
@@ -50,7 +50,7 @@ pub(crate) fn left_over(
     seen: &[Seen<'_>],
 ) -> Option<Suspicion> {
     let explained = explained?;
-    let is_white = explained.neighbours.abs() < WHITE && explained.share > 0.0;
+    let is_white = is_white(explained.neighbours) && explained.share > 0.0;
     let left = left_of_all(cases.first()?.quantity(), seen).concat();
     outliers(&left).or(is_white.then_some(Suspicion::Noise))
 }
@@ -272,7 +272,7 @@ fn is_still(cases: &[FitTask<'_>]) -> bool {
         let scored = &case.measured()[case.unscored()..];
         let mean = scored.iter().sum::<f64>() / scored.len() as f64;
         let about_mean: Vec<f64> = scored.iter().map(|y| y - mean).collect();
-        correlation(&[about_mean]).abs() < WHITE
+        is_white(correlation(&[about_mean]))
     })
 }
 

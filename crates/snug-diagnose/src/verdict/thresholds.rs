@@ -26,9 +26,6 @@ pub(crate) const MOSTLY_EXPLAINED: f64 = 0.9;
 /// The same where it took several effects \[–\]. Chosen: of four made-up rigs whose missing effect the catalogue does
 /// not have, others explained 99.0 to 99.84 % in its place; where they were the right ones, 99.95 % and more.
 pub(crate) const ALL_BUT_EXPLAINED: f64 = 0.999;
-/// Correlation of neighbouring samples below which what is left is white \[–\]: 0.05 is the chance of two in five hundred samples,
-/// and what a model misses is far smoother. Chosen.
-pub(crate) const WHITE: f64 = 0.1;
 /// By how much less than m, c, k alone, where the spectra put them, a model may explain and still be called adequate \[–\].
 /// Chosen.
 pub(crate) const SHORTFALL: f64 = 0.05;

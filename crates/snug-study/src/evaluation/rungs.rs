@@ -2,6 +2,7 @@
 
 use crate::evaluation::tightening::Evaluated;
 use crate::study::Study;
+use snug_campaign::words::explained::is_white;
 use snug_campaign::words::headline::Headline;
 use snug_campaign::{Diagnosis, Motion, Rejection, Rung, TighteningId, Verdict};
 use snug_statistics::descriptive::median;
@@ -43,11 +44,20 @@ fn with_nothing_usable(verdict: Verdict, headline: Headline) -> (Verdict, Headli
             fall,
             explained,
         } => {
-            let headline = Headline::MoreThanNoise {
-                added: [added, further].concat(),
-                fall,
-                explained,
-                changes: None,
+            let added = [added, further].concat();
+            let white = explained.filter(|all| is_white(all.neighbours));
+            let headline = match white {
+                Some(explained) => Headline::TooNoisy {
+                    added,
+                    fall,
+                    explained,
+                },
+                None => Headline::MoreThanNoise {
+                    added,
+                    fall,
+                    explained,
+                    changes: None,
+                },
             };
             (Verdict::Undecided, headline)
         }

@@ -7,6 +7,15 @@ use std::fmt::{self, Display, Formatter};
 /// than cannot, 0.71² = ½.
 const A_MOTION: f64 = 0.71;
 
+/// Correlation of neighbouring samples below which what is left is white \[–\]: 0.05 is the chance of two in five hundred samples,
+/// and what a model misses is far smoother. Chosen.
+const WHITE: f64 = 0.1;
+
+/// Whether what is left is as white as noise, by the correlation of its neighbouring samples \[–\].
+pub fn is_white(neighbours: f64) -> bool {
+    neighbours.abs() < WHITE
+}
+
 /// Whether what is left is a motion rather than noise, by the correlation of its neighbouring samples \[–\].
 pub fn is_a_motion(neighbours: f64) -> bool {
     neighbours >= A_MOTION

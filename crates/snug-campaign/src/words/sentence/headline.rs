@@ -88,6 +88,15 @@ pub enum Headline {
         /// What changes along the recordings.
         changes: Option<Changes>,
     },
+    /// Nothing but noise is left, and so much of it that not one recording can be used.
+    TooNoisy {
+        /// What was added.
+        added: Vec<Named>,
+        /// How the error fell.
+        fall: Fall,
+        /// How much of the output is explained.
+        explained: Explained,
+    },
     /// Terms that are in no catalogue were added.
     Unlisted {
         /// What was added.
@@ -169,6 +178,11 @@ impl Display for Headline {
                 explained,
                 changes,
             } => more_than_noise(f, added, *fall, *explained, changes.as_ref()),
+            Self::TooNoisy {
+                added,
+                fall,
+                explained,
+            } => too_noisy(f, added, *fall, *explained),
             Self::Unlisted {
                 added,
                 further,
@@ -353,6 +367,31 @@ fn more_than_noise(
     explained.map_or(Ok(()), |all| {
         write!(f, " The model explains {all}. {}", all.left())
     })
+}
+
+fn too_noisy(
+    f: &mut Formatter<'_>,
+    added: &[Named],
+    fall: Fall,
+    explained: Explained,
+) -> fmt::Result {
+    match added {
+        [] => write!(
+            f,
+            "The model explains {explained}: it leaves {}",
+            fall.after
+        ),
+        added => write!(
+            f,
+            "With {} the model explains {explained}: the error fell {fall}",
+            named(added)
+        ),
+    }?;
+    write!(
+        f,
+        ", which is as white as noise, and so much that not one recording fits well enough to be used: measure with less noise, or let the study's `selection` take more of it. {}",
+        explained.left()
+    )
 }
 
 /// What is small beside what the verdict is about.
