@@ -436,9 +436,10 @@ impl ModelSelection<'_> {
 }
 
 /// Whether it may ask for shorter steps than the base model: it has a state of its own, or is a law, which may set in within a sample as a stop
-/// does. In what steps dry friction, which has no state, is simulated was settled before.
+/// does. In what steps dry friction, which has no state, is simulated was settled before, and a preload turns as that does.
 fn needs_short_steps(effect: &Effect) -> bool {
-    !effect.description().states.is_empty() || is_unlisted(*effect)
+    let turns_at_once = effect.name() == "preload_law";
+    !effect.description().states.is_empty() || (is_unlisted(*effect) && !turns_at_once)
 }
 
 /// The best candidates that may come in for what they add; what only bends to a simpler one, as a loop that turns at once does to dry friction,
