@@ -252,17 +252,22 @@ fn what_moves_without_a_mass_that_shows_is_asked_what_it_lacks() {
     assert!((size / 0.004 - 1.0).abs() < 0.02, "{size}");
 }
 
+/// Three recordings of a slide that lacks nothing, whose input is logged turned round or not, measured with noise of this size \[m\].
+fn plain_slide(seed: u64, turned: f64, noise_m: f64) -> Vec<Vec<[f64; 2]>> {
+    let mut noise = Noise(seed);
+    let recording = |_| {
+        let inputs = noise.tones([1.0, 40.0], 4.0, 2000);
+        let rate = |[x, v]: [f64; 2], u: f64| [v, (turned * u - 12.0 * v - 6400.0 * x) / 2.0];
+        let places = moved(&inputs, 10, rate).map(|[x, _]| x);
+        noise.with(&inputs, places, noise_m)
+    };
+    (0..3).map(recording).collect()
+}
+
 /// An input logged with the other sign leads no fit anywhere, and recordings' numbers apart: the sign is said, and no unit.
 #[test]
 fn an_input_of_the_other_sign_is_said_before_anything_else() {
-    let mut noise = Noise(14);
-    let mut recording = || {
-        let inputs = noise.tones([1.0, 40.0], 4.0, 2000);
-        let rate = |[x, v]: [f64; 2], u: f64| [v, (-u - 12.0 * v - 6400.0 * x) / 2.0];
-        let places = moved(&inputs, 10, rate).map(|[x, _]| x);
-        noise.with(&inputs, places, 1e-5)
-    };
-    let rig = Rig::that_slides((0..3).map(|_| recording()).collect());
+    let rig = Rig::that_slides(plain_slide(14, -1.0, 1e-5));
     let diagnosis = rig.told(&Verb::Diagnose);
     let headline = diagnosis.headline.to_string();
     assert_eq!(diagnosis.verdict, Verdict::NotFitted, "{headline}");
@@ -272,15 +277,9 @@ fn an_input_of_the_other_sign_is_said_before_anything_else() {
 /// Input and output declared the other way round: no chain of effects that happens to look like it is looked for, the columns are named.
 #[test]
 fn swapped_columns_are_said_before_anything_else() {
-    let mut noise = Noise(16);
-    let mut recording = || {
-        let inputs = noise.tones([1.0, 40.0], 4.0, 2000);
-        let rate = |[x, v]: [f64; 2], u: f64| [v, (u - 12.0 * v - 6400.0 * x) / 2.0];
-        let places = moved(&inputs, 10, rate).map(|[x, _]| x);
-        let rows = noise.with(&inputs, places, 1e-6);
-        rows.into_iter().map(|[u, y]| [y, u]).collect()
-    };
-    let rig = Rig::that_slides((0..3).map(|_| recording()).collect());
+    let mut recordings = plain_slide(16, 1.0, 1e-6);
+    (recordings.iter_mut().flatten()).for_each(|row| row.reverse());
+    let rig = Rig::that_slides(recordings);
     let diagnosis = rig.told(&Verb::Improve);
     let headline = diagnosis.headline.to_string();
     assert_eq!(diagnosis.verdict, Verdict::NotFitted, "{headline}");
@@ -290,14 +289,7 @@ fn swapped_columns_are_said_before_anything_else() {
 /// Half of what is measured is noise of the sensor: what is left knows nothing of its neighbours, and is called noise.
 #[test]
 fn noise_as_large_as_the_motion_is_called_noise() {
-    let mut noise = Noise(15);
-    let mut recording = || {
-        let inputs = noise.tones([1.0, 40.0], 4.0, 2000);
-        let rate = |[x, v]: [f64; 2], u: f64| [v, (u - 12.0 * v - 6400.0 * x) / 2.0];
-        let places = moved(&inputs, 10, rate).map(|[x, _]| x);
-        noise.with(&inputs, places, 4e-3)
-    };
-    let rig = Rig::that_slides((0..3).map(|_| recording()).collect());
+    let rig = Rig::that_slides(plain_slide(15, 1.0, 4e-3));
     let diagnosis = rig.told(&Verb::Improve);
     assert_eq!(names(&diagnosis), [""; 0], "{}", diagnosis.headline);
     assert_eq!(
@@ -311,6 +303,19 @@ fn noise_as_large_as_the_motion_is_called_noise() {
         "{:?}",
         diagnosis.reasons
     );
+}
+
+/// Less of it, and still too much for a recording to be used, was "more than noise" beside "0.00 is white noise".
+#[test]
+fn noise_of_which_there_is_too_much_is_called_noise() {
+    let rig = Rig::that_slides(plain_slide(15, 1.0, 1.6e-3));
+    let diagnosis = rig.told(&Verb::Improve);
+    let headline = diagnosis.headline.to_string();
+    assert_eq!(diagnosis.verdict, Verdict::Undecided, "{headline}");
+    assert!(diagnosis.added.is_empty(), "{headline}");
+    assert!(headline.contains("as white as noise"), "{headline}");
+    assert!(!headline.contains("more than noise"), "{headline}");
+    assert_eq!(diagnosis.ladder[0].selected_fraction, 0.0);
 }
 
 /// A fan that runs when recording begins: how it runs then is no effect, what resists it is its air and its bearing.

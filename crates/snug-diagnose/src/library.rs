@@ -119,6 +119,11 @@ impl Factor {
     }
 }
 
+/// Whether it is a term that turns over all at once where the displacement does, as dry friction where the speed does.
+pub(crate) fn turns_at_once(effect: Effect) -> bool {
+    term(effect.name()).is_some_and(|term| term.expression.contains("{near}"))
+}
+
 /// Whether an effect is one of these terms.
 pub(crate) fn is_unlisted(effect: Effect) -> bool {
     term(effect.name()).is_some()

@@ -38,23 +38,3 @@ fn an_accelerometer_that_is_ac_coupled_is_told_with_its_corner() {
     let left = diagnosis.ladder.last().unwrap().rms_fitted_output;
     assert!(left < 1.1 * NOISE, "{left}: {headline}");
 }
-
-/// It was "more than noise" beside "0.00 is white noise": not one recording fits well enough to be used, and not for want of a model.
-#[test]
-fn noise_of_which_there_is_too_much_is_called_noise() {
-    let mut noise = Noise(47);
-    let mut recording = || {
-        let inputs = noise.tones([0.5, 20.0], 1.5, 2000);
-        let rate = |[x, v]: [f64; 2], u: f64| [v, (u - 0.6 * v - 60.0 * x) / 0.05];
-        let angles = moved(&inputs, 10, rate).map(|[x, _]| x);
-        noise.with(&inputs, angles, 0.05)
-    };
-    let rig = Rig::that_turns((0..3).map(|_| recording()).collect());
-    let diagnosis = rig.told(&Verb::Improve);
-    let headline = diagnosis.headline.to_string();
-    assert_eq!(diagnosis.verdict, Verdict::Undecided, "{headline}");
-    assert!(diagnosis.added.is_empty(), "{headline}");
-    assert!(headline.contains("as white as noise"), "{headline}");
-    assert!(!headline.contains("more than noise"), "{headline}");
-    assert_eq!(diagnosis.ladder[0].selected_fraction, 0.0);
-}

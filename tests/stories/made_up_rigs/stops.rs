@@ -52,8 +52,8 @@ fn a_slide_between_two_rubber_stops_lacks_them_alone() {
     lacks_just(&diagnosis, "slack_spring_law", [-3e4, 0.02]);
 }
 
-/// A slide that rests nearer to one of its two stops was told a spring that stiffens with the fourth power, one with the third, and a
-/// quadratic one, which together came nearest to it.
+/// A joint that rests nearer to one of its two stops was told forces of the fifth, fourth and second power of its angle, which together
+/// came nearest to it.
 #[test]
 fn a_slide_between_stops_at_different_places_lacks_both_as_one_law() {
     let beyond = |x: f64| x - x.clamp(-0.03, 0.02);

@@ -24,13 +24,13 @@ impl Diagnosis {
             Verdict::Undecided if is_comparison => {
                 "the model leaves an error, and the noise is not known"
             }
-            Verdict::Undecided if matches!(self.headline, Headline::MoreThanNoise { .. }) => {
-                "more than noise is left, and nothing tried explains it"
-            }
-            Verdict::Undecided if matches!(self.headline, Headline::TooNoisy { .. }) => {
-                "nothing but noise is left, and too much of it"
-            }
-            Verdict::Undecided => "too little data to say",
+            Verdict::Undecided => match self.headline {
+                Headline::MoreThanNoise { .. } => {
+                    "more than noise is left, and nothing tried explains it"
+                }
+                Headline::TooNoisy { .. } => "nothing but noise is left, and too much of it",
+                _ => "too little data to say",
+            },
             Verdict::NotFitted => "no model was found that fits",
         }
     }

@@ -40,8 +40,7 @@ impl<'a> PlainEquation<'a> {
 
     /// The regression with the effects of a model as they act with these values of all its parameters, recording by recording.
     pub fn as_fitted(&self, effects: &[Effect], at: &[Vec<f64>]) -> Option<EquationFit> {
-        let terms = self.equation.terms(effects, at)?;
-        let terms: Vec<_> = terms.into_iter().flatten().collect();
+        let (_, terms) = acting_terms(&self.equation, effects, at)?;
         self.equation.fit(&terms)
     }
 
@@ -64,15 +63,12 @@ impl<'a> PlainEquation<'a> {
         effects: &[Effect],
         at: &[Vec<f64>],
     ) -> Option<Vec<(Effect, Term)>> {
-        let terms = effects
-            .iter()
-            .copied()
-            .zip(self.equation.terms(effects, at)?);
+        let (there, terms) = acting_terms(&self.equation, effects, at)?;
         let known = |effect: &Effect| effects.iter().any(|one| one.name() == effect.name());
         let further = self.plain.iter().filter(|effect| !known(effect));
-        let further = further.map(|&effect| (effect, self.equation.term(effect, &[1.0])));
-        let there = |(effect, term): (Effect, Option<Term>)| Some((effect, term?));
-        Some(terms.chain(further).filter_map(there).collect())
+        let further =
+            further.filter_map(|&effect| Some((effect, self.equation.term(effect, &[1.0])?)));
+        Some(there.into_iter().zip(terms).chain(further).collect())
     }
 }
 
@@ -171,18 +167,36 @@ fn regressed(
     place: &Start,
 ) -> Option<(EquationFit, Start)> {
     let at = values_at(pooled, place);
-    let terms = plain.equation.terms(&pooled.effects, &at)?;
-    let there: Vec<Effect> = (pooled.effects.iter().zip(&terms))
-        .filter_map(|(&effect, term)| term.as_ref().map(|_| effect))
-        .collect();
-    let found = plain
-        .equation
-        .fit(&terms.into_iter().flatten().collect::<Vec<_>>())?;
-    let mut start = with_base(pooled, place, &found.base);
-    for (effect, times) in there.iter().zip(&found.times) {
-        multiply(pooled, &mut start, *effect, *times);
-    }
+    let (there, terms) = acting_terms(&plain.equation, &pooled.effects, &at)?;
+    let found = plain.equation.fit(&terms)?;
+    let times = there.into_iter().zip(found.times.iter().copied());
+    let start = as_found(pooled, place, &found.base, times);
     Some((found, start))
+}
+
+/// Those of `effects` that add something there, and what each adds.
+pub(crate) fn acting_terms(
+    equation: &MotionEquation<'_>,
+    effects: &[Effect],
+    at: &[Vec<f64>],
+) -> Option<(Vec<Effect>, Vec<Term>)> {
+    let pairs = effects.iter().copied().zip(equation.terms(effects, at)?);
+    let acting = pairs.filter_map(|(effect, term)| Some((effect, term?)));
+    Some(acting.unzip())
+}
+
+/// The place with the mass, damping and stiffness that a regression found, and with sizes of effects so many times as large.
+pub(crate) fn as_found(
+    pooled: &PooledModel<'_>,
+    place: &Start,
+    base: &[f64],
+    times: impl IntoIterator<Item = (Effect, f64)>,
+) -> Start {
+    let mut start = with_base(pooled, place, base);
+    for (effect, times) in times {
+        multiply(pooled, &mut start, effect, times);
+    }
+    start
 }
 
 /// The place with another mass, damping and stiffness, those of all recordings.

@@ -5,7 +5,7 @@
 //! their starts, as in the score test.
 
 use crate::data::cases::Cases;
-use crate::pooled::equation::{PlainEquation, values};
+use crate::pooled::equation::{PlainEquation, acting_terms, values};
 use crate::pooled::fitted::Fitted;
 use crate::ranking::sensitivity::combinations;
 use crate::ranking::thresholds::{MOST_OF_FIRST_RANKING, MOST_SHAPES};
@@ -63,11 +63,7 @@ fn of_some(
     let some = &cases[..some.count().max(1)];
     let PlainEquation { equation, .. } = PlainEquation::of(some)?;
     let at = &at[..some.len()];
-    let terms = equation.terms(&current.effects, at)?;
-    let pairs = current.effects.iter().copied().zip(terms);
-    let (known, terms): (Vec<Effect>, Vec<Term>) = pairs
-        .filter_map(|(effect, term)| Some((effect, term?)))
-        .unzip();
+    let (known, terms) = acting_terms(&equation, &current.effects, at)?;
     let without = equation.fit(&terms).filter(EquationFit::is_driven)?;
     let beside = Beside {
         before: equation.acting(&current.effects, at)?,

@@ -5,7 +5,7 @@ use crate::data::clusters::Clusters;
 use crate::data::power::power;
 use crate::error::DiagnoseError;
 use crate::library::is_unlisted;
-use crate::pooled::equation::{with_base, with_shapes_of};
+use crate::pooled::equation::{as_found, with_shapes_of};
 use crate::pooled::fitted::Fitted;
 use crate::pooled::long_record;
 use crate::pooled::model::{PooledModel, Start, pick};
@@ -247,9 +247,6 @@ fn as_promised(
 /// begins, of which a regression knows nothing, begins as usual: the current model may have bent it to what it lacks.
 pub(crate) fn as_regressed(pooled: &PooledModel<'_>, current: &Fitted, promise: &Promise) -> Start {
     let mut start = with_effect(pooled, current, promise.effect, &promise.own);
-    for &(effect, times) in &promise.times {
-        multiply_sizes(pooled, &mut start, effect, times);
-    }
     let usual = pooled.usual_start();
     for (column, &index) in pooled.own.iter().enumerate() {
         let effect = effect_of(&pooled.effects, index).map(|(effect, _)| effect);
@@ -259,19 +256,8 @@ pub(crate) fn as_regressed(pooled: &PooledModel<'_>, current: &Fitted, promise: 
             }
         }
     }
-    simulable(pooled, with_base(pooled, &start, &promise.base))
-}
-
-/// Multiplies the sizes that an effect shares, within their limits.
-fn multiply_sizes(pooled: &PooledModel<'_>, start: &mut Start, effect: Effect, times: f64) {
-    let specs = effect.description().parameters;
-    for (value, size) in start.shared.iter_mut().zip(&pooled.shared) {
-        let place = effect_of(&pooled.effects, size.index).filter(|(of, _)| *of == effect);
-        if place.is_some_and(|(_, offset)| specs[offset].vanishes_at == Some(0.0)) {
-            let limits = &pooled.models[0].parameters()[size.index];
-            *value = (*value * times).clamp(limits.minimum, limits.maximum);
-        }
-    }
+    let times = promise.times.iter().copied();
+    simulable(pooled, as_found(pooled, &start, &promise.base, times))
 }
 
 /// At most `most` different starts of an effect, those whose columns promise most.

@@ -35,10 +35,10 @@ pub(crate) fn try_removals(
         let hardly_matters = loss / full.squares() < without.smallest_gain(selection.settings);
         let is_chance = clearness(&losses, full.scale()) < 1.0;
         let stands_in = || is_stand_in(selection, path, &added, [loss, without.squares()]);
-        let fate = match (hardly_matters || is_chance, stands_in()) {
-            (true, _) => Fate::PredictsAsWell,
-            (false, true) => Fate::StandsIn,
-            (false, false) => Fate::Stays,
+        let fate = match hardly_matters || is_chance {
+            true => Fate::PredictsAsWell,
+            false if stands_in() => Fate::StandsIn,
+            false => Fate::Stays,
         };
         match fate {
             Fate::Stays => path.keep(effect, loss),

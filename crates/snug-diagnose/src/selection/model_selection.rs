@@ -4,7 +4,7 @@ use crate::data::cases::Cases;
 use crate::data::clusters::Clusters;
 use crate::data::watch::Watch;
 use crate::error::DiagnoseError;
-use crate::library::is_unlisted;
+use crate::library::{is_unlisted, turns_at_once};
 use crate::pooled::fit::{fit_effects, fit_part, fit_sharing};
 use crate::pooled::fitted::Fitted;
 use crate::pooled::model::PooledModel;
@@ -436,10 +436,10 @@ impl ModelSelection<'_> {
 }
 
 /// Whether it may ask for shorter steps than the base model: it has a state of its own, or is a law, which may set in within a sample as a stop
-/// does. In what steps dry friction, which has no state, is simulated was settled before, and a preload turns as that does.
+/// does. In what steps dry friction, which has no state, is simulated was settled before, and what turns at once turns as that does.
 fn needs_short_steps(effect: &Effect) -> bool {
-    let turns_at_once = effect.name() == "preload_law";
-    !effect.description().states.is_empty() || (is_unlisted(*effect) && !turns_at_once)
+    let may_set_in = is_unlisted(*effect) && !turns_at_once(*effect);
+    may_set_in || !effect.description().states.is_empty()
 }
 
 /// The best candidates that may come in for what they add; what only bends to a simpler one, as a loop that turns at once does to dry friction,

@@ -27,12 +27,14 @@ impl ModelSelection<'_> {
                 let falls = current.squares() - settled.squares();
                 comes_in(&ranking.candidates[index], falls)
             };
-            // What does not come in by itself does not among all the others.
-            match self.begun_among(&[one.effect], current, one)? {
-                Some((index, ranking, settled)) if does(index, &ranking, &settled) => {
-                    self.must_be_resolved(&[&settled])?;
+            // Where it is known where it begins, what does not come in by itself does not among all the others.
+            if !one.values.is_empty() {
+                match self.begun_among(&[one.effect], current, one)? {
+                    Some((index, ranking, settled)) if does(index, &ranking, &settled) => {
+                        self.must_be_resolved(&[&settled])?;
+                    }
+                    _ => continue,
                 }
-                _ => continue,
             }
             let mut all = candidates(&self.cases, current, self.custom)?;
             if !all.contains(&one.effect) {

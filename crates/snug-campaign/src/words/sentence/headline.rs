@@ -375,6 +375,20 @@ fn too_noisy(
     fall: Fall,
     explained: Explained,
 ) -> fmt::Result {
+    explains(f, added, fall, explained)?;
+    write!(
+        f,
+        ", which is as white as noise, and so much that not one recording fits well enough to be used: measure with less noise, or let the study's `selection` take more of it. {}",
+        explained.left()
+    )
+}
+
+fn explains(
+    f: &mut Formatter<'_>,
+    added: &[Named],
+    fall: Fall,
+    explained: Explained,
+) -> fmt::Result {
     match added {
         [] => write!(
             f,
@@ -386,12 +400,7 @@ fn too_noisy(
             "With {} the model explains {explained}: the error fell {fall}",
             named(added)
         ),
-    }?;
-    write!(
-        f,
-        ", which is as white as noise, and so much that not one recording fits well enough to be used: measure with less noise, or let the study's `selection` take more of it. {}",
-        explained.left()
-    )
+    }
 }
 
 /// What is small beside what the verdict is about.
@@ -408,20 +417,14 @@ fn adequate(
     fall: Fall,
     explained: Option<Explained>,
 ) -> fmt::Result {
-    let (with, after) = (named(added), fall.after);
-    match (added.is_empty(), explained) {
-        (true, None) => write!(f, "The model is adequate: it leaves {after}"),
-        (false, None) => write!(
+    match (added, explained) {
+        (added, Some(all)) => explains(f, added, fall, all),
+        ([], None) => write!(f, "The model is adequate: it leaves {}", fall.after),
+        (added, None) => write!(
             f,
-            "With {with} the model is complete: the error fell {fall}"
+            "With {} the model is complete: the error fell {fall}",
+            named(added)
         ),
-        (true, Some(all)) => write!(f, "The model explains {all}: it leaves {after}"),
-        (false, Some(all)) => {
-            write!(
-                f,
-                "With {with} the model explains {all}: the error fell {fall}"
-            )
-        }
     }?;
     write!(f, ", and nothing more is justified.")?;
     explained.map_or(Ok(()), |all| write!(f, " {}", all.left()))
