@@ -3,7 +3,7 @@
 use crate::error::DiagnoseError;
 use crate::pooled::parameter_place::effect_of;
 use crate::pooled::sharing::{Groups, Sharing};
-use snug_campaign::Factor;
+use snug_campaign::{Factor, SignalUnits};
 use snug_identify::FitTask;
 use snug_model::Effect;
 
@@ -53,6 +53,7 @@ impl<'a> Question<'a> {
             custom: Vec::new(),
             goal,
             may_ask_for_steps: false,
+            units: SignalUnits::default(),
         }
     }
 
@@ -102,4 +103,6 @@ pub struct Question<'a> {
     pub goal: Goal,
     /// Whether to end with [`DiagnoseError::Unresolved`] where the simulation takes too few steps for what is found.
     pub may_ask_for_steps: bool,
+    /// In which units errors are told.
+    pub units: SignalUnits,
 }

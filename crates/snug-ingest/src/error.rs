@@ -3,7 +3,8 @@
 mod finding;
 mod wording;
 
-use crate::signal::{Signal, Unit};
+use crate::signal::Signal;
+use crate::unit::Unit;
 use snug_campaign::excerpt;
 use std::path::PathBuf;
 use thiserror::Error;

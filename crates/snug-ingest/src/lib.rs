@@ -14,11 +14,13 @@ mod signal;
 mod source;
 pub mod survey;
 mod thesis_layout;
+mod unit;
 
 pub use error::IngestError;
 pub use file::ingested::Ingested;
 pub use recording::condition_pattern::{ConditionPattern, Template};
 pub use recording::range::Range;
-pub use signal::{Signal, Unit};
+pub use signal::Signal;
 pub use source::{Format, Listing, Source, list, list_on, read, read_on};
 pub use thesis_layout::ThesisLayout;
+pub use unit::Unit;

@@ -5,7 +5,7 @@ mod diagnosed;
 mod markup;
 mod specimen;
 
-use snug_campaign::words::headline::{Fall, Headline};
+use snug_campaign::words::headline::{Fall, Headline, Left};
 use snug_campaign::{CampaignResult, Comparison, Diagnosis, Location, WorkDone};
 use snug_report::html;
 
@@ -272,14 +272,11 @@ fn hostile_names_stay_text() {
     let harmless = html(&diagnosed::unlisted()).matches("<script").count();
     let mut result = diagnosed::unlisted();
     let diagnosis = result.diagnosis.as_mut().unwrap();
-    let Headline::Unexplained(left) = diagnosis.headline else {
-        panic!("a law in no catalogue")
-    };
     diagnosis.headline = Headline::Lacks {
         effect: diagnosed::named(attack),
         fall: Fall {
-            before: left,
-            after: left,
+            before: Left::over_noise(2.0),
+            after: Left::over_noise(1.0),
         },
     };
     diagnosis.compared_output = attack.into();

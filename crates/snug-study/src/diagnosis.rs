@@ -1,6 +1,7 @@
 //! A study diagnosed: tightenings to the diagnosis, its models back into the study, every rung of the ladder evaluated.
 
 mod restarted;
+mod search;
 
 use crate::error::StudyError;
 use crate::evaluation::rungs::Ladder;
@@ -11,17 +12,12 @@ use crate::run::{Outcome, Task, pool, run_with};
 use crate::study::Study;
 use crate::tasks::cases::{chosen, with_settled};
 use crate::tasks::comparable::Comparable;
-use crate::tasks::held_input;
 use crate::tasks::settling::{Settled, settle};
 use restarted::Restarted;
-use snug_campaign::words::number::significant;
-use snug_campaign::words::reason::Reason;
+use search::Search;
 use snug_campaign::{GroupSize, GroupSizes};
-use snug_diagnose::{
-    Answer, Begun, DiagnoseError, Goal, Pieces, Question, RungModel, Watch, examine,
-};
-use snug_identify::{FitTask, IdentifyError};
-use snug_least_squares::SolveError;
+use snug_diagnose::{Answer, Begun, DiagnoseError, Goal, Question, RungModel};
+use snug_identify::FitTask;
 use snug_model::{Effect, GroupValue, ParameterSettings, Scale, ValuesByGroup};
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -183,6 +179,7 @@ fn climbed_in_steps(
         custom: study.model.custom_effects()?,
         goal: goal(study, verb, &cases)?,
         may_ask_for_steps: may_ask && matches!(study.model.scale, Scale::Rig { .. }),
+        units: study.source.units(study.preprocess.rig.lever_arm_m),
     };
     let search = Search {
         settings: &search,
@@ -218,171 +215,6 @@ fn goal(study: &Study, verb: &Verb, cases: &[FitTask<'_>]) -> Result<Goal, Study
         Verb::Add(names) => Goal::Add(effects(study, names, cases)?),
         Verb::Improve => Goal::Improve,
     })
-}
-
-/// How an answer is looked for.
-struct Search<'a> {
-    settings: &'a snug_diagnose::DiagnoseSettings,
-    verb: &'a Verb,
-    progress: &'a (dyn Fn(ProgressEvent<'_>) + Sync),
-    interrupted: &'a AtomicBool,
-}
-
-impl Search<'_> {
-    /// The answer, and the study with a held input where that is the likelier story.
-    fn answer(
-        &self,
-        study: &Study,
-        question: &Question<'_>,
-    ) -> Result<(Answer, Option<Study>), StudyError> {
-        let cases = question.cases;
-        let is_open = *self.verb == Verb::Improve && held_input::is_open(study, cases);
-        if is_open && let Some((held, study)) = self.held_at_once(study, question)? {
-            return Ok((held, Some(study)));
-        }
-        let mut straight = self.examined(question)?;
-        let not_tried = held_input::not_tried(study, cases, &straight.diagnosis);
-        straight.diagnosis.reasons.extend(not_tried);
-        if !is_open || straight.diagnosis.interrupted {
-            return Ok((straight, None));
-        }
-        let last = with_last_model(study, &straight);
-        let is_worth_it = held_input::is_worth_it(&straight.diagnosis, study, &last, cases)?;
-        let (held_study, cases) = held_input::held(study, cases)?;
-        let question = Question {
-            cases: &cases,
-            ..question.clone()
-        };
-        if !is_worth_it && !self.fewer_do(&held_study, &question, &straight)? {
-            return Ok((straight, None));
-        }
-        // Of a model whose delay is half an interval the rest is the model, whatever a search afresh would find.
-        let interval_s = cases[0].tightening.time_base.interval_s;
-        let rest = held_input::without_stand_ins(&straight.diagnosis, interval_s);
-        let from = rest.map(|names| effects(&held_study, &names, &cases));
-        let from = from.transpose()?;
-        let from = from.map(|rest| Goal::ImproveFrom(begun(rest, &straight)));
-        let goals = std::iter::once(question.goal.clone()).chain(from);
-        for goal in goals {
-            let question = Question {
-                goal,
-                ..question.clone()
-            };
-            let mut held = self.examined(&question)?;
-            if let Some(reason) =
-                held_input::speaks_for_it(&held.diagnosis, &straight.diagnosis, interval_s)
-            {
-                held.diagnosis.reasons.push(reason);
-                return Ok((held, Some(held_study)));
-            }
-            if held.diagnosis.interrupted {
-                let mut diagnosis = straight.diagnosis.ended();
-                diagnosis.reasons.push(Reason::HeldUndecided);
-                return Ok((
-                    Answer {
-                        diagnosis,
-                        ..straight
-                    },
-                    None,
-                ));
-            }
-        }
-        Ok((straight, None))
-    }
-
-    /// Whether with the `held` input a model before the last leaves as little as that does without, fitted again from where it ended: what
-    /// came in after it may stand in for the hold.
-    fn fewer_do(
-        &self,
-        held: &Study,
-        question: &Question<'_>,
-        straight: &Answer,
-    ) -> Result<bool, StudyError> {
-        let rungs = straight.diagnosis.ladder.iter().zip(&straight.models);
-        let Some((last, before)) = straight.diagnosis.ladder.split_last() else {
-            return Ok(false);
-        };
-        for (rung, model) in rungs.take(before.len()).skip(1) {
-            let begun = with_model(held, model, true);
-            let cases = question.cases.iter().map(FitTask::lent).collect();
-            let cases = with_settled(&begun, cases)?;
-            let compared = self.examined(&Question {
-                cases: &cases,
-                effects: effects(&begun, &begun.model.effects, &cases)?,
-                custom: begun.model.custom_effects()?,
-                goal: Goal::Compare,
-                ..question.clone()
-            })?;
-            if held_input::leaves_as_little(&compared.diagnosis, rung, last) {
-                return Ok(true);
-            }
-        }
-        Ok(false)
-    }
-
-    /// What a search with a held input finds, where one effect already leaves far less with it than any does without.
-    fn held_at_once(
-        &self,
-        study: &Study,
-        question: &Question<'_>,
-    ) -> Result<Option<(Answer, Study)>, StudyError> {
-        if !held_input::is_likely(study, question.cases)? {
-            return Ok(None);
-        }
-        let (held_study, held_cases) = held_input::held(study, question.cases)?;
-        let asked = |cases, goal| Question {
-            cases,
-            goal,
-            ..question.clone()
-        };
-        let held = self
-            .examined(&asked(&held_cases, Goal::Diagnose))?
-            .diagnosis;
-        if held.interrupted || !held_input::takes_nearly_all(&held) {
-            return Ok(None);
-        }
-        let straight = self
-            .examined(&asked(question.cases, Goal::Diagnose))?
-            .diagnosis;
-        if straight.interrupted || !held_input::leaves_far_less(&held, &straight) {
-            return Ok(None);
-        }
-        let mut answer = self.examined(&asked(&held_cases, question.goal.clone()))?;
-        answer.diagnosis.reasons.push(Reason::Held {
-            spared: Vec::new(),
-            is_half_an_interval: false,
-        });
-        Ok(Some((answer, held_study)))
-    }
-
-    fn examined(&self, question: &Question<'_>) -> Result<Answer, StudyError> {
-        let progress = self.progress;
-        let tell = |what: &str| progress(ProgressEvent::Stage { what });
-        let count = |pieces: Pieces| match pieces {
-            Pieces::Of(of) => progress(ProgressEvent::Candidates { of }),
-            Pieces::Done => progress(ProgressEvent::CandidateDone),
-        };
-        let watch = Watch::new(&tell).counting(&count).until(self.interrupted);
-        examine(question, self.settings, &watch).map_err(|error| nothing_fits(error, question))
-    }
-}
-
-/// Where not a single fit could begin, what was tried and what to check.
-fn nothing_fits(error: DiagnoseError, question: &Question<'_>) -> StudyError {
-    match (error, question.cases.first()) {
-        (
-            DiagnoseError::Solve(SolveError::NoStart)
-            | DiagnoseError::Identify(IdentifyError::Solve(SolveError::NoStart)),
-            Some(case),
-        ) => StudyError::NothingFits {
-            tightenings: question.cases.len(),
-            output: case.quantity().name(),
-            starts: (case.model.parameters().iter())
-                .map(|one| format!("{} {}", one.name, significant(one.value, 3)))
-                .collect(),
-        },
-        (error, _) => error.into(),
-    }
 }
 
 /// The named effects, the study's own among them, as they act on its rig.

@@ -95,10 +95,7 @@ mod tests {
         Diagnosis {
             verb: "improve".into(),
             verdict: Verdict::Adequate,
-            headline: Headline::Unexplained(Left {
-                error: 1.0,
-                is_over_noise: true,
-            }),
+            headline: Headline::Unexplained(Left::over_noise(1.0)),
             reasons: Vec::new(),
             stopped: None,
             level: 0.05,

@@ -15,6 +15,8 @@ use crate::effect::corrected::CorrectedEffect;
 use crate::effect::detectability::Detectability;
 use crate::effect::ranked::RankedEffect;
 use crate::effect::unlisted::UnlistedTerm;
+use crate::measurement::quantity::Quantity;
+use crate::measurement::signal_units::SignalUnits;
 use crate::words::effect_name::Named;
 use crate::words::sentence::headline::{Fall, Headline, Left};
 use crate::words::sentence::reason::Reason;
@@ -84,13 +86,15 @@ impl Diagnosis {
         known.find(|(name, _)| *name == effect)?.1.as_ref()
     }
 
-    /// The same as it is told where whoever asked ended what would have decided between it and another.
-    pub fn ended(self) -> Self {
-        let left = |rung: Option<&Rung>| Left {
-            error: rung.map_or(f64::NAN, |rung| {
-                rung.error_over_noise.unwrap_or(rung.rms_fitted_output)
-            }),
-            is_over_noise: rung.is_some_and(|rung| rung.error_over_noise.is_some()),
+    /// The same as it is told where whoever asked ended what would have decided between it and another; errors in the `units` of the
+    /// `fitted_output`.
+    pub fn ended(self, fitted_output: Quantity, units: &SignalUnits) -> Self {
+        let left = |rung: Option<&Rung>| match rung.and_then(|rung| rung.error_over_noise) {
+            Some(error) => Left::over_noise(error),
+            None => {
+                let rms = rung.map_or(f64::NAN, |rung| rung.rms_fitted_output);
+                Left::of_output(rms, fitted_output, units)
+            }
         };
         let named = |one: &AddedEffect| Named {
             effect: one.effect.clone(),

@@ -67,13 +67,6 @@ fn rung(effects: &[&str], error: Option<f64>, selected: f64) -> Rung {
     }
 }
 
-fn left(error: f64) -> Left {
-    Left {
-        error,
-        is_over_noise: true,
-    }
-}
-
 /// So many that the headline takes more than a line.
 const TWINS: [&str; 5] = [
     "quadratic_stiffness",
@@ -99,8 +92,8 @@ fn missing() -> Diagnosis {
         headline: Headline::Lacks {
             effect: named("cubic_stiffness", &TWINS),
             fall: Fall {
-                before: left(6.4),
-                after: left(1.38),
+                before: Left::over_noise(6.4),
+                after: Left::over_noise(1.38),
             },
         },
         reasons: vec![Reason::Error {

@@ -235,6 +235,8 @@ impl Examination<'_> {
             verb: self.question.goal.verb(),
             verdict,
             tightenings: self.question.cases.len(),
+            fitted_output: self.question.cases[0].quantity(),
+            units: &self.question.units,
             clusters,
             before: &path.rungs[0],
             after: path.last(),

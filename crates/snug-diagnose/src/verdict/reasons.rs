@@ -19,7 +19,8 @@ use snug_campaign::words::statement::{self, Fate};
 use snug_campaign::words::stopped::Stopped;
 use snug_campaign::words::suspicion::Suspicion;
 use snug_campaign::{
-    AddedEffect, CorrectedEffect, EffectParameter, Factor, RankedEffect, Removal, Verdict,
+    AddedEffect, CorrectedEffect, EffectParameter, Factor, Quantity, RankedEffect, Removal,
+    SignalUnits, Verdict,
 };
 use snug_identify::FitTask;
 use snug_model::{CustomEffectSettings, Description, Effect, Law, TRENDS};
@@ -29,6 +30,8 @@ pub(crate) struct Situation<'a> {
     pub verb: &'static str,
     pub verdict: Verdict,
     pub tightenings: usize,
+    pub fitted_output: Quantity,
+    pub units: &'a SignalUnits,
     /// What is held out in turn: whole tightenings, or stretches of few long records.
     pub clusters: Clusters,
     pub before: &'a Fitted,
@@ -78,6 +81,20 @@ impl Situation<'_> {
         (self.after.effects.last() == Some(&added.effect)).then_some((self.after, twin))
     }
 
+    fn left(&self, fitted: &Fitted) -> Left {
+        match fitted.is_weighted {
+            true => Left::over_noise(fitted.error()),
+            false => Left::of_output(fitted.error(), self.fitted_output, self.units),
+        }
+    }
+
+    fn fall(&self, before: &Fitted, after: &Fitted) -> Fall {
+        Fall {
+            before: self.left(before),
+            after: self.left(after),
+        }
+    }
+
     fn is_interrupted(&self) -> bool {
         self.stopped == Some(Stop::Interrupted)
     }
@@ -120,23 +137,9 @@ fn all_named(effects: &[Effect]) -> Vec<Named> {
     effects.iter().copied().map(named).collect()
 }
 
-fn left(fitted: &Fitted) -> Left {
-    Left {
-        error: fitted.error(),
-        is_over_noise: fitted.is_weighted,
-    }
-}
-
-fn fall(before: &Fitted, after: &Fitted) -> Fall {
-    Fall {
-        before: left(before),
-        after: left(after),
-    }
-}
-
 /// The verdict with what it rests on.
 pub(crate) fn headline(situation: &Situation<'_>) -> Headline {
-    let fell = fall(situation.before, situation.after);
+    let fell = situation.fall(situation.before, situation.after);
     let (added, further) = (situation.added(false), situation.added(true));
     if situation.is_interrupted() {
         let added = [added, further].concat();
@@ -157,12 +160,12 @@ pub(crate) fn headline(situation: &Situation<'_>) -> Headline {
             Headline::Differs {
                 effect: named(chosen.effect),
                 groups: factor.map_or("tightenings", Factor::plural),
-                fall: fall(situation.after, &chosen.fitted),
+                fall: situation.fall(situation.after, &chosen.fitted),
             }
         }
         (Verdict::MissingEffect | Verdict::UnlistedEffect, Some(chosen)) => Headline::Lacks {
             effect: with_twins(chosen.effect, &situation.twins, &chosen.fitted),
-            fall: fall(situation.after, &chosen.fitted),
+            fall: situation.fall(situation.after, &chosen.fitted),
         },
         (Verdict::UnlistedEffect, None) if !added.is_empty() => Headline::Unlisted {
             added,
@@ -260,7 +263,7 @@ fn what_is_left(situation: &Situation<'_>) -> Option<Reason> {
         return None;
     }
     Some(match situation.after.is_weighted {
-        false => Reason::NoiseUnknown(left(situation.after)),
+        false => Reason::NoiseUnknown(situation.left(situation.after)),
         true => Reason::Error {
             tightenings: situation.tightenings,
             error: situation.after.error(),

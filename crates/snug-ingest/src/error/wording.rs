@@ -1,6 +1,6 @@
 //! Lists and numbers as messages show them.
 
-use crate::signal::Unit;
+use crate::unit::Unit;
 use snug_campaign::did_you_mean;
 use snug_campaign::excerpt;
 

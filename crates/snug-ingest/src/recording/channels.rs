@@ -1,7 +1,8 @@
 //! Whether the channels that a study declares make a rig.
 
 use crate::error::IngestError;
-use crate::signal::{Signal, Unit};
+use crate::signal::Signal;
+use crate::unit::Unit;
 
 /// Checks a set of declared channels: units fit, one input and a motion are there, nothing is declared twice.
 pub(crate) fn check(channels: &[(Signal, Unit, f64)]) -> Result<(), IngestError> {
@@ -12,7 +13,7 @@ pub(crate) fn check(channels: &[(Signal, Unit, f64)]) -> Result<(), IngestError>
             return Err(IngestError::UnitOfSignal {
                 signal,
                 unit,
-                allowed: Unit::ALL.into_iter().filter(measures).collect(),
+                allowed: Unit::ALL.iter().copied().filter(measures).collect(),
             });
         }
         if !scale.is_finite() || scale == 0.0 {

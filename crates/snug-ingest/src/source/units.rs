@@ -1,7 +1,7 @@
 //! Which units a source's declared channels are shown in; conversion to SI is `signal.rs`.
 
-use crate::signal::Unit;
 use crate::source::Source;
+use crate::unit::Unit;
 use snug_campaign::SignalUnits;
 
 impl Source {

@@ -9,11 +9,6 @@ use snug_campaign::words::reason::Reason;
 use snug_campaign::words::remark::Remark;
 use snug_campaign::*;
 
-const LEFT: Left = Left {
-    error: 6.4,
-    is_over_noise: true,
-};
-
 fn rung(effects: &[&str], error: Option<f64>, target: Option<f64>) -> Rung {
     Rung {
         effects: effects.iter().map(|name| (*name).into()).collect(),
@@ -66,8 +61,12 @@ fn diagnosis() -> Diagnosis {
     Diagnosis {
         verb: "improve".into(),
         verdict: Verdict::MissingEffect,
-        headline: Headline::Unexplained(LEFT),
-        reasons: vec![Reason::NoiseUnknown(LEFT)],
+        headline: Headline::Unexplained(Left::over_noise(6.4)),
+        reasons: vec![Reason::NoiseUnknown(Left::of_output(
+            0.5,
+            Quantity::Velocity,
+            &SignalUnits::default(),
+        ))],
         level: 0.05,
         stopped: None,
         interrupted: false,

@@ -20,10 +20,7 @@ pub fn named(effect: &str) -> Named {
 }
 
 fn fall(before: f64, after: f64) -> Fall {
-    let [before, after] = [before, after].map(|error| Left {
-        error,
-        is_over_noise: true,
-    });
+    let [before, after] = [before, after].map(Left::over_noise);
     Fall { before, after }
 }
 

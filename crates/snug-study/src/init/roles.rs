@@ -147,70 +147,11 @@ fn words(name: &str) -> Vec<String> {
     words
 }
 
-/// Units as files write them.
-const UNITS: &[(Unit, &[&str])] = &[
-    (Unit::NewtonMetre, &["nm", "n·m", "n*m", "n m", "n.m"]),
-    (Unit::NewtonCentimetre, &["ncm"]),
-    (Unit::NewtonMillimetre, &["nmm", "n mm", "n·mm"]),
-    (Unit::MillinewtonMetre, &["mnm"]),
-    (Unit::KilonewtonMetre, &["knm"]),
-    (
-        Unit::PoundForceInch,
-        &[
-            "lbfin", "lbf in", "lbf·in", "in-lb", "inlb", "in lb", "lb-in",
-        ],
-    ),
-    (
-        Unit::PoundForceFoot,
-        &[
-            "lbfft", "lbf ft", "lbf·ft", "ft-lb", "ftlb", "ft lb", "lb-ft",
-        ],
-    ),
-    (Unit::Radian, &["rad"]),
-    (Unit::Milliradian, &["mrad"]),
-    (Unit::Degree, &["deg", "°", "degree", "degrees", "grad"]),
-    (Unit::Revolution, &["rev", "turns", "u"]),
-    (Unit::Metre, &["m"]),
-    (Unit::Centimetre, &["cm"]),
-    (Unit::Millimetre, &["mm"]),
-    (Unit::Micrometre, &["um", "µm", "μm"]),
-    (Unit::Inch, &["in", "inch", "\""]),
-    (Unit::RadianPerSecond, &["rad/s", "rad s^-1", "rad*s^-1"]),
-    (Unit::DegreePerSecond, &["deg/s", "°/s"]),
-    (
-        Unit::RevolutionPerMinute,
-        &["rpm", "1/min", "min^-1", "u/min", "rev/min", "r/min"],
-    ),
-    (Unit::RevolutionPerSecond, &["rps", "rev/s"]),
-    (Unit::MetrePerSecond, &["m/s"]),
-    (Unit::MillimetrePerSecond, &["mm/s"]),
-    (Unit::InchPerSecond, &["in/s", "ips"]),
-    (
-        Unit::RadianPerSecondSquared,
-        &["rad/s^2", "rad/s2", "rad/s²"],
-    ),
-    (
-        Unit::DegreePerSecondSquared,
-        &["deg/s^2", "deg/s2", "deg/s²", "°/s²", "°/s^2"],
-    ),
-    (Unit::MetrePerSecondSquared, &["m/s^2", "m/s2", "m/s²"]),
-    (Unit::StandardGravity, &["g"]),
-    (Unit::MilliStandardGravity, &["mg"]),
-    (Unit::Newton, &["n"]),
-    (Unit::Kilonewton, &["kn"]),
-    (Unit::Millinewton, &["mn"]),
-    (Unit::PoundForce, &["lbf", "lb"]),
-    (Unit::Volt, &["v", "volt", "volts"]),
-    (Unit::Ampere, &["a", "amp", "ampere"]),
-];
-
 /// The unit that a text means, where it measures the signal.
 pub(super) fn unit(text: &str, signal: Signal) -> Option<Unit> {
     let text = text.trim().to_lowercase();
-    let (unit, _) = UNITS
-        .iter()
-        .find(|(_, words)| words.contains(&text.as_str()))?;
-    unit.factor(signal, 1.0).map(|_| *unit)
+    let mut all = Unit::ALL.iter().copied();
+    all.find(|unit| unit.written().contains(&text.as_str()) && unit.factor(signal, 1.0).is_some())
 }
 
 /// The unit at the end of a name, `speed_rpm`.

@@ -67,6 +67,7 @@ pub fn prepare(study: &Study, tell: &(dyn Fn(FilesRead) + Sync)) -> Result<Prepa
         None => (study.clone(), cases, Vec::new()),
     };
     let own = effects(&study, &study.model.effects, &cases)?;
+    let units = study.source.units(study.preprocess.rig.lever_arm_m);
     let question = Question {
         cases: &[],
         effects: own.clone(),
@@ -74,10 +75,10 @@ pub fn prepare(study: &Study, tell: &(dyn Fn(FilesRead) + Sync)) -> Result<Prepa
         custom: study.model.custom_effects()?,
         goal: Goal::Compare,
         may_ask_for_steps: false,
+        units: units.clone(),
     };
     let mut search = study.diagnosis.search.clone();
     search.seed = search.seed.wrapping_add(study.seed);
-    let units = study.source.units(study.preprocess.rig.lever_arm_m);
     let remarks = reasons.iter().chain(&comparable.reasons);
     Ok(Prepared {
         remarks: remarks.map(ToString::to_string).collect(),

@@ -1,5 +1,7 @@
 //! The verdict in one sentence.
 
+use crate::measurement::quantity::Quantity;
+use crate::measurement::signal_units::SignalUnits;
 use crate::words::changes::Changes;
 use crate::words::effect_name::Named;
 use crate::words::grammar::{counted, joined};
@@ -11,25 +13,40 @@ use crate::words::sentence::suspicion::{OtherUnits, TurnedRound};
 use std::fmt::{self, Display, Formatter};
 
 /// What a fitted model leaves.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Left {
-    /// Root mean square of the residual, over the noise (no unit) where that is known, else in the output's unit.
+    /// Root mean square of the residual, over the noise (no unit) where that is known, else in `unit`.
     pub error: f64,
-    /// Whether it is over the noise.
-    pub is_over_noise: bool,
+    /// The unit of the output as it is shown; `None` where the error is over the noise.
+    pub unit: Option<String>,
+}
+
+impl Left {
+    /// An `error` over the noise.
+    pub fn over_noise(error: f64) -> Self {
+        Self { error, unit: None }
+    }
+
+    /// An error of the `output`, in SI units about the joint, as `units` show it.
+    pub fn of_output(error: f64, output: Quantity, units: &SignalUnits) -> Self {
+        Self {
+            error: error * units.output_per_rad,
+            unit: Some(units.motion(output)),
+        }
+    }
 }
 
 impl Display for Left {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        match self.is_over_noise {
-            true => write!(f, "{:.3} times the measurement noise", self.error),
-            false => write!(f, "{} rms", significant(self.error, 3)),
+        match &self.unit {
+            None => write!(f, "{:.3} times the measurement noise", self.error),
+            Some(unit) => write!(f, "{} {unit} rms", significant(self.error, 3)),
         }
     }
 }
 
 /// How the error fell: `from 1.541 to 1.007 times the measurement noise`.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Fall {
     /// What the first model left.
     pub before: Left,
@@ -39,9 +56,9 @@ pub struct Fall {
 
 impl Display for Fall {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        match self.before.is_over_noise && self.after.is_over_noise {
-            true => write!(f, "from {:.3} to {}", self.before.error, self.after),
-            false => write!(
+        match self.before.unit {
+            None => write!(f, "from {:.3} to {}", self.before.error, self.after),
+            Some(_) => write!(
                 f,
                 "from {} to {}",
                 significant(self.before.error, 3),
@@ -161,8 +178,8 @@ fn describe(well: bool, laws: usize) -> &'static str {
 impl Display for Headline {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Stopped { added, fall } => stopped(f, added, *fall),
-            Self::Lacks { effect, fall } => lacks(f, effect, *fall),
+            Self::Stopped { added, fall } => stopped(f, added, fall),
+            Self::Lacks { effect, fall } => lacks(f, effect, fall),
             Self::Differs {
                 effect,
                 groups,
@@ -177,12 +194,12 @@ impl Display for Headline {
                 fall,
                 explained,
                 changes,
-            } => more_than_noise(f, added, *fall, *explained, changes.as_ref()),
+            } => more_than_noise(f, added, fall, *explained, changes.as_ref()),
             Self::TooNoisy {
                 added,
                 fall,
                 explained,
-            } => too_noisy(f, added, *fall, *explained),
+            } => too_noisy(f, added, fall, *explained),
             Self::Unlisted {
                 added,
                 further,
@@ -208,7 +225,7 @@ impl Display for Headline {
                 fall,
                 explained,
             } => {
-                adequate(f, added, *fall, *explained)?;
+                adequate(f, added, fall, *explained)?;
                 aside(f, further)
             }
             Self::Changes { changes, left } => write!(
@@ -226,7 +243,7 @@ impl Display for Headline {
                 tightenings,
                 added,
                 fall,
-            } => too_little(f, *tightenings, added, *fall),
+            } => too_little(f, *tightenings, added, fall),
         }
     }
 }
@@ -293,7 +310,7 @@ impl Display for NoModel {
     }
 }
 
-fn lacks(f: &mut Formatter<'_>, effect: &Named, fall: Fall) -> fmt::Result {
+fn lacks(f: &mut Formatter<'_>, effect: &Named, fall: &Fall) -> fmt::Result {
     let what = match effect.is_unlisted() {
         true => "A law that is not in the catalogue is missing, best described as",
         false => "The model lacks",
@@ -305,7 +322,7 @@ fn lacks(f: &mut Formatter<'_>, effect: &Named, fall: Fall) -> fmt::Result {
     )
 }
 
-fn stopped(f: &mut Formatter<'_>, added: &[Named], fall: Fall) -> fmt::Result {
+fn stopped(f: &mut Formatter<'_>, added: &[Named], fall: &Fall) -> fmt::Result {
     match added {
         [] => write!(
             f,
@@ -325,7 +342,7 @@ fn too_little(
     f: &mut Formatter<'_>,
     tightenings: Option<usize>,
     added: &[Named],
-    fall: Fall,
+    fall: &Fall,
 ) -> fmt::Result {
     let of_these = match tightenings {
         Some(some) => format!("these {some} tightenings are too few to say"),
@@ -348,7 +365,7 @@ fn too_little(
 fn more_than_noise(
     f: &mut Formatter<'_>,
     added: &[Named],
-    fall: Fall,
+    fall: &Fall,
     explained: Option<Explained>,
     changes: Option<&Changes>,
 ) -> fmt::Result {
@@ -372,7 +389,7 @@ fn more_than_noise(
 fn too_noisy(
     f: &mut Formatter<'_>,
     added: &[Named],
-    fall: Fall,
+    fall: &Fall,
     explained: Explained,
 ) -> fmt::Result {
     explains(f, added, fall, explained)?;
@@ -386,7 +403,7 @@ fn too_noisy(
 fn explains(
     f: &mut Formatter<'_>,
     added: &[Named],
-    fall: Fall,
+    fall: &Fall,
     explained: Explained,
 ) -> fmt::Result {
     match added {
@@ -414,7 +431,7 @@ fn aside(f: &mut Formatter<'_>, further: &[Named]) -> fmt::Result {
 fn adequate(
     f: &mut Formatter<'_>,
     added: &[Named],
-    fall: Fall,
+    fall: &Fall,
     explained: Option<Explained>,
 ) -> fmt::Result {
     match (added, explained) {
