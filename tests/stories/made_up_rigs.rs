@@ -13,6 +13,7 @@ mod rig;
 mod sensors;
 mod stops;
 mod unheld;
+mod valves;
 mod zeros;
 
 use held::pendulum;

@@ -5,6 +5,7 @@ pub(crate) mod by_group;
 mod by_time;
 pub(crate) mod first_ranking;
 pub(crate) mod free_run;
+mod in_place_of_damping;
 pub(crate) mod kin;
 pub(crate) mod max_t;
 pub(crate) mod nuisance;

@@ -86,10 +86,22 @@ impl DryFriction {
     pub fn of(cases: &[FitTask<'_>]) -> Option<Self> {
         let plain = PlainEquation::of(cases)?;
         let found = plain.with_friction()?;
-        let place = (plain.plain.iter()).position(|one| one.name() == "coulomb_friction")?;
+        let place =
+            (plain.plain.iter()).position(|one| one.name() == Effect::CoulombFriction.name())?;
         let [mass_kg, ..] = found.base;
         let force_n = *found.times.get(place)?;
         (force_n > 0.0 && mass_kg > 0.0).then_some(Self { force_n, mass_kg })
+    }
+
+    /// What a fitted model says of it, the mass that of the lightest; `None` where it has none.
+    pub fn of_fitted(cases: Cases<'_>, fitted: &Fitted) -> Option<Self> {
+        let name = Effect::CoulombFriction.name();
+        let friction = *fitted.effects.iter().find(|one| one.name() == name)?;
+        let masses = values(cases, fitted)?.into_iter();
+        Some(Self {
+            force_n: fitted.size(friction),
+            mass_kg: masses.map(|of_one| of_one[0]).reduce(f64::min)?,
+        })
     }
 }
 

@@ -12,6 +12,7 @@ use crate::pooled::model::{PooledModel, Start, pick};
 use crate::pooled::parameter_place::{effect_of, first_parameter};
 use crate::pooled::thresholds::A_FEW_STEPS;
 use crate::ranking::first_ranking::Promise;
+use crate::ranking::in_place_of_damping;
 use crate::ranking::resonances;
 use crate::ranking::sensitivity::Column;
 use crate::ranking::simulable::simulable;
@@ -57,6 +58,7 @@ pub(crate) fn refit(
     if is_astray {
         // What the model lacks may have led its mass and damping so far off that the rig passes other waves than it did.
         starts.extend(with_shapes_of(&pooled, &starts[..read_off.len()]));
+        starts.extend(in_place_of_damping::start(&pooled, current, effect));
     }
     let simulable = |start: Start| simulable(&pooled, start);
     let starts: Vec<Start> = starts.into_iter().map(simulable).collect();

@@ -9,7 +9,7 @@ use crate::pooled::fit::{fit_effects, fit_part, fit_sharing};
 use crate::pooled::fitted::Fitted;
 use crate::pooled::model::PooledModel;
 use crate::pooled::sharing::{Groups, Sharing};
-use crate::pooled::steps::resolved::shorter_steps;
+use crate::pooled::steps::{friction, resolved};
 use crate::question::Begun;
 use crate::ranking::applicability::candidates;
 use crate::ranking::by_group::{by_group, explains_more};
@@ -130,9 +130,11 @@ impl ModelSelection<'_> {
         if !self.may_ask_for_steps {
             return Ok(());
         }
-        let asked = (all.iter())
-            .filter(|one| one.effects.iter().any(needs_short_steps))
-            .filter_map(|one| shorter_steps(self.cases, one));
+        let asked =
+            (all.iter()).filter_map(|one| match one.effects.iter().any(needs_short_steps) {
+                true => resolved::shorter_steps(self.cases, one),
+                false => friction::shorter_steps(self.cases, one),
+            });
         match asked.max() {
             Some(steps) => Err(DiagnoseError::Unresolved { steps }),
             None => Ok(()),

@@ -40,6 +40,7 @@ impl Display for Left {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match &self.unit {
             None => write!(f, "{:.3} times the measurement noise", self.error),
+            Some(unit) if unit == "1" => write!(f, "{} rms", significant(self.error, 3)),
             Some(unit) => write!(f, "{} {unit} rms", significant(self.error, 3)),
         }
     }
@@ -445,4 +446,40 @@ fn adequate(
     }?;
     write!(f, ", and nothing more is justified.")?;
     explained.map_or(Ok(()), |all| write!(f, " {}", all.left()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// 0.5 rad at the end of a lever of 0.33 m are 0.165 m.
+    #[test]
+    fn an_error_is_told_in_the_unit_of_the_output() {
+        let slide = SignalUnits {
+            output: "m".into(),
+            output_per_rad: 0.33,
+            ..SignalUnits::default()
+        };
+        let left = Left::of_output(0.5, Quantity::Velocity, &slide);
+        assert_eq!(left.to_string(), "0.165 m/s rms");
+        let counts = SignalUnits {
+            output: "1".into(),
+            ..SignalUnits::default()
+        };
+        let left = |error| Left::of_output(error, Quantity::Displacement, &counts);
+        assert_eq!(left(0.5).to_string(), "0.500 rms");
+        let fall = Fall {
+            before: left(2.0),
+            after: left(0.5),
+        };
+        assert_eq!(fall.to_string(), "from 2.00 to 0.500 rms");
+        let fall = Fall {
+            before: Left::over_noise(6.4),
+            after: Left::over_noise(1.0),
+        };
+        assert_eq!(
+            fall.to_string(),
+            "from 6.400 to 1.000 times the measurement noise"
+        );
+    }
 }

@@ -3,7 +3,9 @@
 //! In the step in which the motion stops, all that acts beside friction is taken as constant. Of a drive that stops within a sample that is a
 //! good part of what is measured, and half a step is enough for it not to show.
 
+use crate::data::cases::Cases;
 use crate::pooled::equation::DryFriction;
+use crate::pooled::fitted::Fitted;
 use crate::pooled::steps::MOST_STEPS;
 use snug_campaign::Quantity;
 use snug_identify::FitTask;
@@ -22,8 +24,23 @@ const WITHIN_NOISE: f64 = 0.5;
 
 /// Steps for `cases`, simulated with a model of their scale.
 pub fn steps_per_sample(cases: &[FitTask<'_>]) -> usize {
+    with_friction(cases, DryFriction::of)
+}
+
+/// Steps where those that `cases` are simulated in are too long for the dry friction of `fitted`; `None` where they do.
+pub(crate) fn shorter_steps(cases: Cases<'_>, fitted: &Fitted) -> Option<usize> {
+    let begun = cases.first()?.input.substeps();
+    let steps = with_friction(&cases, |_| DryFriction::of_fitted(cases, fitted));
+    (steps > begun).then_some(steps)
+}
+
+fn with_friction(
+    cases: &[FitTask<'_>],
+    friction: impl FnOnce(&[FitTask<'_>]) -> Option<DryFriction>,
+) -> usize {
     let samples: usize = cases.iter().map(|case| case.measured().len()).sum();
-    let stops = stops(cases).is_some_and(|stops| cases.iter().any(|case| stops.show(case)));
+    let stops = stops(cases, friction);
+    let stops = stops.is_some_and(|stops| cases.iter().any(|case| stops.show(case)));
     match stops && samples * STEPS <= MOST_STEPS {
         true => STEPS,
         false => 1,
@@ -39,13 +56,16 @@ struct Stops {
 }
 
 /// `None` where nothing is known of dry friction, it is too small to matter, or the input brings a grid of its own.
-fn stops(cases: &[FitTask<'_>]) -> Option<Stops> {
+fn stops(
+    cases: &[FitTask<'_>],
+    friction: impl FnOnce(&[FitTask<'_>]) -> Option<DryFriction>,
+) -> Option<Stops> {
     let model = &cases.first()?.model;
     if cases.iter().any(|case| case.input.is_band_limited()) {
         return None;
     }
     let turns_over_m_per_s = model.scale().friction_turns_over(model.rig())?;
-    let friction = DryFriction::of(cases)?;
+    let friction = friction(cases)?;
     let squares = |case: &FitTask<'_>| case.tightening.torque_nm.iter().map(|t| t * t).sum::<f64>();
     let samples: usize = (cases.iter())
         .map(|case| case.tightening.torque_nm.len())
@@ -77,13 +97,32 @@ impl Stops {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tests::made_up::machine_with_friction;
+    use crate::data::cases::Tally;
+    use crate::pooled::fit::fit_effects;
+    use crate::tests::made_up::{WHOLE, machine_with_friction};
+    use snug_model::Effect;
 
     /// 15 Nm on 0.4 kg m² slow it by 0.19 rad/s in 5 ms; friction turns over 0.016 rad/s.
     #[test]
     fn a_machine_that_stops_within_a_sample_is_simulated_in_shorter_steps() {
         assert_eq!(steps_per_sample(&[machine_with_friction(15.0)]), 2);
         assert_eq!(steps_per_sample(&[machine_with_friction(0.1)]), 1);
+    }
+
+    #[test]
+    fn a_fit_whose_friction_stops_within_a_sample_asks_for_shorter_steps() {
+        let cases = [machine_with_friction(15.0)];
+        let tally = Tally::default();
+        let cases = Cases::new(&cases, &tally);
+        let model = &cases[0].model;
+        let friction = (model.scale()).effect(Effect::CoulombFriction, model.rig());
+        let friction = friction.expect("a machine has it");
+        let of = |effects: &[Effect]| {
+            let fitted = fit_effects(cases, effects, None, WHOLE);
+            shorter_steps(cases, &fitted.expect("it can be fitted"))
+        };
+        assert_eq!(of(&[friction]), Some(STEPS));
+        assert_eq!(of(&[]), None);
     }
 
     /// Noise of 1 rad/s hides it.
@@ -102,6 +141,6 @@ mod tests {
             .motion
             .set(Quantity::Velocity, measured.unwrap_or_default());
         assert_eq!(steps_per_sample(&[case.lent()]), 1);
-        assert!(stops(&[case]).is_some_and(|one| one.slows_m_per_s2 > 10.0));
+        assert!(stops(&[case], DryFriction::of).is_some_and(|one| one.slows_m_per_s2 > 10.0));
     }
 }
