@@ -14,7 +14,7 @@ pub struct ParameterMeaning {
 }
 
 impl ParameterMeaning {
-    /// Effect and parameter: `coulomb friction: friction force`; of an effect that is called like its only parameter once.
+    /// Effect and parameter: `Coulomb friction: friction force`; of an effect that is called like its only parameter once.
     pub fn words(&self) -> String {
         let effect = self.effect.replace('_', " ");
         match self.meaning == effect {

@@ -3,13 +3,24 @@
 /// Effects that a sentence names, of those that data cannot tell from one another; the ranking names all. Chosen.
 const MOST_NAMED: usize = 3;
 
-/// `cubic_stiffness` as `cubic stiffness`; an expression stays as it is.
+/// What is not written as it is named: people's names, and others.
+const WRITTEN: [(&str, &str); 6] = [
+    ("ac coupling", "AC coupling"),
+    ("bouc wen", "Bouc–Wen"),
+    ("co contraction", "co-contraction"),
+    ("coulomb", "Coulomb"),
+    ("maxwell", "Maxwell"),
+    ("stribeck", "Stribeck"),
+];
+
+/// `cubic_stiffness` as `cubic stiffness`, `coulomb_friction` as `Coulomb friction`; an expression stays as it is.
 pub fn effect_name(name: &str) -> String {
     if name.contains(['*', '^', '(', '+', '/']) {
-        name.into()
-    } else {
-        name.replace('_', " ")
+        return name.into();
     }
+    (WRITTEN.iter()).fold(name.replace('_', " "), |name, (plain, written)| {
+        name.replace(plain, written)
+    })
 }
 
 /// An effect as commands and files name it; a term that is in no catalogue by what it is, `force p*x^2*v`.
@@ -54,7 +65,7 @@ impl Named {
         self.expression.is_some()
     }
 
-    /// `co contraction`, or `a force p*x^2*v`.
+    /// `co-contraction`, or `a force p*x^2*v`.
     pub fn spoken(&self) -> String {
         match &self.expression {
             Some(expression) => format!("a force {expression}"),
@@ -114,11 +125,11 @@ mod tests {
         let cannot_tell = "(these data cannot tell which)";
         assert_eq!(
             with(&["bouc_wen", "backlash"]),
-            format!("grip slip or bouc wen or backlash {cannot_tell}")
+            format!("grip slip or Bouc–Wen or backlash {cannot_tell}")
         );
         assert_eq!(
             with(&["bouc_wen", "backlash", "second_mass"]),
-            format!("grip slip or bouc wen or one of 2 others {cannot_tell}")
+            format!("grip slip or Bouc–Wen or one of 2 others {cannot_tell}")
         );
     }
 

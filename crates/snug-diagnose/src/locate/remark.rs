@@ -98,6 +98,7 @@ impl Seen<'_> {
             grows,
             small: (small.to?, self.times(small.error_over_noise)),
             large: (large.from?, self.times(large.error_over_noise)),
+            unit: "rad".to_owned(),
         })
     }
 

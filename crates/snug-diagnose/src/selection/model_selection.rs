@@ -133,7 +133,9 @@ impl ModelSelection<'_> {
         let asked =
             (all.iter()).filter_map(|one| match one.effects.iter().any(needs_short_steps) {
                 true => resolved::shorter_steps(self.cases, one),
-                false => friction::shorter_steps(self.cases, one),
+                // Of a friction in which a load may hide, only where it shows in the simulation, too.
+                false => friction::shorter_steps(self.cases, one)
+                    .filter(|_| resolved::shorter_steps(self.cases, one).is_some()),
             });
         match asked.max() {
             Some(steps) => Err(DiagnoseError::Unresolved { steps }),

@@ -203,12 +203,18 @@ impl Examination<'_> {
         );
         let (sight, last_sight) = (sight?, last_sight?);
         let base = sight.seen();
+        let located = |seen: &[Seen<'_>]| {
+            let mut location = locate(seen, seed);
+            let remarks = location.remarks.into_iter();
+            location.remarks = (remarks.map(|one| one.told_in(&self.question.units))).collect();
+            location
+        };
         let told = |seen: &[Seen<'_>]| {
             let explained = earned::explained(cases, last, seen);
             Places {
                 comparison: compare(&base),
-                location: locate(&base, seed),
-                final_location: is_longer.then(|| locate(seen, seed)),
+                location: located(&base),
+                final_location: is_longer.then(|| located(seen)),
                 drift: drifts(&base),
                 left_over: earned::left_over(cases, explained.as_ref(), seen),
                 leaves_noise: earned::leaves_noise(cases, seen),

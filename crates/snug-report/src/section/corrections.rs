@@ -6,7 +6,7 @@ use crate::grouping::grouped;
 use crate::quartiles::Quartiles;
 use crate::words::number::{missing, percent, share, significant};
 use maud::{Markup, html};
-use snug_campaign::words::effect_name::unit_text;
+use snug_campaign::words::effect_name::{effect_name, unit_text};
 use snug_campaign::{CampaignResult, Correction, NORMAL_95};
 
 /// What was measured in the quiet part and taken out before the fit.
@@ -63,7 +63,7 @@ fn table_row((effect, sizes): &Corrected) -> Markup {
         None => missing("no finite size"),
     };
     html! { tr {
-        th scope="row" { (effect.replace('_', " ")) }
+        th scope="row" { (effect_name(effect)) }
         td { (significant_count) " of " (sizes.len())
             " (" (percent(share(significant_count, sizes.len()).unwrap_or(f64::NAN))) ")" }
         td { (shown(magnitude.map(|q| q.median))) }
@@ -93,7 +93,7 @@ fn drawing((effect, all): &Corrected, result: &CampaignResult) -> Markup {
     let mut marks = vec![zero];
     marks.extend(sizes("c-quiet", &drawn, false, result));
     marks.extend(sizes("c-selected", &drawn, true, result));
-    let name = effect.replace('_', " ");
+    let name = effect_name(effect);
     let figure = Figure {
         description: format!("{name} of every tightening with its 95 % interval"),
         width: 300.0,

@@ -10,6 +10,7 @@ use crate::words::quantity;
 use crate::words::quantity::capitalised;
 use maud::{Markup, html};
 use snug_campaign::words::counted;
+use snug_campaign::words::effect_name::effect_name;
 use snug_campaign::words::program::program;
 use snug_campaign::{
     CampaignResult, ConditionSummary, Conditions, FitMeasures, QuantitySummary, Severity,
@@ -115,7 +116,7 @@ fn model_words(result: &CampaignResult) -> String {
     let effects: Vec<String> = result
         .effects
         .iter()
-        .map(|effect| effect.replace('_', " "))
+        .map(|effect| effect_name(effect))
         .collect();
     format!("{base} plus {}", effects.join(", "))
 }

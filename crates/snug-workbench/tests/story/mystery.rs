@@ -108,7 +108,7 @@ fn a_look_holds_models_numbers_and_signatures_against_each_other() {
     let models = ["model to begin with", "rival", "now"];
     assert_eq!(series(0)[1..], models);
     assert_eq!(series(1)[..3], models);
-    assert_eq!(series(1)[3], "coulomb friction would leave");
+    assert_eq!(series(1)[3], "Coulomb friction would leave");
     let told = &seen["told"];
     let number = |text: &Value| text.as_str().unwrap().parse::<f64>().unwrap();
     assert!(number(&told["rival"]["error"]) > 1.1);

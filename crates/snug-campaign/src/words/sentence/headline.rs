@@ -10,6 +10,7 @@ use crate::words::sentence::explained::Explained;
 use crate::words::sentence::explained::at_most_all;
 use crate::words::sentence::said::written_as_said;
 use crate::words::sentence::suspicion::{OtherUnits, TurnedRound};
+use crate::words::size::amount;
 use std::fmt::{self, Display, Formatter};
 
 /// What a fitted model leaves.
@@ -40,8 +41,7 @@ impl Display for Left {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match &self.unit {
             None => write!(f, "{:.3} times the measurement noise", self.error),
-            Some(unit) if unit == "1" => write!(f, "{} rms", significant(self.error, 3)),
-            Some(unit) => write!(f, "{} {unit} rms", significant(self.error, 3)),
+            Some(unit) => write!(f, "{} rms", amount(self.error, unit)),
         }
     }
 }
@@ -461,7 +461,7 @@ mod tests {
             ..SignalUnits::default()
         };
         let left = Left::of_output(0.5, Quantity::Velocity, &slide);
-        assert_eq!(left.to_string(), "0.165 m/s rms");
+        assert_eq!(left.to_string(), "0.165\u{a0}m/s rms");
         let counts = SignalUnits {
             output: "1".into(),
             ..SignalUnits::default()

@@ -1,7 +1,9 @@
 //! What stands out of where a model fails: each remark as data, and the sentence it is said with.
 
+use crate::measurement::signal_units::SignalUnits;
 use crate::words::number::{whole_percent, without_last_digits};
 use crate::words::sentence::said::written_as_said;
+use crate::words::size::amount;
 use std::fmt::{self, Display, Formatter};
 
 /// An error over the noise, or over the campaign's average error where the noise is not known.
@@ -61,14 +63,16 @@ pub enum Remark {
         /// From where on there is nothing but noise \[Hz\].
         quiet_from_hz: Option<f64>,
     },
-    /// The error differs between small and large angles.
+    /// The error differs between small and large displacements.
     Amplitude {
-        /// Whether it grows with the angle.
+        /// Whether it grows with the displacement.
         grows: bool,
-        /// Error below the first angle \[rad\].
+        /// Error below the first displacement, in `unit`.
         small: (f64, Times),
-        /// Error above the second angle \[rad\].
+        /// Error above the second displacement, in `unit`.
         large: (f64, Times),
+        /// `rad` of an angle, or what the rig's displacement is shown in.
+        unit: String,
     },
     /// One value of a condition holds more than its due.
     Condition {
@@ -110,6 +114,26 @@ written_as_said!(Remark);
 const SPREAD_OUT: &str =
     "Nothing stands out: the misfit is spread over time, frequency and conditions.";
 
+impl Remark {
+    /// The same where displacements are shown in these units.
+    pub fn told_in(self, units: &SignalUnits) -> Self {
+        match self {
+            Self::Amplitude {
+                grows,
+                small: (to, small),
+                large: (from, large),
+                ..
+            } => Self::Amplitude {
+                grows,
+                small: (to * units.output_per_rad, small),
+                large: (from * units.output_per_rad, large),
+                unit: units.output.clone(),
+            },
+            same => same,
+        }
+    }
+}
+
 impl Display for Remark {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self {
@@ -145,7 +169,8 @@ impl Display for Remark {
                 grows,
                 small,
                 large,
-            } => amplitude(f, *grows, *small, *large),
+                unit,
+            } => amplitude(f, *grows, (*small, *large), unit),
             Self::Condition {
                 condition,
                 value,
@@ -239,17 +264,19 @@ fn condition_name(condition: &str) -> &'static str {
 fn amplitude(
     f: &mut Formatter<'_>,
     grows: bool,
-    (to, small): (f64, Times),
-    (from, large): (f64, Times),
+    ((to, small), (from, large)): ((f64, Times), (f64, Times)),
+    unit: &str,
 ) -> fmt::Result {
-    let lead = match grows {
-        true => "The misfit grows with the angle",
-        false => "The misfit is largest at small angles",
+    let what = match unit {
+        "rad" => "angle",
+        _ => "displacement",
     };
-    write!(
-        f,
-        "{lead}: {small} below {to} rad, {large} above {from} rad."
-    )
+    let lead = match grows {
+        true => format!("The misfit grows with the {what}"),
+        false => format!("The misfit is largest at small {what}s"),
+    };
+    let [to, from] = [to, from].map(|edge| amount(edge, unit));
+    write!(f, "{lead}: {small} below {to}, {large} above {from}.")
 }
 
 fn does_not_repeat(f: &mut Formatter<'_>, share: f64) -> fmt::Result {
@@ -275,5 +302,38 @@ fn follows(f: &mut Formatter<'_>, shape: &str, share: f64, others: &[(&str, f64)
     match others.is_empty() {
         true => write!(f, "."),
         false => write!(f, "; nearly as well: {}.", others.join("; ")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_slide_has_displacements_in_metres_and_a_joint_angles() {
+        let times = |error| Times {
+            error,
+            of_noise: true,
+        };
+        let grows = Remark::Amplitude {
+            grows: true,
+            small: (0.02, times(1.5)),
+            large: (0.1, times(4.0)),
+            unit: "rad".to_owned(),
+        };
+        let spaces = |remark: &Remark| remark.to_string().replace('\u{a0}', " ");
+        assert_eq!(
+            spaces(&grows),
+            "The misfit grows with the angle: 1.5 times the noise below 0.0200 rad, 4.0 times the noise above 0.100 rad."
+        );
+        let slide = SignalUnits {
+            output: "m".into(),
+            output_per_rad: 0.5,
+            ..SignalUnits::default()
+        };
+        assert_eq!(
+            spaces(&grows.told_in(&slide)),
+            "The misfit grows with the displacement: 1.5 times the noise below 0.0100 m, 4.0 times the noise above 0.0500 m."
+        );
     }
 }
