@@ -50,8 +50,7 @@ const INCH_M: f64 = 0.0254;
 /// Foot in m (exact).
 const FOOT_M: f64 = 12.0 * INCH_M;
 
-/// Of each unit its name, what it measures, what a number in it is multiplied with to be in SI units, and how files write it, in small
-/// letters.
+/// Of each unit its name, what it measures, what a number in it is multiplied with to be in SI units, and how files write it.
 macro_rules! units {
     ($($(#[$told:meta])+ $name:ident: ($dimension:ident, $factor:expr), [$($written:literal),*];)+) => {
         /// The unit of a column or topic. Lengths at the grip become angles by the rig's lever arm, θ = x/l, and forces that drive
@@ -74,7 +73,7 @@ macro_rules! units {
                 }
             }
 
-            /// How files write it, in small letters.
+            /// How files write it: in small letters, unless a capital tells it from another.
             pub fn written(self) -> &'static [&'static str] {
                 match self {
                     $(Self::$name => &[$($written),*],)+
@@ -130,7 +129,7 @@ units! {
     /// µm = 0.000 001 m
     Micrometre: (Length, 1e-6), ["um", "µm", "μm"];
     /// nm = 10⁻⁹ m
-    Nanometre: (Length, 1e-9), [];
+    Nanometre: (Length, 1e-9), ["nm"];
     /// in = 0.0254 m
     Inch: (Length, INCH_M), ["in", "inch", "\""];
     /// ft = 0.3048 m
@@ -186,7 +185,7 @@ units! {
     /// kN = 1000 N
     Kilonewton: (Force, 1000.0), ["kn"];
     /// MN = 10⁶ N
-    Meganewton: (Force, 1e6), [];
+    Meganewton: (Force, 1e6), ["MN"];
     /// kgf = 9.806 65 N
     KilogramForce: (Force, KILOGRAM_FORCE_N), ["kgf", "kp"];
     /// lbf = 4.448 221 615 N

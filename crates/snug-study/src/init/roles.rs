@@ -149,9 +149,13 @@ fn words(name: &str) -> Vec<String> {
 
 /// The unit that a text means, where it measures the signal.
 pub(super) fn unit(text: &str, signal: Signal) -> Option<Unit> {
-    let text = text.trim().to_lowercase();
-    let mut all = Unit::ALL.iter().copied();
-    all.find(|unit| unit.written().contains(&text.as_str()) && unit.factor(signal, 1.0).is_some())
+    let is_written = |text: &str| {
+        let mut measure =
+            (Unit::ALL.iter().copied()).filter(|unit| unit.factor(signal, 1.0).is_some());
+        measure.find(|unit| unit.written().contains(&text))
+    };
+    let text = text.trim();
+    is_written(text).or_else(|| is_written(&text.to_lowercase()))
 }
 
 /// The unit at the end of a name, `speed_rpm`.
@@ -195,5 +199,27 @@ pub(super) fn is_rate(name: &str) -> Option<bool> {
         | "rate_hz" | "fsample" => Some(true),
         "ts" | "t_s" | "dt" | "h" | "sampletime" | "sample_time" | "sampling_time" => Some(false),
         _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_unit_is_read_as_it_is_written() {
+        for (text, signal, expected) in [
+            ("MN", Signal::Force, Unit::Meganewton),
+            ("mN", Signal::Force, Unit::Millinewton),
+            ("µN", Signal::Force, Unit::Micronewton),
+            ("nm", Signal::Displacement, Unit::Nanometre),
+            ("Nm", Signal::Torque, Unit::NewtonMetre),
+            ("NM", Signal::Torque, Unit::NewtonMetre),
+            ("kgf", Signal::Force, Unit::KilogramForce),
+            ("km/h", Signal::Velocity, Unit::KilometrePerHour),
+        ] {
+            assert_eq!(unit(text, signal), Some(expected), "{text}");
+        }
+        assert_eq!(unit("nm", Signal::Velocity), None);
     }
 }
