@@ -282,8 +282,10 @@ impl Study {
         if self.title.is_empty() {
             let path = &self.source.path;
             // `.` and `..` are called as the folder is.
-            let whole = path.file_name().is_none().then(|| path.canonicalize().ok());
-            let path = whole.flatten().unwrap_or_else(|| path.clone());
+            let path = match path.file_name() {
+                Some(_) => path.clone(),
+                None => path.canonicalize().unwrap_or_else(|_| path.clone()),
+            };
             let name = path.file_name().unwrap_or(path.as_os_str());
             name.to_string_lossy().into_owned()
         } else {

@@ -39,8 +39,7 @@ fn recording(noise: &mut Noise) -> Vec<[f64; 2]> {
         state = moved_from(state, force);
         x
     });
-    let places: Vec<f64> = places.collect();
-    noise.with(&forces, places.into_iter(), 2e-5)
+    noise.with(&forces, places, 2e-5)
 }
 
 /// Without it the model takes what friction takes out of the motion for fifteen times the damping, from where no step led back: told was a

@@ -1,5 +1,6 @@
 //! What the parameters of the model's effects are.
 
+use crate::words::effect_name::effect_name;
 use serde::{Deserialize, Serialize};
 
 /// What a parameter of one of the model's effects is.
@@ -16,7 +17,7 @@ pub struct ParameterMeaning {
 impl ParameterMeaning {
     /// Effect and parameter: `Coulomb friction: friction force`; of an effect that is called like its only parameter once.
     pub fn words(&self) -> String {
-        let effect = self.effect.replace('_', " ");
+        let effect = effect_name(&self.effect);
         match self.meaning == effect {
             true => effect,
             false => format!("{effect}: {}", self.meaning),

@@ -24,22 +24,19 @@ const WITHIN_NOISE: f64 = 0.5;
 
 /// Steps for `cases`, simulated with a model of their scale.
 pub fn steps_per_sample(cases: &[FitTask<'_>]) -> usize {
-    with_friction(cases, DryFriction::of)
+    steps_with(cases, DryFriction::of(cases))
 }
 
 /// Steps where those that `cases` are simulated in are too long for the dry friction of `fitted`; `None` where they do.
 pub(crate) fn shorter_steps(cases: Cases<'_>, fitted: &Fitted) -> Option<usize> {
     let begun = cases.first()?.input.substeps();
-    let steps = with_friction(&cases, |_| DryFriction::of_fitted(cases, fitted));
+    let steps = steps_with(&cases, DryFriction::of_fitted(cases, fitted));
     (steps > begun).then_some(steps)
 }
 
-fn with_friction(
-    cases: &[FitTask<'_>],
-    friction: impl FnOnce(&[FitTask<'_>]) -> Option<DryFriction>,
-) -> usize {
+fn steps_with(cases: &[FitTask<'_>], friction: Option<DryFriction>) -> usize {
     let samples: usize = cases.iter().map(|case| case.measured().len()).sum();
-    let stops = stops(cases, friction);
+    let stops = friction.and_then(|friction| stops(cases, friction));
     let stops = stops.is_some_and(|stops| cases.iter().any(|case| stops.show(case)));
     match stops && samples * STEPS <= MOST_STEPS {
         true => STEPS,
@@ -55,17 +52,13 @@ struct Stops {
     turns_over_m_per_s: f64,
 }
 
-/// `None` where nothing is known of dry friction, it is too small to matter, or the input brings a grid of its own.
-fn stops(
-    cases: &[FitTask<'_>],
-    friction: impl FnOnce(&[FitTask<'_>]) -> Option<DryFriction>,
-) -> Option<Stops> {
+/// `None` where friction is too small to matter, or the input brings a grid of its own.
+fn stops(cases: &[FitTask<'_>], friction: DryFriction) -> Option<Stops> {
     let model = &cases.first()?.model;
     if cases.iter().any(|case| case.input.is_band_limited()) {
         return None;
     }
     let turns_over_m_per_s = model.scale().friction_turns_over(model.rig())?;
-    let friction = friction(cases)?;
     let squares = |case: &FitTask<'_>| case.tightening.torque_nm.iter().map(|t| t * t).sum::<f64>();
     let samples: usize = (cases.iter())
         .map(|case| case.tightening.torque_nm.len())
@@ -141,6 +134,8 @@ mod tests {
             .motion
             .set(Quantity::Velocity, measured.unwrap_or_default());
         assert_eq!(steps_per_sample(&[case.lent()]), 1);
-        assert!(stops(&[case], DryFriction::of).is_some_and(|one| one.slows_m_per_s2 > 10.0));
+        let cases = [case];
+        let stops = DryFriction::of(&cases).and_then(|friction| stops(&cases, friction));
+        assert!(stops.is_some_and(|one| one.slows_m_per_s2 > 10.0));
     }
 }
