@@ -14,7 +14,7 @@ use crate::pooled::sharing::Sharing;
 use crate::question::Question;
 use crate::ranking::applicability::candidates;
 use crate::ranking::first_ranking::first_ranking;
-use crate::ranking::refit::{refit, with_effect};
+use crate::ranking::refit::refit;
 use crate::ranking::score_test::{Control, Scorer};
 use crate::ranking::sensitivity::Column;
 use crate::settings::DiagnoseSettings;
@@ -198,7 +198,7 @@ impl LiveCases {
         let effects = [current.effects.as_slice(), &[effect]].concat();
         let mut pooled = PooledModel::shared_by(cases, &effects, &current.sharing)?;
         let start = match best {
-            Some(column) => with_effect(&pooled, current, effect, &column.start),
+            Some(column) => pooled.with_effect(current.start(&pooled), effect, &column.start),
             None => current.start(&pooled),
         };
         let end = pooled.fit(&start, &PooledSettings::default())?;

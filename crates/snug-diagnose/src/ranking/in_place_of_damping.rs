@@ -12,7 +12,6 @@
 use crate::pooled::equation::{values_at, with_base};
 use crate::pooled::fitted::Fitted;
 use crate::pooled::model::{PooledModel, Start};
-use crate::ranking::refit::with_effect;
 use crate::ranking::simulable::simulable;
 use crate::ranking::thresholds::DAMPER_LEFT;
 use snug_model::Effect;
@@ -23,7 +22,10 @@ pub(super) fn start(pooled: &PooledModel<'_>, current: &Fitted, effect: Effect) 
     if effect.name() != Effect::CoulombFriction.name() {
         return None;
     }
-    let begun = simulable(pooled, with_effect(pooled, current, effect, &[0.0]));
+    let begun = simulable(
+        pooled,
+        pooled.with_effect(current.start(pooled), effect, &[0.0]),
+    );
     let at = values_at(pooled, &begun);
     let (mut work, mut way) = (0.0, 0.0);
     for ((case, model), values) in pooled.cases.iter().zip(&pooled.models).zip(&at) {
@@ -41,7 +43,7 @@ pub(super) fn start(pooled: &PooledModel<'_>, current: &Fitted, effect: Effect) 
     });
     let friction_n = (1.0 - DAMPER_LEFT) * work / way;
     let is_work = friction_n.is_finite() && friction_n > 0.0;
-    let start = with_effect(pooled, current, effect, &[friction_n]);
+    let start = pooled.with_effect(current.start(pooled), effect, &[friction_n]);
     let base = [mass, DAMPER_LEFT * damping, stiffness];
     is_work.then(|| with_base(pooled, &start, &base))
 }

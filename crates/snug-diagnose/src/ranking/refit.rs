@@ -25,7 +25,7 @@ use crate::settings::DiagnoseSettings;
 use snug_campaign::Parameter;
 use snug_identify::{FitTask, HALF_WIDTHS, SIDE_BY_SIDE};
 use snug_least_squares::{PooledFit, PooledSettings, SolveError};
-use snug_model::{BASE_PARAMETERS, Effect, Law, ParameterSpec, Scope};
+use snug_model::{BASE_PARAMETERS, Effect, Law, ParameterSpec};
 use snug_statistics::descriptive::median;
 
 /// Refits one effect from its most promising starts, first roughly on a few tightenings; the lowest cost wins.
@@ -50,7 +50,7 @@ pub(crate) fn refit(
     let starts = promising(effect, columns, most);
     let mut pooled = PooledModel::shared_by(cases, &effects, &current.sharing)?;
     let nothing = nothing_of(&pooled, effect, starts.first().copied());
-    let begun = |values: &[f64]| with_effect(&pooled, current, effect, values);
+    let begun = |values: &[f64]| pooled.with_effect(current.start(&pooled), effect, values);
     let mut starts: Vec<Start> = (read_off.iter().map(Vec::as_slice).chain(starts))
         .map(begun)
         .collect();
@@ -248,7 +248,7 @@ fn as_promised(
 /// The place to which a regression of the equation of motion puts the numbers of the current model with one effect more. How each recording
 /// begins, of which a regression knows nothing, begins as usual: the current model may have bent it to what it lacks.
 pub(crate) fn as_regressed(pooled: &PooledModel<'_>, current: &Fitted, promise: &Promise) -> Start {
-    let mut start = with_effect(pooled, current, promise.effect, &promise.own);
+    let mut start = pooled.with_effect(current.start(pooled), promise.effect, &promise.own);
     let usual = pooled.usual_start();
     for (column, &index) in pooled.own.iter().enumerate() {
         let effect = effect_of(&pooled.effects, index).map(|(effect, _)| effect);
@@ -434,37 +434,6 @@ fn astray(pooled: &PooledModel<'_>, with: &[Vec<f64>], without: &[Vec<f64>]) -> 
 fn times(own: &mut [f64], factors: &[f64]) {
     let pairs = own.iter_mut().zip(factors);
     pairs.for_each(|(own, factor)| *own *= factor);
-}
-
-/// The current fit with one effect's parameters at `values`.
-pub(crate) fn with_effect(
-    pooled: &PooledModel<'_>,
-    current: &Fitted,
-    effect: Effect,
-    values: &[f64],
-) -> Start {
-    let mut start = current.start(pooled);
-    let first = first_parameter(&pooled.effects, effect);
-    for (offset, (&value, spec)) in values
-        .iter()
-        .zip(effect.description().parameters)
-        .enumerate()
-    {
-        let index = first + offset;
-        match spec.scope {
-            Scope::Shared => {
-                let sizes = pooled.shared.iter().zip(&mut start.shared);
-                let own = sizes.filter(|(size, _)| size.index == index);
-                own.for_each(|(_, size)| *size = value);
-            }
-            Scope::PerTightening => {
-                if let Some(column) = pooled.own.iter().position(|&i| i == index) {
-                    start.own.iter_mut().for_each(|own| own[column] = value);
-                }
-            }
-        }
-    }
-    start
 }
 
 #[cfg(test)]

@@ -7,7 +7,7 @@ use crate::pooled::fit::fit_from;
 use crate::pooled::fitted::Fitted;
 use crate::pooled::model::{PooledModel, Start};
 use crate::pooled::parameter_place::{effect_of, first_parameter};
-use crate::ranking::refit::with_effect;
+
 use crate::ranking::resonances;
 use crate::selection::model_selection::ModelSelection;
 use snug_model::{Effect, Law, ParameterSpec};
@@ -41,7 +41,7 @@ fn fit_in_place(
     let as_before = begun(&pooled, full, effect, other);
     let mut end = fit_from(&mut pooled, Some(as_before), clusters);
     for values in resonances::starts(cases, full, other) {
-        let start = with_effect(&pooled, full, other, &values);
+        let start = pooled.with_effect(full.start(&pooled), other, &values);
         let again = fit_from(&mut pooled, Some(start), clusters);
         let is_lower = |again: &Fitted| match &end {
             Ok(end) => again.squares() < end.squares(),

@@ -1,7 +1,8 @@
 //! Where a fit of a pooled model may begin.
 
 use super::{PooledModel, Start};
-use snug_model::{BASE_PARAMETERS, Model};
+use crate::pooled::parameter_place::first_parameter;
+use snug_model::{BASE_PARAMETERS, Effect, Law, Model, Scope};
 
 impl PooledModel<'_> {
     /// Where the parameters begin by themselves: the study's values, the effects' usual starts.
@@ -74,6 +75,28 @@ impl PooledModel<'_> {
             }
         }
         Start { own, shared }
+    }
+
+    /// The `start` with one effect's parameters at `values`.
+    pub fn with_effect(&self, mut start: Start, effect: Effect, values: &[f64]) -> Start {
+        let first = first_parameter(&self.effects, effect);
+        let specs = effect.description().parameters;
+        for (offset, (&value, spec)) in values.iter().zip(specs).enumerate() {
+            let index = first + offset;
+            match spec.scope {
+                Scope::Shared => {
+                    let sizes = self.shared.iter().zip(&mut start.shared);
+                    let own = sizes.filter(|(size, _)| size.index == index);
+                    own.for_each(|(_, size)| *size = value);
+                }
+                Scope::PerTightening => {
+                    if let Some(column) = self.own.iter().position(|&i| i == index) {
+                        start.own.iter_mut().for_each(|own| own[column] = value);
+                    }
+                }
+            }
+        }
+        start
     }
 
     /// The same with these values of the parameters of these names.

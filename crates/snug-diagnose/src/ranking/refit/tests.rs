@@ -60,14 +60,14 @@ fn an_effect_s_values_go_where_its_parameters_are() {
         &[TorqueOffset, AccelerationBias, CubicStiffness],
         |pooled| {
             let current = base(&[1.0; 2]);
-            let cubic = with_effect(pooled, &current, CubicStiffness, &[7e5]);
+            let cubic = pooled.with_effect(current.start(pooled), CubicStiffness, &[7e5]);
             assert_eq!(
                 cubic.shared,
                 [0.0, 7e5],
                 "behind the offset, which begins as usual"
             );
             assert_eq!(cubic.own[1][..3], hand(1), "as the current fit has them");
-            let bias = with_effect(pooled, &current, AccelerationBias, &[0.4]);
+            let bias = pooled.with_effect(current.start(pooled), AccelerationBias, &[0.4]);
             assert_eq!(
                 (bias.own[0][3], bias.own[1][3]),
                 (0.4, 0.4),
@@ -213,7 +213,8 @@ fn of_several_starts_the_one_that_leads_lowest_is_followed() {
     let counted = Cases::new(&cases, &tally);
     let current = fit_effects(counted, &[], None, WHOLE).expect("the base model can be fitted");
     let pooled = PooledModel::new(counted, &[Backlash]).expect("they go together");
-    let starts = [0.02, 5e-4].map(|gap| with_effect(&pooled, &current, Backlash, &[gap]));
+    let starts =
+        [0.02, 5e-4].map(|gap| pooled.with_effect(current.start(&pooled), Backlash, &[gap]));
     let seen_from_afar = |starts: &[Start]| {
         rough(&pooled, &current, starts)
             .expect("it can be fitted")
