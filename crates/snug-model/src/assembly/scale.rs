@@ -43,6 +43,10 @@ const HAND_CORNER_S: f64 = 2.5e-5;
 
 /// How much wider bounds are on a rig that the catalogue was not made for.
 pub(crate) const WIDER: f64 = 10.0;
+/// How much wider still those of the size of a force that grows with the motion are \[–\]: the typical torque is what drives a rig, and near
+/// resonance, or after the blow of a hammer, a spring pulls as much harder than that as it rings longer. Chosen: of some 500 periods. Not of
+/// a force that has an amplitude: a weight of 360 Nm stood in for a spring that stiffens, against a spring of as much.
+const RINGING: f64 = 1000.0;
 
 /// Starts and bounds of one parameter on one rig, in the parameter's unit.
 #[derive(Debug, Clone, PartialEq)]
@@ -82,8 +86,12 @@ impl Scale {
             };
         };
         // A bound on the far side of 0 moves outwards, one between 0 and the starts towards 0.
+        let wider = match spec.vanishes_at == Some(0.0) && grows_with_motion(spec.unit) {
+            true => WIDER * RINGING,
+            false => WIDER,
+        };
         let outwards = |bound: f64, is_outer: bool| {
-            bound * factor * if is_outer { WIDER } else { 1.0 / WIDER }
+            bound * factor * if is_outer { wider } else { 1.0 / WIDER }
         };
         let minimum = outwards(spec.minimum, spec.minimum < 0.0);
         let maximum = outwards(spec.maximum, spec.maximum > 0.0);
@@ -164,6 +172,12 @@ impl Scale {
     }
 }
 
+/// Whether what has this `unit` makes a force in proportion to a power of the motion.
+fn grows_with_motion(unit: &str) -> bool {
+    let force = |above: &str| (above.split(' ')).any(|one| matches!(one, "N" | "Nm" | "kg"));
+    unit.split_once('/').is_some_and(|(above, _)| force(above))
+}
+
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
@@ -218,6 +232,19 @@ mod tests {
             assert!((factor - expected).abs() < 1e-12, "{unit}: {factor}");
         }
         assert_eq!(SCALE.factor("V/furlong", 1.0), None);
+    }
+
+    /// By hand calculation: a cubic stiffness is 512 times smaller on the longer way, a torque twice as large.
+    #[test]
+    fn a_spring_may_pull_far_harder_than_what_drives_the_rig_and_a_weight_not() {
+        let largest = |effect: Effect| {
+            let spec = &effect.description().parameters[0];
+            SCALE.range(spec, &RIG).maximum / spec.maximum
+        };
+        let cubic = largest(Effect::CubicStiffness);
+        assert!((cubic * 512.0 / 1e4 - 1.0).abs() < 1e-12, "{cubic}");
+        let weight = largest(Effect::GravityTorque);
+        assert!((weight / 20.0 - 1.0).abs() < 1e-12, "{weight}");
     }
 
     /// A unit that cannot be read would silently keep a hand's numbers.
