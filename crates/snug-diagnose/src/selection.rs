@@ -10,6 +10,7 @@ pub(crate) mod model_selection;
 mod one_law;
 pub(crate) mod path;
 mod put_in;
+mod short_enough;
 pub(crate) mod simpler;
 pub(crate) mod thresholds;
 pub(crate) mod two_at_once;

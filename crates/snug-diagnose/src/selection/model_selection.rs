@@ -4,12 +4,11 @@ use crate::data::cases::Cases;
 use crate::data::clusters::Clusters;
 use crate::data::watch::Watch;
 use crate::error::DiagnoseError;
-use crate::library::{is_unlisted, turns_at_once};
+use crate::library::is_unlisted;
 use crate::pooled::fit::{fit_effects, fit_part, fit_sharing};
 use crate::pooled::fitted::Fitted;
 use crate::pooled::model::PooledModel;
 use crate::pooled::sharing::{Groups, Sharing};
-use crate::pooled::steps::{friction, resolved};
 use crate::question::Begun;
 use crate::ranking::applicability::candidates;
 use crate::ranking::by_group::{by_group, explains_more};
@@ -19,7 +18,7 @@ use crate::ranking::rank::{Candidate, Ranking, rank};
 use crate::selection::path::{Addition, SelectionPath, justified, laws_may_matter, misfit, twins};
 use crate::selection::thresholds::{
     ENOUGH_AHEAD, EQUAL, JUST_AS_MUCH, LEAVES_OF_GENERAL, LITTLE_LEFT, MOST_EFFECTS, MUCH_LEFT,
-    PLAINLY_MORE, RESOLVED, SEEDS,
+    SEEDS,
 };
 use crate::settings::DiagnoseSettings;
 use snug_least_squares::PooledSettings;
@@ -104,7 +103,7 @@ impl ModelSelection<'_> {
     /// Ranks what is missing beside the last model.
     pub(super) fn rank(&self, path: &SelectionPath) -> Result<Ranking, DiagnoseError> {
         let current = path.last();
-        self.must_be_resolved(&[current])?;
+        self.must_be_resolved(current)?;
         let beside = list(&current.effects);
         (self.watch).begin(&format!("ranking what is missing beside {beside}"))?;
         let mut all = candidates(&self.cases, current, self.custom)?;
@@ -121,26 +120,8 @@ impl ModelSelection<'_> {
         )?;
         let most = LEAVES_OF_GENERAL * current.squares();
         (ranking.candidates).retain(|one| !one.effect.is_general() || one.fitted.squares() < most);
-        self.must_be_resolved(&may_come_in(&ranking, self.settings))?;
+        self.what_may_come_in_must_be_resolved(&ranking)?;
         Ok(ranking)
-    }
-
-    /// Ends where one of these must be simulated in shorter steps, and this search may ask for them.
-    pub(super) fn must_be_resolved(&self, all: &[&Fitted]) -> Result<(), DiagnoseError> {
-        if !self.may_ask_for_steps {
-            return Ok(());
-        }
-        let asked =
-            (all.iter()).filter_map(|one| match one.effects.iter().any(needs_short_steps) {
-                true => resolved::shorter_steps(self.cases, one),
-                // Of a friction in which a load may hide, only where it shows in the simulation, too.
-                false => friction::shorter_steps(self.cases, one)
-                    .filter(|_| resolved::shorter_steps(self.cases, one).is_some()),
-            });
-        match asked.max() {
-            Some(steps) => Err(DiagnoseError::Unresolved { steps }),
-            None => Ok(()),
-        }
     }
 
     /// The same effects, fitted from there to the end; sizes that differed between groups are one again where what was added makes
@@ -437,32 +418,6 @@ impl ModelSelection<'_> {
         };
         (addition, candidate.fitted.clone())
     }
-}
-
-/// Whether it may ask for shorter steps than the base model: it has a state of its own, or is a law, which may set in within a sample as a stop
-/// does. In what steps dry friction, which has no state, is simulated was settled before, and what turns at once turns as that does.
-fn needs_short_steps(effect: &Effect) -> bool {
-    let may_set_in = is_unlisted(*effect) && !turns_at_once(*effect);
-    may_set_in || !effect.description().states.is_empty()
-}
-
-/// The best candidates that may come in for what they add; what only bends to a simpler one, as a loop that turns at once does to dry friction,
-/// would ask for ever shorter steps.
-fn may_come_in<'r>(ranking: &'r Ranking, settings: &DiagnoseSettings) -> Vec<&'r Fitted> {
-    let all = &ranking.candidates;
-    (all.iter().take(RESOLVED))
-        .filter(|best| best.is_supported(settings) && needs_short_steps(&best.effect))
-        .filter(|best| !only_bends_to_a_simpler(best, all))
-        .map(|best| &best.fitted)
-        .collect()
-}
-
-/// Whether a simpler one of `all` leaves hardly more than this.
-fn only_bends_to_a_simpler(rich: &Candidate, all: &[Candidate]) -> bool {
-    let leaves_as_little =
-        |simple: &Candidate| simple.fitted.squares() < PLAINLY_MORE * rich.fitted.squares();
-    all.iter()
-        .any(|simple| is_simpler(simple.effect, rich.effect) && leaves_as_little(simple))
 }
 
 /// What is added, and the model with it.

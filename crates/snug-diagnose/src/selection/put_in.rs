@@ -31,7 +31,7 @@ impl ModelSelection<'_> {
             if !one.values.is_empty() {
                 match self.begun_among(&[one.effect], current, one)? {
                     Some((index, ranking, settled)) if does(index, &ranking, &settled) => {
-                        self.must_be_resolved(&[&settled])?;
+                        self.must_be_resolved(&settled)?;
                     }
                     _ => continue,
                 }

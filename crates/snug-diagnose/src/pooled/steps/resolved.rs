@@ -51,6 +51,14 @@ pub(crate) fn shorter_steps(cases: Cases<'_>, fitted: &Fitted) -> Option<usize> 
     (steps > begun).then_some(steps)
 }
 
+/// A case simulated in so many steps from sample to sample.
+pub(crate) fn in_steps<'a>(case: &'a FitTask<'_>, steps: usize) -> FitTask<'a> {
+    FitTask {
+        input: Cow::Owned(case.input.clone().into_owned().in_steps(steps)),
+        ..case.lent()
+    }
+}
+
 /// The scored output of a case with these `values`, simulated in so many steps; `None` where the input has a grid of its own, or it cannot be
 /// simulated.
 fn simulated(
@@ -62,11 +70,7 @@ fn simulated(
     if case.input.is_band_limited() {
         return None;
     }
-    let input = case.input.clone().into_owned().in_steps(steps);
-    let in_steps = FitTask {
-        input: Cow::Owned(input),
-        ..case.lent()
-    };
+    let in_steps = in_steps(case, steps);
     let model = case.model_with(&fitted.effects).ok()?;
     let mut output = in_steps.simulated(&model, values).ok()?;
     output.drain(..case.unscored());

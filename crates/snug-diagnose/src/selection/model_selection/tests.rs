@@ -4,7 +4,7 @@ use super::*;
 use crate::tests::made_up::{WHOLE, candidate, close, noisy, ranking, term, with_selection};
 use snug_identify::FitTask;
 use snug_model::Effect::{
-    BoucWen, CoulombFriction, CubicStiffness, QuadraticDamping, QuadraticStiffness, TorqueOffset,
+    CoulombFriction, CubicStiffness, QuadraticDamping, QuadraticStiffness, TorqueOffset,
 };
 
 /// Eight tightenings with 100 residuals each of which the model leaves 300, 200 of it beyond the noise.
@@ -215,20 +215,4 @@ fn a_model_is_named_by_its_effects() {
         list(&[CubicStiffness, TorqueOffset]),
         "cubic_stiffness + torque_offset"
     );
-}
-
-/// A loop that turns at once is dry friction: where that leaves as little, how soon it turns says nothing of the steps.
-#[test]
-fn what_bends_to_dry_friction_asks_for_no_shorter_steps() {
-    let left = |effect, squares: f64| Candidate {
-        fitted: Fitted::made_up(&[effect], &[squares; 8], 100),
-        ..candidate(effect, 0.01, &clear(200.0))
-    };
-    let bends = |simple, squares| {
-        let loops = left(BoucWen, 100.0);
-        only_bends_to_a_simpler(&loops, &[left(simple, squares), loops.clone()])
-    };
-    assert!(bends(CoulombFriction, 110.0));
-    assert!(!bends(CoulombFriction, 300.0));
-    assert!(!bends(CubicStiffness, 100.0));
 }
