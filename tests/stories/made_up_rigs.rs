@@ -10,6 +10,7 @@ mod hysteresis;
 mod loads;
 mod loops;
 mod rig;
+mod ringing;
 mod sensors;
 mod stops;
 mod unheld;

@@ -47,6 +47,7 @@ pub fn examine(
         settings,
         watch,
         may_ask_for_steps: question.may_ask_for_steps,
+        until: question.until,
     };
     let compared = selection.compare()?;
     let units = (!settings.loads_differ)

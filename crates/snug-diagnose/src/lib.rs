@@ -10,6 +10,7 @@ mod locate;
 mod pooled;
 mod question;
 mod ranking;
+mod rung_model;
 mod selection;
 mod settings;
 #[cfg(test)]
@@ -32,8 +33,9 @@ pub use pooled::shared_block::{SharedBlock, SharedParameter, shared_blocks, shar
 pub use pooled::steps::friction::steps_per_sample;
 pub use pooled::thresholds::{FALSE_DISCOVERIES, ROUNDING};
 pub use pooled::together::{Together, fit_together};
-pub use question::{Begun, Goal, Question};
+pub use question::{Begun, Goal, Question, Until};
 pub use ranking::free_run::is_followed_with_an_effect;
+pub use rung_model::RungModel;
 pub use settings::DiagnoseSettings;
 pub use snug_identify::derived::Derived;
-pub use verdict::answer::{Answer, RungModel};
+pub use verdict::answer::Answer;

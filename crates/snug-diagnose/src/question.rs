@@ -3,9 +3,12 @@
 use crate::error::DiagnoseError;
 use crate::pooled::parameter_place::effect_of;
 use crate::pooled::sharing::{Groups, Sharing};
+use crate::rung_model::RungModel;
 use snug_campaign::{Factor, SignalUnits};
 use snug_identify::FitTask;
 use snug_model::Effect;
+use std::fmt;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// What is asked of the data.
 #[derive(Debug, Clone, PartialEq)]
@@ -53,6 +56,7 @@ impl<'a> Question<'a> {
             custom: Vec::new(),
             goal,
             may_ask_for_steps: false,
+            until: None,
             units: SignalUnits::default(),
         }
     }
@@ -88,6 +92,41 @@ impl Goal {
     }
 }
 
+/// Up to which model effects are added, if one is reached before the data justify no more.
+pub struct Until<'a> {
+    is_enough: &'a (dyn Fn(&RungModel) -> bool + Sync),
+    is_reached: AtomicBool,
+}
+
+impl<'a> Until<'a> {
+    /// Up to the first that `is_enough`.
+    pub fn new(is_enough: &'a (dyn Fn(&RungModel) -> bool + Sync)) -> Self {
+        Self {
+            is_enough,
+            is_reached: AtomicBool::new(false),
+        }
+    }
+
+    /// Whether one was reached.
+    pub fn is_reached(&self) -> bool {
+        self.is_reached.load(Ordering::Relaxed)
+    }
+
+    pub(crate) fn is_reached_by(&self, model: &RungModel) -> bool {
+        let is_enough = (self.is_enough)(model);
+        self.is_reached.fetch_or(is_enough, Ordering::Relaxed);
+        is_enough
+    }
+}
+
+impl fmt::Debug for Until<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        (f.debug_struct("Until"))
+            .field("is_reached", &self.is_reached)
+            .finish_non_exhaustive()
+    }
+}
+
 /// A question to the data.
 #[derive(Debug, Clone)]
 pub struct Question<'a> {
@@ -103,6 +142,8 @@ pub struct Question<'a> {
     pub goal: Goal,
     /// Whether to end with [`DiagnoseError::Unresolved`] where the simulation takes too few steps for what is found.
     pub may_ask_for_steps: bool,
+    /// Where to look no further, though the data may justify more.
+    pub until: Option<&'a Until<'a>>,
     /// In which units errors are told.
     pub units: SignalUnits,
 }

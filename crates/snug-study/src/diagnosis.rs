@@ -179,6 +179,7 @@ fn climbed_in_steps(
         custom: study.model.custom_effects()?,
         goal: goal(study, verb, &cases)?,
         may_ask_for_steps: may_ask && matches!(study.model.scale, Scale::Rig { .. }),
+        until: None,
         units: study.source.units(study.preprocess.rig.lever_arm_m),
     };
     let search = Search {
@@ -187,20 +188,22 @@ fn climbed_in_steps(
         progress,
         interrupted,
     };
-    let (mut answer, held) = search.answer(study, &question)?;
     let may_run_freely = settled
         .as_ref()
         .is_some_and(|settled| settled.may_run_freely);
-    if may_run_freely && *verb == Verb::Improve && !answer.diagnosis.interrupted {
-        let restarted = Restarted {
-            study,
-            as_told,
-            found: &answer,
-        };
-        if let Some((free, mut answer)) = restarted.run_freely(&lent, &question, &search)? {
-            answer.diagnosis.reasons.extend_from_slice(left_out);
-            return Ok(climb(&free, answer));
+    let (mut answer, held, free) = match may_run_freely && *verb == Verb::Improve {
+        true => {
+            let found = Restarted { study, as_told }.answer(&lent, &question, &search)?;
+            (found.answer, found.held, found.free)
         }
+        false => {
+            let (answer, held) = search.answer(study, &question)?;
+            (answer, held, None)
+        }
+    };
+    if let Some(free) = free {
+        answer.diagnosis.reasons.extend_from_slice(left_out);
+        return Ok(climb(&free, answer));
     }
     let study = held.as_ref().unwrap_or(study);
     answer.diagnosis.reasons.extend_from_slice(reasons);

@@ -1,7 +1,8 @@
 //! Forward selection: rank, add the best, again, until nothing more is justified; then backward elimination.
 
 use crate::error::DiagnoseError;
-use crate::question::Begun;
+use crate::question::{Begun, Until};
+use crate::rung_model::RungModel;
 use crate::selection::backward_elimination::{
     look_at_twins_again, prefer_simpler, take_out_what_may_be_nothing, try_removals,
 };
@@ -28,6 +29,9 @@ impl ModelSelection<'_> {
     /// Rung by rung; `path` holds those that were reached also where this fails.
     fn add_justified(&self, path: &mut SelectionPath) -> Result<(), DiagnoseError> {
         self.go_on(path)?;
+        if self.until.is_some_and(Until::is_reached) {
+            return Ok(());
+        }
         let Some((place, law)) = self.one_law(path)? else {
             return Ok(());
         };
@@ -64,6 +68,11 @@ impl ModelSelection<'_> {
             let room = MOST_EFFECTS - path.additions.len();
             let steps = self.choose(path.last(), &path.ranking, best, room)?;
             self.go_up(path, steps)?;
+            if let Some(until) = self.until
+                && until.is_reached_by(&RungModel::of(&self.cases, path.last()))
+            {
+                return Ok(());
+            }
         }
         try_removals(self, path)?;
         prefer_simpler(self, path)?;
@@ -96,6 +105,15 @@ mod tests {
         sizes: &[f64],
         ends: impl Fn(&str) -> bool + Sync,
     ) -> SelectionPath {
+        selected_until(None, effects, sizes, ends)
+    }
+
+    fn selected_until(
+        until: Option<&Until<'_>>,
+        effects: &[Effect],
+        sizes: &[f64],
+        ends: impl Fn(&str) -> bool + Sync,
+    ) -> SelectionPath {
         let cases: Vec<FitTask> = (0..8).map(|n| noisy(n, effects, sizes)).collect();
         let ended = AtomicBool::new(false);
         let tell = |stage: &str| ended.store(ends(stage), Ordering::Relaxed);
@@ -110,6 +128,7 @@ mod tests {
             settings: &settings,
             watch: &Watch::new(&tell).until(&ended),
             may_ask_for_steps: false,
+            until,
         };
         let path = selection.compare().expect("it can be fitted");
         selection.improve(&[], path).expect("it can be fitted")
@@ -137,6 +156,19 @@ mod tests {
             path.stopped,
             Some(Stop::NothingSupported { .. } | Stop::TooSmall { .. })
         ));
+    }
+
+    #[test]
+    fn a_selection_looks_no_further_than_it_is_asked_to() {
+        for is_enough in [true, false] {
+            let cubic = |model: &RungModel| is_enough && model.effects == ["cubic_stiffness"];
+            let until = Until::new(&cubic);
+            let path = selected_until(Some(&until), &[CubicStiffness], &[2e6], |_| false);
+            assert_eq!(path.last().effects, [CubicStiffness]);
+            assert_eq!(until.is_reached(), is_enough);
+            assert_eq!(path.ranking.candidates.is_empty(), is_enough);
+            assert_eq!(path.stopped.is_none(), is_enough);
+        }
     }
 
     /// The second ranking is that beside the first addition: it is not made any more.

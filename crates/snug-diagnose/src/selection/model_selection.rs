@@ -9,7 +9,7 @@ use crate::pooled::fit::{fit_effects, fit_part, fit_sharing};
 use crate::pooled::fitted::Fitted;
 use crate::pooled::model::PooledModel;
 use crate::pooled::sharing::{Groups, Sharing};
-use crate::question::Begun;
+use crate::question::{Begun, Until};
 use crate::ranking::applicability::candidates;
 use crate::ranking::by_group::{by_group, explains_more};
 use crate::ranking::kin::is_simpler;
@@ -39,6 +39,8 @@ pub(crate) struct ModelSelection<'a> {
     pub watch: &'a Watch<'a>,
     /// Whether to end where the simulation takes too few steps for what is found.
     pub may_ask_for_steps: bool,
+    /// Where to look no further.
+    pub until: Option<&'a Until<'a>>,
 }
 
 impl ModelSelection<'_> {

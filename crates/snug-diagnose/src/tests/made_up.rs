@@ -171,6 +171,7 @@ pub(crate) fn with_selection<T>(
         settings,
         watch: &watch,
         may_ask_for_steps: false,
+        until: None,
     })
 }
 

@@ -10,6 +10,7 @@ use crate::pooled::fitted::Fitted;
 use crate::pooled::sizes::parameters;
 use crate::question::Question;
 use crate::ranking::rank::Ranking;
+use crate::rung_model::RungModel;
 use crate::selection::path::{Addition, SelectionPath, twins};
 use crate::settings::DiagnoseSettings;
 use crate::verdict::comparisons::compare_sizes;
@@ -27,33 +28,10 @@ use snug_campaign::words::explained::Explained;
 use snug_campaign::words::statement;
 use snug_campaign::words::suspicion::{OtherUnits, StandsApart, Suspicion, TurnedRound};
 use snug_campaign::{
-    AddedEffect, Comparison, CorrectedEffect, Diagnosis, Drift, EffectParameter, Experiment,
-    Location, NegativeControl, RankedEffect, UnlistedTerm, Verdict, sharing,
+    AddedEffect, Comparison, CorrectedEffect, Diagnosis, Drift, Experiment, Location,
+    NegativeControl, RankedEffect, UnlistedTerm, Verdict, sharing,
 };
-use snug_identify::FitTask;
-use snug_model::{CustomEffectSettings, Effect, Law};
-
-/// The model of one rung.
-#[derive(Debug, Clone)]
-pub struct RungModel {
-    /// Its effects.
-    pub effects: Vec<String>,
-    /// Declarations of those effects that the study does not know yet.
-    pub declarations: Vec<CustomEffectSettings>,
-    /// Mass, damping and stiffness that go with them, as a place to begin; only where few long records were fitted.
-    pub base: Vec<(String, f64)>,
-    /// Sizes of the effects, shared ones and each tightening's own.
-    pub parameters: Vec<EffectParameter>,
-}
-
-impl RungModel {
-    /// What all tightenings share, by name.
-    pub fn values(&self) -> Vec<(String, f64)> {
-        let shared = self.parameters.iter().filter(|one| !one.per_tightening);
-        let sizes = shared.map(|one| (one.name.clone(), one.value));
-        self.base.iter().cloned().chain(sizes).collect()
-    }
-}
+use snug_model::{Effect, Law};
 
 /// What the data answer.
 #[derive(Debug, Clone)]
@@ -184,7 +162,7 @@ impl Examination<'_> {
         };
         Ok(Answer {
             diagnosis,
-            models: rungs.map(|rung| rung_model(cases, rung)).collect(),
+            models: rungs.map(|rung| RungModel::of(cases, rung)).collect(),
         })
     }
 
@@ -400,26 +378,5 @@ impl Examination<'_> {
             expression: declared.expression,
             heldout_gain: gain,
         })
-    }
-}
-
-fn rung_model(cases: &[FitTask<'_>], fitted: &Fitted) -> RungModel {
-    RungModel {
-        effects: fitted
-            .effects
-            .iter()
-            .map(|effect| effect.name().to_owned())
-            .collect(),
-        declarations: fitted
-            .effects
-            .iter()
-            .filter_map(|&effect| declaration(effect))
-            .collect(),
-        base: fitted.base(),
-        parameters: fitted
-            .effects
-            .iter()
-            .flat_map(|&effect| parameters(cases, fitted, effect))
-            .collect(),
     }
 }

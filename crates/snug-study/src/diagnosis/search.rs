@@ -9,7 +9,7 @@ use crate::tasks::cases::with_settled;
 use crate::tasks::held_input;
 use snug_campaign::words::number::significant;
 use snug_campaign::words::reason::Reason;
-use snug_diagnose::{Answer, DiagnoseError, Goal, Pieces, Question, Watch, examine};
+use snug_diagnose::{Answer, DiagnoseError, Goal, Pieces, Question, Until, Watch, examine};
 use snug_identify::{FitTask, IdentifyError};
 use snug_least_squares::SolveError;
 use std::sync::atomic::AtomicBool;
@@ -35,6 +35,9 @@ impl Search<'_> {
             return Ok((held, Some(study)));
         }
         let mut straight = self.examined(question)?;
+        if question.until.is_some_and(Until::is_reached) {
+            return Ok((straight, None));
+        }
         let not_tried = held_input::not_tried(study, cases, &straight.diagnosis);
         straight.diagnosis.reasons.extend(not_tried);
         if !is_open || straight.diagnosis.interrupted {

@@ -75,6 +75,7 @@ pub fn prepare(study: &Study, tell: &(dyn Fn(FilesRead) + Sync)) -> Result<Prepa
         custom: study.model.custom_effects()?,
         goal: Goal::Compare,
         may_ask_for_steps: false,
+        until: None,
         units: units.clone(),
     };
     let mut search = study.diagnosis.search.clone();
