@@ -8,7 +8,7 @@ use snug_identify::FitTask;
 use snug_model::CustomEffectSettings;
 
 /// The model of one rung.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct RungModel {
     /// Its effects.
     pub effects: Vec<String>,

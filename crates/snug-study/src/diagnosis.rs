@@ -13,7 +13,7 @@ use crate::study::Study;
 use crate::tasks::cases::{chosen, with_settled};
 use crate::tasks::comparable::Comparable;
 use crate::tasks::settling::{Settled, settle};
-use restarted::Restarted;
+use restarted::{Found, Restarted};
 use search::Search;
 use snug_campaign::{GroupSize, GroupSizes};
 use snug_diagnose::{Answer, Begun, DiagnoseError, Goal, Question, RungModel};
@@ -191,24 +191,21 @@ fn climbed_in_steps(
     let may_run_freely = settled
         .as_ref()
         .is_some_and(|settled| settled.may_run_freely);
-    let (mut answer, held, free) = match may_run_freely && *verb == Verb::Improve {
-        true => {
-            let found = Restarted { study, as_told }.answer(&lent, &question, &search)?;
-            (found.answer, found.held, found.free)
-        }
-        false => {
-            let (answer, held) = search.answer(study, &question)?;
-            (answer, held, None)
-        }
+    let Found {
+        mut answer,
+        study: other,
+        runs_freely,
+        ..
+    } = match may_run_freely && *verb == Verb::Improve {
+        true => Restarted { study, as_told }.answer(&lent, &question, &search)?,
+        false => Found::as_searched(search.answer(study, &question)?),
     };
-    if let Some(free) = free {
-        answer.diagnosis.reasons.extend_from_slice(left_out);
-        return Ok(climb(&free, answer));
+    let told = &mut answer.diagnosis.reasons;
+    if !runs_freely {
+        told.extend_from_slice(reasons);
     }
-    let study = held.as_ref().unwrap_or(study);
-    answer.diagnosis.reasons.extend_from_slice(reasons);
-    answer.diagnosis.reasons.extend_from_slice(left_out);
-    Ok(climb(study, answer))
+    told.extend_from_slice(left_out);
+    Ok(climb(other.as_ref().unwrap_or(study), answer))
 }
 
 fn goal(study: &Study, verb: &Verb, cases: &[FitTask<'_>]) -> Result<Goal, StudyError> {

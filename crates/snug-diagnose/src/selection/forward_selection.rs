@@ -1,7 +1,7 @@
 //! Forward selection: rank, add the best, again, until nothing more is justified; then backward elimination.
 
 use crate::error::DiagnoseError;
-use crate::question::{Begun, Until};
+use crate::question::Begun;
 use crate::rung_model::RungModel;
 use crate::selection::backward_elimination::{
     look_at_twins_again, prefer_simpler, take_out_what_may_be_nothing, try_removals,
@@ -9,6 +9,15 @@ use crate::selection::backward_elimination::{
 use crate::selection::model_selection::{ModelSelection, Step};
 use crate::selection::path::{SelectionPath, Stop, justified};
 use crate::selection::thresholds::{MOST_EFFECTS, SMALL};
+
+/// How far a way led.
+#[derive(PartialEq)]
+enum Reached {
+    /// To all that the data justify.
+    All,
+    /// To a model beside which nothing more is asked for.
+    Enough,
+}
 
 impl ModelSelection<'_> {
     /// Adds to the study's own effects, begun with those `from` which the way is known to lead that are supported beside those before or take
@@ -28,8 +37,7 @@ impl ModelSelection<'_> {
 
     /// Rung by rung; `path` holds those that were reached also where this fails.
     fn add_justified(&self, path: &mut SelectionPath) -> Result<(), DiagnoseError> {
-        self.go_on(path)?;
-        if self.until.is_some_and(Until::is_reached) {
+        if self.go_on(path)? == Reached::Enough {
             return Ok(());
         }
         let Some((place, law)) = self.one_law(path)? else {
@@ -37,10 +45,10 @@ impl ModelSelection<'_> {
         };
         path.go_back_to(place);
         self.go_up(path, vec![law])?;
-        self.go_on(path)
+        self.go_on(path).map(|_| ())
     }
 
-    fn go_on(&self, path: &mut SelectionPath) -> Result<(), DiagnoseError> {
+    fn go_on(&self, path: &mut SelectionPath) -> Result<Reached, DiagnoseError> {
         loop {
             self.rank_last(path)?;
             if path.additions.len() >= MOST_EFFECTS {
@@ -71,12 +79,13 @@ impl ModelSelection<'_> {
             if let Some(until) = self.until
                 && until.is_reached_by(&RungModel::of(&self.cases, path.last()))
             {
-                return Ok(());
+                return Ok(Reached::Enough);
             }
         }
         try_removals(self, path)?;
         prefer_simpler(self, path)?;
-        look_at_twins_again(self, path)
+        look_at_twins_again(self, path)?;
+        Ok(Reached::All)
     }
 
     fn go_up(&self, path: &mut SelectionPath, steps: Vec<Step>) -> Result<(), DiagnoseError> {
@@ -94,6 +103,7 @@ mod tests {
     use crate::data::cases::{Cases, Tally};
     use crate::data::watch::Watch;
     use crate::pooled::sharing::Sharing;
+    use crate::question::Until;
     use crate::tests::made_up::{WHOLE, close, noisy, quick};
     use snug_identify::FitTask;
     use snug_model::Effect::{self, CubicStiffness};

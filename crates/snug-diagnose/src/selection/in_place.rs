@@ -7,7 +7,6 @@ use crate::pooled::fit::fit_from;
 use crate::pooled::fitted::Fitted;
 use crate::pooled::model::{PooledModel, Start};
 use crate::pooled::parameter_place::{effect_of, first_parameter};
-
 use crate::ranking::resonances;
 use crate::selection::model_selection::ModelSelection;
 use snug_model::{Effect, Law, ParameterSpec};

@@ -19,6 +19,12 @@ struct Resolved {
     squares: f64,
 }
 
+/// What a candidate asked for, nothing where it needs no shorter steps, and what it leaves in the present ones.
+struct Asked {
+    resolved: Option<Resolved>,
+    left: f64,
+}
+
 impl ModelSelection<'_> {
     /// Ends where a model must be simulated in shorter steps, and this search may ask for them.
     pub(super) fn must_be_resolved(&self, one: &Fitted) -> Result<(), DiagnoseError> {
@@ -35,19 +41,21 @@ impl ModelSelection<'_> {
         if !self.may_ask_for_steps {
             return Ok(());
         }
-        let supported: Vec<&Candidate> = (ranking.candidates.iter())
-            .filter(|one| one.is_supported(self.settings))
+        let all = &ranking.candidates;
+        let may_ask = |place: usize, one: &Candidate| {
+            let needs = place < RESOLVED && needs_short_steps(&one.effect);
+            needs && !only_bends_to_a_simpler(one, all)
+        };
+        let supported = (all.iter().enumerate()).filter(|(_, one)| one.is_supported(self.settings));
+        let asked: Vec<Asked> = supported
+            .map(|(place, one)| Asked {
+                resolved: may_ask(place, one)
+                    .then(|| self.resolved(&one.fitted))
+                    .flatten(),
+                left: one.fitted.squares(),
+            })
             .collect();
-        let may_ask = |one: &Candidate| {
-            needs_short_steps(&one.effect) && !only_bends_to_a_simpler(one, &supported)
-        };
-        let asked = |(place, one): (usize, &&Candidate)| match place < RESOLVED && may_ask(one) {
-            true => self.resolved(&one.fitted),
-            false => None,
-        };
-        let asked: Vec<Option<Resolved>> = supported.iter().enumerate().map(asked).collect();
-        let left: Vec<f64> = supported.iter().map(|one| one.fitted.squares()).collect();
-        ended_with(steps_of(&asked, &left))
+        ended_with(steps_of(&asked))
     }
 
     /// The model in as many steps as it asks for, fitted again in those as often as it then asks for more; `None` where it asks for none.
@@ -83,19 +91,16 @@ impl ModelSelection<'_> {
     }
 }
 
-/// In how many steps to begin again, of candidates from the best, what each asked for and what it leaves in the present ones.
-fn steps_of(asked: &[Option<Resolved>], left: &[f64]) -> Option<usize> {
-    let least = (asked.iter().zip(left))
-        .filter(|(asked, _)| asked.is_none())
-        .map(|(_, &left)| left)
+/// In how many steps to begin again, of these candidates from the best.
+fn steps_of(all: &[Asked]) -> Option<usize> {
+    let least = (all.iter().filter(|one| one.resolved.is_none()))
+        .map(|one| one.left)
         .fold(f64::INFINITY, f64::min);
-    let must = |(place, resolved): (usize, &Resolved)| {
+    let must = |(place, one): (usize, &Asked)| {
+        let resolved = one.resolved.as_ref()?;
         (place == 0 || PLAINLY_MORE * resolved.squares < least).then_some(resolved.steps)
     };
-    let asked = asked.iter().enumerate();
-    asked
-        .filter_map(|(place, asked)| must((place, asked.as_ref()?)))
-        .max()
+    all.iter().enumerate().filter_map(must).max()
 }
 
 fn ended_with(steps: Option<usize>) -> Result<(), DiagnoseError> {
@@ -111,7 +116,7 @@ fn needs_short_steps(effect: &Effect) -> bool {
 
 /// Whether a simpler one of `all` leaves hardly more than this: what only bends to a simpler one, as a loop that turns at once does to dry
 /// friction, would ask for ever shorter steps.
-fn only_bends_to_a_simpler(rich: &Candidate, all: &[&Candidate]) -> bool {
+fn only_bends_to_a_simpler(rich: &Candidate, all: &[Candidate]) -> bool {
     let leaves_as_little =
         |simple: &Candidate| simple.fitted.squares() < PLAINLY_MORE * rich.fitted.squares();
     all.iter()
@@ -133,7 +138,7 @@ mod tests {
         };
         let bends = |simple, squares| {
             let loops = left(BoucWen, 100.0);
-            only_bends_to_a_simpler(&loops, &[&left(simple, squares), &loops])
+            only_bends_to_a_simpler(&loops, &[left(simple, squares), loops.clone()])
         };
         assert!(bends(CoulombFriction, 110.0));
         assert!(!bends(CoulombFriction, 300.0));
@@ -143,15 +148,19 @@ mod tests {
     /// The first comes in next, so it must be resolved; a later one only where it would come first.
     #[test]
     fn a_later_one_asks_only_where_it_then_leaves_plainly_less() {
-        let resolved = |steps, squares| Some(Resolved { steps, squares });
-        assert_eq!(steps_of(&[None, resolved(8, 90.0)], &[100.0, 80.0]), None);
-        assert_eq!(
-            steps_of(&[None, resolved(8, 70.0)], &[100.0, 80.0]),
-            Some(8)
-        );
-        let both = [resolved(4, 500.0), resolved(8, 90.0), None];
-        assert_eq!(steps_of(&both, &[70.0, 80.0, 100.0]), Some(4));
-        assert_eq!(steps_of(&[None, None], &[1.0, 2.0]), None);
-        assert_eq!(steps_of(&[], &[]), None);
+        let easy = |left| Asked {
+            resolved: None,
+            left,
+        };
+        let hard = |left, steps, squares| Asked {
+            resolved: Some(Resolved { steps, squares }),
+            left,
+        };
+        assert_eq!(steps_of(&[easy(100.0), hard(80.0, 8, 90.0)]), None);
+        assert_eq!(steps_of(&[easy(100.0), hard(80.0, 8, 70.0)]), Some(8));
+        let three = [hard(70.0, 4, 500.0), hard(80.0, 8, 90.0), easy(100.0)];
+        assert_eq!(steps_of(&three), Some(4));
+        assert_eq!(steps_of(&[easy(1.0), easy(2.0)]), None);
+        assert_eq!(steps_of(&[]), None);
     }
 }

@@ -85,11 +85,11 @@ impl Scale {
                 limits: spec.limits,
             };
         };
-        // A bound on the far side of 0 moves outwards, one between 0 and the starts towards 0.
         let wider = match spec.vanishes_at == Some(0.0) && grows_with_motion(spec.unit) {
             true => WIDER * RINGING,
             false => WIDER,
         };
+        // A bound on the far side of 0 moves outwards, one between 0 and the starts towards 0.
         let outwards = |bound: f64, is_outer: bool| {
             bound * factor * if is_outer { wider } else { 1.0 / WIDER }
         };

@@ -4,7 +4,7 @@ use super::{Search, begun, effects, in_short_enough_steps, with_last_model, with
 use crate::error::StudyError;
 use crate::study::Study;
 use crate::tasks::cases::with_settled;
-use crate::tasks::free_run::{follows_better, is_followed, leaves_a_motion, leaves_white_noise};
+use crate::tasks::free_run::{Missed, missed};
 use crate::tasks::held_input;
 use snug_diagnose::{Answer, Goal, Question, RungModel, Until};
 use snug_identify::{FitTask, Simulation};
@@ -23,12 +23,23 @@ pub(super) type Recorded<'a, 'f> = &'f (dyn Fn() -> Vec<FitTask<'a>> + Sync);
 /// What was found.
 pub(super) struct Found {
     pub answer: Answer,
-    /// The study with a held input, where that is the likelier story.
-    pub held: Option<Study>,
-    /// The study run freely, where a free run said it.
-    pub free: Option<Study>,
-    /// Whether a free run leaves white noise.
+    /// The study that says it, where that is not the restarted one as it is: with a held input, or run freely.
+    pub study: Option<Study>,
+    pub runs_freely: bool,
+    /// Whether it runs freely and leaves white noise.
     is_all: bool,
+}
+
+impl Found {
+    /// By the study's own search, run as it is.
+    pub fn as_searched((answer, held): (Answer, Option<Study>)) -> Self {
+        Self {
+            answer,
+            study: held,
+            runs_freely: false,
+            is_all: false,
+        }
+    }
 }
 
 impl Restarted<'_> {
@@ -40,48 +51,39 @@ impl Restarted<'_> {
         question: &Question<'_>,
         search: &Search<'_>,
     ) -> Result<Found, StudyError> {
-        let mut free = self.study.clone();
-        free.identify.simulation = Simulation::FreeRun;
+        let free = self.run_free();
         let follows = |rung: &RungModel| {
-            let cases = with_settled(&with_model(&free, rung, true), recorded());
-            cases.is_ok_and(|cases| is_followed(&cases))
+            let cases = with_rung(&free, rung, recorded());
+            cases.is_ok_and(|cases| missed(&cases).is_some_and(|left| left.follows()))
         };
         let until = Until::new(&follows);
-        let early = Question {
+        let up_to_there = Question {
             until: Some(&until),
             ..question.clone()
         };
-        let found = self.found(recorded, &early, search)?;
-        match !until.is_reached() || found.is_all || found.answer.diagnosis.interrupted {
-            true => Ok(found),
-            false => self.found(recorded, question, search),
+        let first = search.answer(self.study, &up_to_there)?;
+        let freely = self.run_freely(&first.0, recorded, question, search)?;
+        let told = freely.as_ref().map_or(&first.0, |found| &found.answer);
+        let is_all = freely.as_ref().is_some_and(|found| found.is_all);
+        if !until.is_reached() || is_all || told.diagnosis.interrupted {
+            return Ok(freely.unwrap_or_else(|| Found::as_searched(first)));
         }
+        let whole = search.answer(self.study, question)?;
+        // From the same models a free run finds the same.
+        let is_known = whole.0.models == first.0.models && !whole.0.diagnosis.interrupted;
+        let freely = match is_known {
+            true => freely,
+            false => self.run_freely(&whole.0, recorded, question, search)?,
+        };
+        Ok(freely.unwrap_or_else(|| Found::as_searched(whole)))
     }
 
-    fn found<'a>(
-        &self,
-        recorded: Recorded<'a, '_>,
-        question: &Question<'_>,
-        search: &Search<'_>,
-    ) -> Result<Found, StudyError> {
-        let (answer, held) = search.answer(self.study, question)?;
-        let question = Question {
-            until: None,
-            ..question.clone()
-        };
-        let freely = match answer.diagnosis.interrupted {
-            true => None,
-            false => self.run_freely(&answer, recorded, &question, search)?,
-        };
-        Ok(match freely {
-            Some(found) => found,
-            None => Found {
-                answer,
-                held,
-                free: None,
-                is_all: false,
-            },
-        })
+    /// The study, its model not restarted.
+    fn run_free(&self) -> Study {
+        let mut free = self.study.clone();
+        free.identify.simulation = Simulation::FreeRun;
+        (free.diagnosis.search).clone_from(&self.as_told.diagnosis.search);
+        free
     }
 
     /// The study run freely and the answer then: from what was found on, where with that a free run follows, and afresh where what was
@@ -94,15 +96,20 @@ impl Restarted<'_> {
         question: &Question<'_>,
         search: &Search<'_>,
     ) -> Result<Option<Found>, StudyError> {
-        let mut free = self.study.clone();
-        free.identify.simulation = Simulation::FreeRun;
-        (free.diagnosis.search).clone_from(&self.as_told.diagnosis.search);
+        if found.diagnosis.interrupted {
+            return Ok(None);
+        }
+        let free = self.run_free();
         let added = &found.diagnosis.added;
         let is_listed = added.iter().all(|one| one.expression.is_none());
-        let follows = !added.is_empty() && is_followed(&with_found(&free, found, recorded())?);
-        let shows = follows || shows_freely(&free, found, recorded)?;
-        if shows && !follows && !leaves_a_motion(&with_found(self.study, found, recorded())?) {
-            return Ok(None);
+        let left = missed(&with_found(&free, found, recorded())?);
+        let follows = !added.is_empty() && left.as_ref().is_some_and(Missed::follows);
+        let shows = follows || shows_freely(&free, found, left.as_ref(), recorded)?;
+        if shows && !follows {
+            let restarted = missed(&with_found(self.study, found, recorded())?);
+            if !restarted.is_some_and(|left| left.leaves_a_motion()) {
+                return Ok(None);
+            }
         }
         let names: Vec<String> = added.iter().map(|one| one.effect.clone()).collect();
         let mut settings = free.diagnosis.search.clone();
@@ -131,26 +138,30 @@ impl Restarted<'_> {
                     Some(_) => with_found(free, &answer, held_input::held(free, &cases)?.1)?,
                     None => with_found(free, &answer, recorded())?,
                 };
-                let is_better = is_followed(&then) && (!is_listed || !leaves_a_motion(&then));
-                Ok((answer, held, is_better, leaves_white_noise(&then)))
+                let left = missed(&then);
+                let says = |what: fn(&Missed) -> bool| left.as_ref().is_some_and(what);
+                let is_better =
+                    says(Missed::follows) && (!is_listed || !says(Missed::leaves_a_motion));
+                Ok((answer, held, is_better, says(Missed::leaves_white_noise)))
             })?;
         let free = held.unwrap_or(free);
         // Ended on the way, it is not known whether what restarts found is all: the answer says that it was ended.
         let is_taken = is_better || !shows || answer.diagnosis.interrupted;
         Ok(is_taken.then_some(Found {
             answer,
-            held: None,
-            free: Some(free),
+            study: Some(free),
+            runs_freely: true,
             is_all,
         }))
     }
 }
 
-/// Whether what was `found` with a state of its own lets a free run follow better: where the motion is taken up again and again, such a state goes
-/// on, is driven by what was measured, and foretells what moves the rig that nobody recorded.
+/// Whether what was `found` with a state of its own, with which a free run leaves this, lets it follow better: where the motion is taken up again
+/// and again, such a state goes on, is driven by what was measured, and foretells what moves the rig that nobody recorded.
 fn shows_freely<'a>(
     free: &Study,
     found: &Answer,
+    left: Option<&Missed>,
     recorded: Recorded<'a, '_>,
 ) -> Result<bool, StudyError> {
     let mut stateful = Vec::new();
@@ -160,14 +171,12 @@ fn shows_freely<'a>(
         }
     }
     let is_without = |model: &&RungModel| !model.effects.iter().any(|one| stateful.contains(&one));
-    let (Some(last), Some(without)) = (
-        found.models.last(),
-        found.models.iter().rev().find(is_without),
-    ) else {
+    let without = found.models.iter().rev().find(is_without);
+    let Some(without) = without.filter(|_| !stateful.is_empty()) else {
         return Ok(true);
     };
-    let run = |model: &RungModel| with_settled(&with_model(free, model, true), recorded());
-    Ok(stateful.is_empty() || follows_better(&run(last)?, &run(without)?))
+    let other = missed(&with_rung(free, without, recorded())?);
+    Ok((left.zip(other)).is_none_or(|(left, other)| left.follows_better_than(&other)))
 }
 
 fn has_a_state(study: &Study, name: &str) -> Result<bool, StudyError> {
@@ -181,4 +190,13 @@ fn with_found<'a>(
     cases: Vec<FitTask<'a>>,
 ) -> Result<Vec<FitTask<'a>>, StudyError> {
     with_settled(&with_last_model(study, answer), cases)
+}
+
+/// `cases` with the model of a rung.
+fn with_rung<'a>(
+    study: &Study,
+    rung: &RungModel,
+    cases: Vec<FitTask<'a>>,
+) -> Result<Vec<FitTask<'a>>, StudyError> {
+    with_settled(&with_model(study, rung, true), cases)
 }

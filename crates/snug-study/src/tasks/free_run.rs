@@ -3,6 +3,7 @@
 use crate::study::Study;
 use crate::tasks::held_input;
 use crate::tasks::initial_state::{longest_s, swings};
+use snug_campaign::words::explained::is_white;
 use snug_campaign::words::reason::WhyRestarted;
 use snug_campaign::{Estimate, Quantity};
 use snug_diagnose::{ROUNDING, is_followed_with_an_effect};
@@ -18,9 +19,6 @@ const BEYOND_NOISE: f64 = 2.0;
 /// Share of what a free run leaves up to which another leaves plainly less \[–\]. Chosen: of a tower that wind moves, a second mode that
 /// restarts found leaves all of it.
 const PLAINLY_LESS: f64 = 0.9;
-/// Correlation of neighbours of what is left up to which it is white noise \[–\]. Chosen: a seat with an end stop and dry friction, both found,
-/// leaves 0.00 with them, a joint that lacks four things 0.70 with two that stand in for them.
-const WHITE: f64 = 0.1;
 /// Damping or stiffness over its standard error from which on it brings the motion back \[–\]: a path that nothing brings back seems to
 /// be brought back by more than the 1.96 of other numbers. Dickey and Fuller (1979), at 5 % and with a mean estimated.
 const BROUGHT_BACK: f64 = 2.86;
@@ -50,33 +48,12 @@ pub(super) fn restarts(
     }
     let share = missed.share();
     Some(Restarts {
-        why: match is_unheld && share <= POOR {
+        why: match is_unheld && missed.follows() {
             true => WhyRestarted::Unheld(cases[0].quantity()),
             false => WhyRestarted::Misses(share),
         },
         comes_back: !is_unheld,
     })
-}
-
-/// Whether a free run of the model of `cases` misses the measured motion by little.
-pub(crate) fn is_followed(cases: &[FitTask<'_>]) -> bool {
-    missed(cases).is_some_and(|missed| missed.share() <= POOR)
-}
-
-/// Whether a free run of the model of `cases` leaves plainly less of the motion than one of that of `others`.
-pub(crate) fn follows_better(cases: &[FitTask<'_>], others: &[FitTask<'_>]) -> bool {
-    let left = |cases| missed(cases).map(|missed| missed.left);
-    (left(cases).zip(left(others))).is_none_or(|(one, other)| one < PLAINLY_LESS * other)
-}
-
-/// Whether what a free run of the model of `cases` leaves is white noise.
-pub(crate) fn leaves_white_noise(cases: &[FitTask<'_>]) -> bool {
-    missed(cases).is_some_and(|missed| missed.left <= WHITE * (missed.left + missed.noise))
-}
-
-/// Whether the model of `cases`, run as they are, leaves more than noise.
-pub(crate) fn leaves_a_motion(cases: &[FitTask<'_>]) -> bool {
-    missed(cases).is_some_and(|missed| missed.left > missed.most_of_noise())
 }
 
 /// Whether what is fitted is a motion that nothing brings back while the longest recording lasts, an angle for want of a spring, a speed of
@@ -110,8 +87,8 @@ fn is_followed_when_held(study: &Study, cases: &[FitTask<'_>]) -> bool {
         && held_input::held(study, cases).is_ok_and(|(_, held)| follows(&held))
 }
 
-/// What a free run leaves of the measured motion, both Σ over what is scored.
-struct Missed {
+/// What a run of the model of some recordings leaves of the measured motion, both Σ over what is scored.
+pub(crate) struct Missed {
     /// What is left at a sample times what is left at the next: noise is as often with as against its neighbour.
     left: f64,
     about_mean: f64,
@@ -127,6 +104,27 @@ impl Missed {
     /// is half noise is not followed better for being restarted from its noise.
     fn share(&self) -> f64 {
         (self.left.max(0.0) / self.about_mean).sqrt()
+    }
+
+    /// Whether it misses the measured motion by little.
+    pub fn follows(&self) -> bool {
+        self.share() <= POOR
+    }
+
+    /// Whether it leaves plainly less of the motion than another.
+    pub fn follows_better_than(&self, other: &Self) -> bool {
+        self.left < PLAINLY_LESS * other.left
+    }
+
+    /// Whether it leaves more than noise.
+    pub fn leaves_a_motion(&self) -> bool {
+        self.left > self.most_of_noise()
+    }
+
+    /// Whether what it leaves is white noise, or rounding.
+    pub fn leaves_white_noise(&self) -> bool {
+        let all = self.left + self.noise;
+        all <= ROUNDING * self.about_mean || is_white(self.left / all)
     }
 
     /// What noise, or rounding, may leave.
@@ -146,9 +144,9 @@ impl Missed {
     }
 }
 
-/// What a free run of the study's own model leaves; `None` where restarts make no sense: an acceleration does not drift, and what is
+/// What the model of `cases`, run as they are, leaves; `None` where restarts make no sense: an acceleration does not drift, and what is
 /// integrated from one has no measured motion to start from.
-fn missed(cases: &[FitTask<'_>]) -> Option<Missed> {
+pub(crate) fn missed(cases: &[FitTask<'_>]) -> Option<Missed> {
     let (mut left, mut about_mean, mut noise) = (0.0, 0.0, 0.0);
     let [mut damped, mut sprung] = [0, 0];
     for case in cases {
