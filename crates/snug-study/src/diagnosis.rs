@@ -1,7 +1,10 @@
 //! A study diagnosed: tightenings to the diagnosis, its models back into the study, every rung of the ladder evaluated.
 
 mod restarted;
+mod rung_study;
 mod search;
+mod shorter_steps;
+mod verb;
 
 use crate::error::StudyError;
 use crate::evaluation::rungs::Ladder;
@@ -14,35 +17,15 @@ use crate::tasks::cases::{chosen, with_settled};
 use crate::tasks::comparable::Comparable;
 use crate::tasks::settling::{Settled, settle};
 use restarted::{Found, Restarted};
+pub(crate) use rung_study::effects;
+use rung_study::with_rung;
 use search::Search;
-use snug_campaign::{GroupSize, GroupSizes};
-use snug_diagnose::{Answer, Begun, DiagnoseError, Goal, Question, RungModel};
+use shorter_steps::in_short_enough_steps;
+use snug_diagnose::{Answer, DiagnoseError, Goal, Question, RungModel};
 use snug_identify::FitTask;
-use snug_model::{Effect, GroupValue, ParameterSettings, Scale, ValuesByGroup};
+use snug_model::Scale;
 use std::sync::atomic::{AtomicBool, Ordering};
-
-/// A verb of the diagnosis.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Verb {
-    /// Model against measurement, and where it fails.
-    Compare,
-    /// The same, and which effect is missing; the study stays as it is.
-    Diagnose,
-    /// These effects are added to the study's model.
-    Add(Vec<String>),
-    /// Effects are added as long as the data justify it, or until it is interrupted.
-    Improve,
-}
-
-impl Verb {
-    /// The effects it names.
-    pub fn effects(&self) -> &[String] {
-        match self {
-            Self::Add(effects) => effects,
-            _ => &[],
-        }
-    }
-}
+pub use verb::Verb;
 
 /// The study as it is, whose findings name the reason; an error where it has tightenings all the same.
 fn nothing_to_compare(
@@ -132,24 +115,6 @@ pub(crate) fn climbed(
     Ok(climbed)
 }
 
-/// What is found with a study, simulated in shorter steps as long as it asks for them, and the study with those.
-fn in_short_enough_steps<T>(
-    mut study: Study,
-    progress: &(dyn Fn(ProgressEvent<'_>) + Sync),
-    find: impl Fn(&Study) -> Result<T, StudyError>,
-) -> Result<(Study, T), StudyError> {
-    loop {
-        match find(&study) {
-            Err(StudyError::Diagnose(DiagnoseError::Unresolved { steps })) => {
-                let what = format!("simulating in {steps} steps from sample to sample");
-                progress(ProgressEvent::Stage { what: &what });
-                study.model.steps_per_sample = Some(steps);
-            }
-            found => return found.map(|found| (study, found)),
-        }
-    }
-}
-
 /// The same, simulated as the study says; asking for shorter steps where it may.
 fn climbed_in_steps(
     study: &Study,
@@ -217,114 +182,15 @@ fn goal(study: &Study, verb: &Verb, cases: &[FitTask<'_>]) -> Result<Goal, Study
     })
 }
 
-/// The named effects, the study's own among them, as they act on its rig.
-pub(crate) fn effects(
-    study: &Study,
-    names: &[String],
-    cases: &[FitTask<'_>],
-) -> Result<Vec<Effect>, StudyError> {
-    let Some(first) = cases.first() else {
-        return Ok(Vec::new());
-    };
-    let scale = study.model.scale;
-    let named = names.iter().map(|name| {
-        let effect = study.model.effect(name)?;
-        scale.effect(effect, &first.tightening.rig)
-    });
-    Ok(named.collect::<Result<_, _>>()?)
-}
-
 /// The study with the model of the last rung, and the ladder up to there.
 fn climb(study: &Study, answer: Answer) -> (Study, Ladder) {
-    let changes = answer.models.len() > 1;
-    let mut before: Vec<Study> = (answer.models.iter())
-        .map(|model| with_model(study, model, changes))
-        .collect();
+    let has_changed = answer.models.len() > 1;
+    let of_rung = |rung: &RungModel| match has_changed {
+        true => with_rung(study, rung),
+        false => study.clone(),
+    };
+    let mut before: Vec<Study> = answer.models.iter().map(of_rung).collect();
     let last = before.pop().unwrap_or_else(|| study.clone());
     let diagnosis = answer.diagnosis;
     (last, Ladder { diagnosis, before })
-}
-
-/// The sizes of groups as a study says them.
-fn values_by_group(sizes: &GroupSizes) -> ValuesByGroup {
-    let value = |one: &GroupSize| GroupValue {
-        value: one.value,
-        standard_error: one.standard_error,
-    };
-    let values = sizes
-        .groups
-        .iter()
-        .map(|one| (one.group.clone(), value(one)));
-    ValuesByGroup {
-        factor: sizes.factor.clone(),
-        values: values.collect(),
-    }
-}
-
-/// The study with the model of the last rung.
-fn with_last_model(study: &Study, answer: &Answer) -> Study {
-    let last = answer.models.last();
-    last.map_or_else(|| study.clone(), |model| with_model(study, model, true))
-}
-
-/// These effects one after the other as the rungs of `answer` have them; where none has just these, as its last has them.
-fn begun(effects: Vec<Effect>, answer: &Answer) -> Vec<Begun> {
-    let names: Vec<&str> = effects.iter().map(Effect::name).collect();
-    let with = |first: &[&str]| {
-        let has_just = |rung: &&RungModel| {
-            rung.effects.len() == first.len()
-                && first
-                    .iter()
-                    .all(|name| rung.effects.iter().any(|one| one == name))
-        };
-        let mut rungs = answer.models.iter().rev();
-        rungs.find(has_just).or(answer.models.last())
-    };
-    (effects.iter().enumerate())
-        .map(|(place, &effect)| Begun {
-            effect,
-            values: with(&names[..=place]).map_or_else(Vec::new, RungModel::values),
-        })
-        .collect()
-}
-
-/// The study with a rung's model. What all tightenings share is held where they put it together.
-fn with_model(study: &Study, model: &RungModel, changes: bool) -> Study {
-    let mut study = study.clone();
-    if !changes {
-        return study;
-    }
-    study.model.effects.clone_from(&model.effects);
-    for declaration in &model.declarations {
-        if !study
-            .model
-            .custom
-            .iter()
-            .any(|known| known.name == declaration.name)
-        {
-            study.model.custom.push(declaration.clone());
-        }
-    }
-    for (name, value) in &model.base {
-        let told = study.model.parameters.entry(name.clone()).or_default();
-        told.value = Some(*value);
-    }
-    for parameter in &model.parameters {
-        if parameter.per_tightening {
-            continue;
-        }
-        let told: &mut ParameterSettings = study
-            .model
-            .parameters
-            .entry(parameter.name.clone())
-            .or_default();
-        if told.fixed && told.standard_error.is_none() {
-            continue;
-        }
-        told.value = Some(parameter.value);
-        told.fixed = true;
-        told.standard_error = parameter.standard_error.or(Some(0.0));
-        told.by_group = parameter.by_group.as_ref().map(values_by_group);
-    }
-    study
 }

@@ -1,6 +1,8 @@
 //! What restarts found, and what a free run over the whole of each recording finds then.
 
-use super::{Search, begun, effects, in_short_enough_steps, with_last_model, with_model};
+use super::rung_study::{begun, effects, with_last_rung, with_rung};
+use super::search::Search;
+use super::shorter_steps::in_short_enough_steps;
 use crate::error::StudyError;
 use crate::study::Study;
 use crate::tasks::cases::with_settled;
@@ -53,7 +55,7 @@ impl Restarted<'_> {
     ) -> Result<Found, StudyError> {
         let free = self.run_free();
         let follows = |rung: &RungModel| {
-            let cases = with_rung(&free, rung, recorded());
+            let cases = cases_with_rung(&free, rung, recorded());
             cases.is_ok_and(|cases| missed(&cases).is_some_and(|left| left.follows()))
         };
         let until = Until::new(&follows);
@@ -125,7 +127,7 @@ impl Restarted<'_> {
                     goal: match follows {
                         // It declares the laws that are in no catalogue.
                         true => {
-                            let last = with_last_model(free, found);
+                            let last = with_last_rung(free, found);
                             Goal::ImproveFrom(begun(effects(&last, &names, &cases)?, found))
                         }
                         false => Goal::Improve,
@@ -175,7 +177,7 @@ fn shows_freely<'a>(
     let Some(without) = without.filter(|_| !stateful.is_empty()) else {
         return Ok(true);
     };
-    let other = missed(&with_rung(free, without, recorded())?);
+    let other = missed(&cases_with_rung(free, without, recorded())?);
     Ok((left.zip(other)).is_none_or(|(left, other)| left.follows_better_than(&other)))
 }
 
@@ -189,14 +191,14 @@ fn with_found<'a>(
     answer: &Answer,
     cases: Vec<FitTask<'a>>,
 ) -> Result<Vec<FitTask<'a>>, StudyError> {
-    with_settled(&with_last_model(study, answer), cases)
+    with_settled(&with_last_rung(study, answer), cases)
 }
 
 /// `cases` with the model of a rung.
-fn with_rung<'a>(
+fn cases_with_rung<'a>(
     study: &Study,
     rung: &RungModel,
     cases: Vec<FitTask<'a>>,
 ) -> Result<Vec<FitTask<'a>>, StudyError> {
-    with_settled(&with_model(study, rung, true), cases)
+    with_settled(&with_rung(study, rung), cases)
 }

@@ -1,7 +1,7 @@
 //! A question answered as a study asks it: with a held input where that is the likelier story.
 
-use super::{begun, effects, with_last_model, with_model};
-use crate::diagnosis::Verb;
+use super::rung_study::{begun, effects, with_last_rung, with_rung};
+use super::verb::Verb;
 use crate::error::StudyError;
 use crate::progress::ProgressEvent;
 use crate::study::Study;
@@ -43,7 +43,7 @@ impl Search<'_> {
         if !is_open || straight.diagnosis.interrupted {
             return Ok((straight, None));
         }
-        let last = with_last_model(study, &straight);
+        let last = with_last_rung(study, &straight);
         let is_worth_it = held_input::is_worth_it(&straight.diagnosis, study, &last, cases)?;
         let (held_study, cases) = held_input::held(study, cases)?;
         let question = Question {
@@ -102,7 +102,7 @@ impl Search<'_> {
             return Ok(false);
         };
         for (rung, model) in rungs.take(before.len()).skip(1) {
-            let begun = with_model(held, model, true);
+            let begun = with_rung(held, model);
             let cases = question.cases.iter().map(FitTask::lent).collect();
             let cases = with_settled(&begun, cases)?;
             let compared = self.examined(&Question {
