@@ -114,8 +114,7 @@ impl Restarted<'_> {
             }
         }
         let names: Vec<String> = added.iter().map(|one| one.effect.clone()).collect();
-        let mut settings = free.diagnosis.search.clone();
-        settings.seed = search.settings.seed;
+        let settings = search.settings_of(&free);
         let with_those = Search {
             settings: &settings,
             ..*search

@@ -23,6 +23,15 @@ pub(super) struct Search<'a> {
 }
 
 impl Search<'_> {
+    /// The settings of another form of the study, as this search begins by chance and what it is for.
+    pub fn settings_of(&self, study: &Study) -> snug_diagnose::DiagnoseSettings {
+        snug_diagnose::DiagnoseSettings {
+            seed: self.settings.seed,
+            for_prediction: self.settings.for_prediction,
+            ..study.diagnosis.search.clone()
+        }
+    }
+
     /// The answer, and the study with a held input where that is the likelier story.
     pub fn answer(
         &self,
