@@ -11,6 +11,7 @@ mod loads;
 mod loops;
 mod rig;
 mod ringing;
+mod ripples;
 mod sensors;
 mod stops;
 mod unheld;
@@ -21,7 +22,6 @@ use held::pendulum;
 use rig::{Noise, Rig, moved};
 use snug_campaign::{Diagnosis, Verdict};
 use snug_study::Verb;
-use std::f64::consts::TAU;
 
 fn names(diagnosis: &Diagnosis) -> Vec<&str> {
     let added = diagnosis.added.iter();
@@ -67,47 +67,6 @@ fn a_motor_turned_both_ways_lacks_dry_friction_and_an_offset() {
         "{}",
         diagnosis.headline
     );
-}
-
-/// A carriage on a screw, eight short recordings: what takes most of the error in parts that took no part comes first, with its size,
-/// and the model without it is not called adequate.
-#[test]
-fn a_screw_s_ripple_comes_first_of_eight_recordings() {
-    let mut noise = Noise(2);
-    let recording = |noise: &mut Noise| -> Vec<[f64; 2]> {
-        let tones: Vec<[f64; 2]> = (0..12)
-            .map(|tone| {
-                [
-                    0.5 * 16.0_f64.powf(f64::from(tone) / 11.0),
-                    TAU * noise.even(),
-                ]
-            })
-            .collect();
-        let force = |t: f64| -> f64 {
-            let tones = tones.iter().map(|[hz, phase]| (TAU * hz * t + phase).sin());
-            16.0 * tones.sum::<f64>()
-        };
-        let inputs: Vec<f64> = (0..1500).map(|k| force(1e-3 * f64::from(k))).collect();
-        let rate = |[x, v]: [f64; 2], u: f64| {
-            let ripple = 10.0 * (TAU * x / 0.006 + 0.7).sin();
-            [v, (u - 20.0 * v - 400.0 * x - ripple) / 3.0]
-        };
-        let places = moved(&inputs, 10, rate).map(|[x, _]| x);
-        noise.with(&inputs, places, 1e-4)
-    };
-    let rig = Rig::that_slides((0..8).map(|_| recording(&mut noise)).collect());
-    let diagnosis = rig.told(&Verb::Diagnose);
-    let first = &diagnosis.ranking[0];
-    assert_eq!(first.effect, "torque_ripple", "{}", diagnosis.headline);
-    assert_ne!(
-        diagnosis.verdict,
-        Verdict::Adequate,
-        "{}",
-        diagnosis.headline
-    );
-    let [sine, cosine, wavelength] = [0, 1, 2].map(|index| first.parameters[index].value);
-    assert!((sine.hypot(cosine) - 10.0).abs() < 0.3, "{sine} {cosine}");
-    assert!((wavelength - 0.006).abs() < 3e-5, "{wavelength}");
 }
 
 /// A positioner that sticks and slips: what stands in for its dry friction first, a law of the root of the speed, may be nothing beside it

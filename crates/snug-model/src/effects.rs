@@ -39,6 +39,7 @@ pub mod quadratic_damping;
 pub mod quadratic_stiffness;
 pub mod second_mass;
 pub mod second_mode;
+pub mod second_ripple;
 pub mod stretch_reflex;
 pub mod stribeck_friction;
 pub mod torque_dead_zone;
@@ -75,6 +76,7 @@ macro_rules! catalogue {
                 stribeck_friction::StribeckFriction,
                 asymmetric_viscous_friction::AsymmetricViscousFriction,
                 torque_ripple::TorqueRipple,
+                second_ripple::SecondRipple,
                 second_mode::SecondMode,
                 attached_mass::AttachedMass,
                 gravity_torque::GravityTorque,
@@ -189,6 +191,13 @@ macro_rules! forward {
                     return Self::named(law.description().name)?.of_all();
                 }
                 catalogue!(ask, self, law => law.of_all())
+            }
+
+            fn beside(&self) -> Option<&'static str> {
+                if let Self::Custom(law) = self {
+                    return Self::named(law.description().name)?.beside();
+                }
+                catalogue!(ask, self, law => law.beside())
             }
         }
     };

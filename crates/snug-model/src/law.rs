@@ -268,6 +268,11 @@ macro_rules! declare_law {
             fn of_all(&self) -> Option<&'static str> {
                 None
             }
+
+            /// The effect beside which alone it can be told, if there is one.
+            fn beside(&self) -> Option<&'static str> {
+                None
+            }
         }
     };
 }

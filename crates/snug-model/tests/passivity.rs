@@ -49,11 +49,12 @@ fn moderate(spec: &ParameterSpec) -> f64 {
 }
 
 /// What is mechanical and yet may give back more than was put in since the window began, each for its reason.
-const NOT_PASSIVE: [Effect; 5] = [
+const NOT_PASSIVE: [Effect; 6] = [
     // What is measured moves otherwise than what is driven: torque times its velocity is no work.
     Effect::SecondMode,
     // The hand holds against it from before, with a force that then does work.
     Effect::TorqueRipple,
+    Effect::SecondRipple,
     // A weight may come down that was up before, on an arm or on a rope.
     Effect::GravityTorque,
     Effect::ConstantLoad,

@@ -67,8 +67,10 @@ pub(crate) fn can_stand_beside(others: &[Effect], effect: Effect, case: &FitTask
     let is_one_of = |&other: &Effect| is_of_all(other, effect) || is_of_all(effect, other);
     let is_mechanical = |other: &Effect| other.description().kind == Kind::Mechanical;
     let takes_theirs = effect.is_general() && others.iter().any(is_mechanical);
+    let first = effect.beside();
     !takes_theirs
         && !others.iter().any(is_one_of)
+        && first.is_none_or(|first| others.iter().any(|other| other.name() == first))
         && case.model_with(&[others, &[effect]].concat()).is_ok()
 }
 

@@ -82,7 +82,7 @@ impl Candidate {
         family: usize,
     ) {
         self.ends_as(fitted, cases, &current.heldout_beyond_torque_noise());
-        self.p_family = self.p_family.min(self.p_of_gain(family));
+        self.judge_by_gain(family);
     }
 
     /// Takes sizes by group in the place of one for all; it was chosen among so many.
@@ -112,6 +112,11 @@ impl Candidate {
     pub fn beyond(&self, other: &Self) -> Vec<f64> {
         let pairs = self.gains.iter().zip(&other.gains);
         pairs.map(|(own, other)| own - other).collect()
+    }
+
+    /// Judges it by its gain, too, as one of `family`.
+    pub fn judge_by_gain(&mut self, family: usize) {
+        self.p_family = self.p_family.min(self.p_of_gain(family));
     }
 
     /// Chance of so clear a gain in held-out clusters, among `family` candidates (Bonferroni): for effects that push

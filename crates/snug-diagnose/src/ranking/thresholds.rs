@@ -103,6 +103,8 @@ pub(crate) const FEW_TURNS: f64 = 5.0;
 pub(crate) const HALF_WIDTHS_OF_BALANCE: [usize; 4] = [3, 9, 27, 81];
 /// Places of all tightenings together at which that balance is drawn up. Chosen.
 pub(crate) const SAMPLES_OF_BALANCE: usize = 6000;
+/// Samples of all tightenings together of whose output a force is read off. Chosen.
+pub(crate) const SAMPLES_OF_RESPONSE: usize = 12_000;
 /// Wavelengths that are tried, at most, the longest first. Chosen.
 pub(crate) const WAVELENGTHS: usize = 2000;
 /// Steps of the wave number while one more wave fits into the way: a peak is about two of half waves wide \[–\]. Chosen.

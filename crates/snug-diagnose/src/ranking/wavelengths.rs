@@ -1,20 +1,25 @@
 //! Starts for an effect whose force comes again with a wavelength of the displacement: read off the measurement, since the
 //! cost has a minimum for every wavelength or so.
 //!
-//! The balance of torques I α + C ω + K θ + l F = T is averaged with a smooth weight φ that is 0 at both ends, so that what was
-//! not measured comes of what was by parts (∫ φ α = −∫ φ' ω = ∫ φ'' θ); no simulation is needed. What every model may explain is
-//! projected out, and for every wavelength the sizes follow by linear least squares: a periodogram of the missing force over
-//! the displacement. The force is a function of x/λ that repeats, so that one wave of it is worked out once.
+//! For every wavelength the sizes follow by linear least squares, from the [balance](balance) of torques, what the model explains
+//! projected out, and from how the output [responds](response): two periodograms of the missing force over the displacement. The force is
+//! a function of x/λ that repeats, so that one wave of it is worked out once.
+
+mod balance;
+mod response;
 
 use crate::data::cases::Cases;
+use crate::pooled::equation::values;
 use crate::pooled::fitted::Fitted;
 use crate::ranking::thresholds::{
-    FEW, FINER, HALF_WIDTHS_OF_BALANCE, PARTS_OF_A_WAVE, PEAKS, PER_WAVE, ROUNDING,
-    SAMPLES_OF_BALANCE, WAVELENGTHS,
+    FEW, FINER, HALF_WIDTHS_OF_BALANCE, PARTS_OF_A_WAVE, PEAKS, PER_WAVE, SAMPLES_OF_BALANCE,
+    SAMPLES_OF_RESPONSE, WAVELENGTHS,
 };
+use balance::{Balance, Measured};
 use rayon::prelude::*;
+use response::Response;
 use snug_campaign::Quantity;
-use snug_identify::{FitTask, Modulation, integral};
+use snug_identify::{FitTask, integral};
 use snug_least_squares::matrix::{SymmetricMatrix, inner_product as dot};
 use snug_model::{Effect, Instant, Law, PlausibleRange};
 use std::borrow::Cow;
@@ -24,18 +29,33 @@ pub(crate) fn starts(cases: Cases<'_>, current: &Fitted, effect: Effect) -> Vec<
     let Some(place) = effect.wavelength() else {
         return Vec::new();
     };
-    let some = cases.some(&current.spread(FEW));
-    let records: Vec<Record> = (some.iter())
-        .filter_map(|case| Record::of(case, SAMPLES_OF_BALANCE / some.len()))
-        .collect();
+    let few = current.spread(FEW);
+    let some = cases.some(&few);
+    let values = values(cases, current);
+    let record = |(case, &member): (&FitTask<'_>, &usize)| {
+        let mut record = Record::of(case, SAMPLES_OF_BALANCE / some.len())?;
+        let known = current.all_named(member);
+        let waves = current.effects.iter();
+        waves.for_each(|&effect| record.explain_away_wave(effect, &known));
+        let values = values.as_ref().map(|values| &values[member]);
+        let most = SAMPLES_OF_RESPONSE / some.len();
+        let response = values.and_then(|all| Response::of(case, &current.effects, all, most));
+        record.shown.push(response.map(Shown::InOutput));
+        Some(record)
+    };
+    let records: Vec<Record> = some.iter().zip(&few).filter_map(record).collect();
     let ranges = some[0].model.ranges(effect);
-    let mut best = peaks(&records, effect, place, &ranges);
-    best.sort_by(|a, b| b.share.total_cmp(&a.share));
+    let balances: Vec<usize> = (0..HALF_WIDTHS_OF_BALANCE.len()).collect();
     let mut starts: Vec<Vec<f64>> = Vec::new();
-    for peak in best {
-        let is_near = |known: &Vec<f64>| (known[place] / peak.values[place] - 1.0).abs() < 0.02;
-        if starts.len() < PEAKS && !starts.iter().any(is_near) {
-            starts.push(peak.values);
+    for ways in [balances, vec![HALF_WIDTHS_OF_BALANCE.len()]] {
+        let mut best = peaks(&records, &ways, effect, place, &ranges);
+        best.sort_by(|a, b| b.share.total_cmp(&a.share));
+        let most = starts.len() + PEAKS;
+        for peak in best {
+            let is_near = |known: &Vec<f64>| (known[place] / peak.values[place] - 1.0).abs() < 0.02;
+            if starts.len() < most && !starts.iter().any(is_near) {
+                starts.push(peak.values);
+            }
         }
     }
     starts
@@ -43,14 +63,20 @@ pub(crate) fn starts(cases: Cases<'_>, current: &Fitted, effect: Effect) -> Vec<
 
 /// A wavelength that explains more than its neighbours.
 struct Peak {
-    /// Share of what was left of the squared torque that it removes.
+    /// Share of the squares of what was left that it removes.
     share: f64,
     /// Parameters of the effect.
     values: Vec<f64>,
 }
 
-/// The highest peaks of what wavelengths explain of the balances of each width, width by width.
-fn peaks(records: &[Record], effect: Effect, place: usize, ranges: &[PlausibleRange]) -> Vec<Peak> {
+/// The highest peaks of what wavelengths explain, one of the ways in which they show after the other.
+fn peaks(
+    records: &[Record],
+    ways: &[usize],
+    effect: Effect,
+    place: usize,
+    ranges: &[PlausibleRange],
+) -> Vec<Peak> {
     let reach = records.iter().map(Record::reach).fold(0.0, f64::max);
     let (shortest, longest) = (ranges[place].minimum, ranges[place].maximum);
     let step = 1.0 / (PER_WAVE * reach);
@@ -60,18 +86,16 @@ fn peaks(records: &[Record], effect: Effect, place: usize, ranges: &[PlausibleRa
     }
     let waves = Wave::of(effect, place, records[0].lever_arm_m);
     let explained =
-        |widths: &[usize], wave_number: f64| explain(records, widths, &waves, place, wave_number);
+        |ways: &[usize], wave_number: f64| explain(records, ways, &waves, place, wave_number);
     let at = |index: f64| 1.0 / longest + step * index;
-    let has_balance = |width: &usize| records.iter().any(|one| one.balances[*width].is_some());
-    let widths: Vec<usize> = (0..HALF_WIDTHS_OF_BALANCE.len())
-        .filter(has_balance)
-        .collect();
+    let is_shown = |way: &&usize| records.iter().any(|one| one.shown[**way].is_some());
+    let ways: Vec<usize> = ways.iter().filter(is_shown).copied().collect();
     let grid: Vec<Vec<Peak>> = (0..(count as usize).min(WAVELENGTHS))
         .into_par_iter()
-        .map(|index| explained(&widths, at(index as f64)))
+        .map(|index| explained(&ways, at(index as f64)))
         .collect();
     let mut found = Vec::new();
-    for (number, &width) in widths.iter().enumerate() {
+    for (number, &way) in ways.iter().enumerate() {
         let share = |index: usize| grid[index][number].share;
         let is_highest = |&index: &usize| {
             let beside = [index.wrapping_sub(1), index + 1];
@@ -83,7 +107,7 @@ fn peaks(records: &[Record], effect: Effect, place: usize, ranges: &[PlausibleRa
         found.extend(highest.into_iter().take(PEAKS).filter_map(|index| {
             let offsets = (0..=2 * FINER).map(|part| part as f64 / FINER as f64 - 1.0);
             let near = offsets.map(|offset| at((index as f64 + offset).max(0.0)));
-            near.flat_map(|wave_number| explained(&[width], wave_number))
+            near.flat_map(|wave_number| explained(&[way], wave_number))
                 .max_by(|a, b| a.share.total_cmp(&b.share))
         }));
     }
@@ -156,26 +180,26 @@ impl InWave {
     }
 }
 
-/// What an effect of these waves explains with so many waves per metre, its sizes those that explain most, of the balances of each width.
+/// What an effect of these waves explains with so many waves per metre, its sizes those that explain most, in each of the ways.
 fn explain(
     records: &[Record],
-    widths: &[usize],
+    ways: &[usize],
     waves: &[Wave],
     place: usize,
     wave_number: f64,
 ) -> Vec<Peak> {
-    let mut normals: Vec<Normal> = widths.iter().map(|_| Normal::new(waves.len())).collect();
+    let mut normals: Vec<Normal> = ways.iter().map(|_| Normal::new(waves.len())).collect();
     for record in records {
-        // The force at every sample is the same for every width.
+        // The force at every sample is the same in each.
         let places: Vec<InWave> = (record.x_m.iter())
             .map(|x_m| InWave::after(x_m * wave_number))
             .collect();
         let forces: Vec<Vec<f64>> = (waves.iter())
             .map(|wave| places.iter().map(|place| wave.at(place)).collect())
             .collect();
-        for (normal, &width) in normals.iter_mut().zip(widths) {
-            if let Some(balance) = &record.balances[width] {
-                normal.add(balance, &forces, record.lever_arm_m);
+        for (normal, &way) in normals.iter_mut().zip(ways) {
+            if let Some(shown) = &record.shown[way] {
+                normal.add(shown, &forces, record.lever_arm_m);
             }
         }
     }
@@ -191,7 +215,7 @@ fn explain(
 struct Normal {
     squares: Vec<Vec<f64>>,
     scores: Vec<f64>,
-    /// What there is to explain \[(Nm)²\].
+    /// What there is to explain.
     whole: f64,
 }
 
@@ -204,18 +228,19 @@ impl Normal {
         }
     }
 
-    /// Adds a balance, in which size number i makes force number i.
-    fn add(&mut self, balance: &Balance, forces: &[Vec<f64>], lever_arm_m: f64) {
+    /// Adds what is shown, where size number i makes force number i.
+    fn add(&mut self, shown: &Shown, forces: &[Vec<f64>], lever_arm_m: f64) {
         let columns: Vec<Vec<f64>> = (forces.iter())
-            .map(|force| balance.of_force(force, lever_arm_m))
+            .map(|force| shown.of_force(force, lever_arm_m))
             .collect();
+        let left = shown.left();
         for (i, column) in columns.iter().enumerate() {
-            self.scores[i] += dot(column, &balance.left_nm);
+            self.scores[i] += dot(column, left);
             for (j, other) in columns.iter().enumerate() {
                 self.squares[i][j] += dot(column, other);
             }
         }
-        self.whole += dot(&balance.left_nm, &balance.left_nm);
+        self.whole += dot(left, left);
     }
 
     /// The sizes that explain most, put into `values`.
@@ -235,13 +260,37 @@ impl Normal {
     }
 }
 
-/// What was measured of one tightening, and its balances of torques.
+/// How a force shows in one tightening.
+enum Shown {
+    InTorques(Balance),
+    InOutput(Response),
+}
+
+impl Shown {
+    /// What there is to explain.
+    fn left(&self) -> &[f64] {
+        match self {
+            Self::InTorques(balance) => &balance.left_nm,
+            Self::InOutput(response) => &response.left,
+        }
+    }
+
+    /// What a force \[N\] at every sample makes there.
+    fn of_force(&self, force_n: &[f64], lever_arm_m: f64) -> Vec<f64> {
+        match self {
+            Self::InTorques(balance) => balance.of_force(force_n, lever_arm_m),
+            Self::InOutput(response) => response.of_force(force_n, lever_arm_m),
+        }
+    }
+}
+
+/// What was measured of one tightening, and how a force shows in it.
 struct Record {
     lever_arm_m: f64,
     /// Displacement of the grip at every sample \[m\].
     x_m: Vec<f64>,
-    /// One for each of [`HALF_WIDTHS_OF_BALANCE`] that the record is long enough for.
-    balances: Vec<Option<Balance>>,
+    /// In the balance over each of [`HALF_WIDTHS_OF_BALANCE`], and in the output; as far as the record is long enough.
+    shown: Vec<Option<Shown>>,
 }
 
 impl Record {
@@ -263,9 +312,8 @@ impl Record {
             first: case.unscored(),
             interval_s,
         };
-        let balances = HALF_WIDTHS_OF_BALANCE
-            .iter()
-            .map(|&half_width| Balance::of(&measured, half_width, most))
+        let balances = (HALF_WIDTHS_OF_BALANCE.iter())
+            .map(|&half_width| Balance::of(&measured, half_width, most).map(Shown::InTorques))
             .collect();
         let lever_arm_m = case.model.rig().lever_arm_m;
         Some(Self {
@@ -274,8 +322,36 @@ impl Record {
                 .iter()
                 .map(|angle| lever_arm_m * angle)
                 .collect(),
-            balances,
+            shown: balances,
         })
+    }
+
+    /// Takes up what `effect`, that is in the model with these `known` parameters, explains, where it comes again with a wavelength.
+    fn explain_away_wave(&mut self, effect: Effect, known: &[(String, f64)]) {
+        let parameters = effect.description().parameters;
+        let wavelength = effect.wavelength().and_then(|place| {
+            let name = format!("{}.{}", effect.name(), parameters[place].name);
+            let (_, wavelength_m) = known.iter().find(|(known, _)| *known == name)?;
+            Some((place, *wavelength_m))
+        });
+        let Some((place, wavelength_m)) = wavelength else {
+            return;
+        };
+        let forces: Vec<Vec<f64>> = (Wave::of(effect, place, self.lever_arm_m).iter())
+            .map(|wave| {
+                let at = |x_m: &f64| wave.at(&InWave::after(x_m / wavelength_m));
+                self.x_m.iter().map(at).collect()
+            })
+            .collect();
+        for shown in self.shown.iter_mut().flatten() {
+            let Shown::InTorques(balance) = shown else {
+                continue;
+            };
+            let columns = forces.iter();
+            let columns = columns.map(|force| balance.of_force(force, self.lever_arm_m));
+            let columns: Vec<Vec<f64>> = columns.collect();
+            balance.explain_away(columns);
+        }
     }
 
     /// How far the grip moves \[m\].
@@ -288,178 +364,66 @@ impl Record {
     }
 }
 
-/// The signals of one tightening, in SI units.
-struct Measured<'a> {
-    torque_nm: &'a [f64],
-    angle: &'a [f64],
-    velocity: Option<&'a [f64]>,
-    acceleration: Option<&'a [f64]>,
-    /// First sample that is scored.
-    first: usize,
-    interval_s: f64,
-}
-
-impl Measured<'_> {
-    /// Behind the last sample of which torque and angle are known.
-    fn end(&self) -> usize {
-        self.angle.len().min(self.torque_nm.len())
-    }
-}
-
-/// The balance of torques of one tightening, averaged here and there.
-struct Balance {
-    weights: Modulation,
-    /// First sample of every place.
-    places: Vec<usize>,
-    /// Orthonormal: what every model may explain.
-    explained: Vec<Vec<f64>>,
-    /// What is left of the torque \[Nm\].
-    left_nm: Vec<f64>,
-}
-
-impl Balance {
-    /// At no more than `most` places.
-    fn of(measured: &Measured<'_>, half_width: usize, most: usize) -> Option<Self> {
-        let weights = Modulation::new(half_width, measured.interval_s);
-        let &Measured {
-            torque_nm,
-            angle,
-            velocity,
-            acceleration,
-            ..
-        } = measured;
-        let length = weights.of_value.len();
-        let hop = (2 * half_width / 3).max(1);
-        let is_known = |place: &usize| {
-            let of = |signal: &[f64]| {
-                signal[*place..*place + length]
-                    .iter()
-                    .all(|v| v.is_finite())
-            };
-            of(angle) && velocity.is_none_or(of) && acceleration.is_none_or(of)
-        };
-        let places: Vec<usize> = (measured.first..(measured.end() + 1).saturating_sub(length))
-            .step_by(hop)
-            .filter(is_known)
-            .take(most)
-            .collect();
-        let mean = |signal: &[f64], weight: &[f64]| -> Vec<f64> {
-            let at = |&place: &usize| dot(&signal[place..place + length], weight);
-            places.iter().map(at).collect()
-        };
-        let of_velocity = match velocity {
-            Some(velocity) => mean(velocity, &weights.of_value),
-            None => mean(angle, &weights.of_slope),
-        };
-        let of_acceleration = match (acceleration, velocity) {
-            (Some(acceleration), _) => mean(acceleration, &weights.of_value),
-            (None, Some(velocity)) => mean(velocity, &weights.of_slope),
-            (None, None) => mean(angle, &weights.of_curvature),
-        };
-        let of_angle = mean(angle, &weights.of_value);
-        let mut left_nm = mean(torque_nm, &weights.of_value);
-        let smooth = smooth([of_angle, of_velocity, of_acceleration]);
-        let mut balance = Self {
-            weights,
-            places,
-            explained: Vec::new(),
-            left_nm: Vec::new(),
-        };
-        balance.explain_away(smooth);
-        balance.project(&mut left_nm);
-        balance.left_nm = left_nm;
-        (!balance.places.is_empty()).then_some(balance)
-    }
-
-    /// Takes up what every model may explain: these columns, as far as they are new.
-    fn explain_away(&mut self, columns: [Vec<f64>; 8]) {
-        for mut column in columns {
-            let length = dot(&column, &column);
-            self.project(&mut column);
-            let rest = dot(&column, &column);
-            if rest > ROUNDING * length {
-                column.iter_mut().for_each(|value| *value /= rest.sqrt());
-                self.explained.push(column);
-            }
-        }
-    }
-
-    /// The torque \[Nm\] of a force, averaged, without what every model may explain.
-    fn of_force(&self, force_n: &[f64], lever_arm_m: f64) -> Vec<f64> {
-        let weight = &self.weights.of_value;
-        let mean =
-            |&place: &usize| lever_arm_m * dot(&force_n[place..place + weight.len()], weight);
-        let mut column: Vec<f64> = self.places.iter().map(mean).collect();
-        self.project(&mut column);
-        column
-    }
-
-    fn project(&self, column: &mut [f64]) {
-        for known in &self.explained {
-            let share = dot(known, column);
-            for (value, known) in column.iter_mut().zip(known) {
-                *value -= share * known;
-            }
-        }
-    }
-}
-
-/// What every model may explain of a motion with these angles, velocities and accelerations: the base model's terms, and what
-/// friction and springs of a simple shape add.
-fn smooth([angle, velocity, acceleration]: [Vec<f64>; 3]) -> [Vec<f64>; 8] {
-    let of_each = |f: &dyn Fn(f64) -> f64, values: &[f64]| -> Vec<f64> {
-        values.iter().map(|&value| f(value)).collect()
-    };
-    [
-        of_each(&|_| 1.0, &angle),
-        of_each(&f64::signum, &velocity),
-        of_each(&f64::abs, &velocity),
-        of_each(&|a| a * a, &angle),
-        of_each(&|a| a * a * a, &angle),
-        acceleration,
-        velocity,
-        angle,
-    ]
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::data::cases::Tally;
     use crate::tests::made_up::{SAMPLES, close, exact, hand, noisy};
 
-    /// The most promising start of `effect` where some tightenings hide `hidden`.
+    /// The most promising start of `effect` where some tightenings hide what is `hidden` in them, and the model has the first ripple, if its
+    /// wavelength is known.
     fn first(
         of: fn(usize, &[Effect], &[f64]) -> FitTask<'static>,
+        hidden: (&[Effect], &[f64]),
+        wavelength_m: Option<f64>,
         effect: Effect,
-        sizes: &[f64],
     ) -> Option<Vec<f64>> {
         let cases: Vec<FitTask> = (0..4)
-            .map(|number| of(number, &[Effect::TorqueRipple], sizes))
+            .map(|number| of(number, hidden.0, hidden.1))
             .collect();
-        let own = (0..4).map(|number| hand(number).to_vec()).collect();
-        let current = Fitted::made_up(&[], &[1.0; 4], SAMPLES).with_own(&["m", "c", "k"], own, 0);
+        let own = (0..4).map(|number| [&hand(number)[..], wavelength_m.as_slice()].concat());
+        let known: &[Effect] = wavelength_m.map_or(&[], |_| &[Effect::TorqueRipple]);
+        let names = ["m", "c", "k", "torque_ripple.wavelength_m"];
+        let names = &names[..3 + known.len()];
+        let current = Fitted::made_up(known, &[1.0; 4], SAMPLES).with_own(names, own.collect(), 0);
         let tally = Tally::default();
         starts(Cases::new(&cases, &tally), &current, effect)
             .into_iter()
             .next()
     }
 
+    fn is_near(found: &[f64], sizes: &[f64]) {
+        close(found[2], sizes[2], 0.02);
+        let off = (found[0] - sizes[0]).hypot(found[1] - sizes[1]);
+        let size = sizes[0].hypot(sizes[1]);
+        assert!(off < 0.3 * size, "{found:?} for {sizes:?}");
+    }
+
     #[test]
     fn a_ripple_s_wavelength_and_amplitudes_are_read_off() {
         for sizes in [[8.0, 4.0, 0.006], [-1.0, 2.0, 0.0031], [3.0, 0.0, 0.0123]] {
             for of in [exact, noisy] {
-                let found = first(of, Effect::TorqueRipple, &sizes).expect("it has a wavelength");
-                close(found[2], sizes[2], 0.02);
-                let off = (found[0] - sizes[0]).hypot(found[1] - sizes[1]);
-                let size = sizes[0].hypot(sizes[1]);
-                assert!(off < 0.3 * size, "{found:?} for {sizes:?}");
+                let hidden = ([Effect::TorqueRipple], sizes);
+                let found = first(of, (&hidden.0, &hidden.1), None, Effect::TorqueRipple);
+                is_near(&found.expect("it has a wavelength"), &sizes);
             }
         }
     }
 
     #[test]
+    fn beside_a_ripple_that_is_known_the_next_is_read_off() {
+        let (strong, weak) = ([8.0, 4.0, 0.0091], [-1.0, 1.5, 0.0035]);
+        let effects = [Effect::TorqueRipple, Effect::SecondRipple];
+        let hidden = (&effects[..], &[strong, weak].concat()[..]);
+        for of in [exact, noisy] {
+            let found = first(of, hidden, Some(strong[2]), Effect::SecondRipple);
+            is_near(&found.expect("it has a wavelength"), &weak);
+        }
+    }
+
+    #[test]
     fn other_effects_have_none() {
-        assert!(first(exact, Effect::CubicStiffness, &[8.0, 4.0, 0.006]).is_none());
+        let hidden = (&[Effect::TorqueRipple][..], &[8.0, 4.0, 0.006][..]);
+        assert!(first(exact, hidden, None, Effect::CubicStiffness).is_none());
     }
 }

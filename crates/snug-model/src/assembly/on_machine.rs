@@ -30,7 +30,7 @@ impl Scale {
             Effect::CoulombFriction => "fc_n",
             Effect::StribeckFriction => "fc_n+max(0,fs_n-fc_n)*exp(-(v/v_s_m_per_s)^2)",
             // Where its zero of x is says nothing of where it is at rest.
-            Effect::TorqueRipple => {
+            Effect::TorqueRipple | Effect::SecondRipple => {
                 let ripple = "a_sin_n*sin(2*pi*x/wavelength_m)+a_cos_n*cos(2*pi*x/wavelength_m)";
                 return self.written(effect, ripple.to_owned(), None, rig);
             }

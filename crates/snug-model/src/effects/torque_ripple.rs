@@ -24,66 +24,69 @@ state! {
     equation: "F + a_s sin(2 pi x / lambda) + a_c (cos(2 pi x / lambda) - 1)",
 }
 
+/// What people read about it.
+pub(super) const DESCRIPTION: Description = Description {
+    name: "torque_ripple",
+    kind: Kind::Mechanical,
+    acts_on: ActsOn::Anything,
+    summary: SUMMARY,
+    equation: EQUATION,
+    parameters: &[
+        ParameterSpec {
+            name: "a_sin_n",
+            meaning: "amplitude of the sine",
+            unit: "N",
+            starts: &[3.0],
+            minimum: -50.0,
+            maximum: 50.0,
+            limits: (-500.0, 500.0),
+            vanishes_at: Some(0.0),
+            scope: Scope::Shared,
+        },
+        ParameterSpec {
+            name: "a_cos_n",
+            meaning: "amplitude of the cosine",
+            unit: "N",
+            starts: &[3.0, -3.0],
+            minimum: -50.0,
+            maximum: 50.0,
+            limits: (-500.0, 500.0),
+            vanishes_at: Some(0.0),
+            scope: Scope::Shared,
+        },
+        ParameterSpec {
+            name: "wavelength_m",
+            meaning: "way after which it comes again",
+            unit: "m",
+            starts: &[0.006, 0.0025],
+            minimum: 5e-4,
+            maximum: 0.02,
+            limits: (2e-4, 0.03),
+            vanishes_at: None,
+            scope: Scope::Shared,
+        },
+    ],
+    states: &[],
+    twins: &[],
+    excited_by: "travel over several wavelengths: high targets, a soft grip, a drive that turns",
+    shows_as: "a ripple in the acceleration whose frequency goes with the speed, at the same places in every tightening",
+    check: "Turn the tool slowly by hand with the power off and feel for notches; count the teeth, slots or balls that pass in one turn.",
+    on_machine: Some(OnMachine {
+        summary: None,
+        shows_as: Some(
+            "a ripple in the acceleration whose frequency goes with the speed, at the same places in every recording",
+        ),
+        check: "Turn the rig slowly with the power off and feel for notches; count the teeth, slots or balls that pass in one turn.",
+    }),
+    valid_for: "travel of a wavelength or two at least, over less it is a curved spring; four samples per wavelength passed",
+    source: "Jahns and Soong 1996, Pulsating torque minimization techniques for permanent magnet AC motor drives – a review, IEEE Transactions on Industrial Electronics 43",
+};
+
 pub(super) struct TorqueRipple;
 
 impl Law for TorqueRipple {
     fn description(&self) -> &'static Description {
-        &Description {
-            name: "torque_ripple",
-            kind: Kind::Mechanical,
-            acts_on: ActsOn::Anything,
-            summary: SUMMARY,
-            equation: EQUATION,
-            parameters: &[
-                ParameterSpec {
-                    name: "a_sin_n",
-                    meaning: "amplitude of the sine",
-                    unit: "N",
-                    starts: &[3.0],
-                    minimum: -50.0,
-                    maximum: 50.0,
-                    limits: (-500.0, 500.0),
-                    vanishes_at: Some(0.0),
-                    scope: Scope::Shared,
-                },
-                ParameterSpec {
-                    name: "a_cos_n",
-                    meaning: "amplitude of the cosine",
-                    unit: "N",
-                    starts: &[3.0, -3.0],
-                    minimum: -50.0,
-                    maximum: 50.0,
-                    limits: (-500.0, 500.0),
-                    vanishes_at: Some(0.0),
-                    scope: Scope::Shared,
-                },
-                ParameterSpec {
-                    name: "wavelength_m",
-                    meaning: "way after which it comes again",
-                    unit: "m",
-                    starts: &[0.006, 0.0025],
-                    minimum: 5e-4,
-                    maximum: 0.02,
-                    limits: (2e-4, 0.03),
-                    vanishes_at: None,
-                    scope: Scope::Shared,
-                },
-            ],
-            states: &[],
-            twins: &[],
-            excited_by: "travel over several wavelengths: high targets, a soft grip, a drive that turns",
-            shows_as: "a ripple in the acceleration whose frequency goes with the speed, at the same places in every tightening",
-            check: "Turn the tool slowly by hand with the power off and feel for notches; count the teeth, slots or balls that pass in one turn.",
-            on_machine: Some(OnMachine {
-                summary: None,
-                shows_as: Some(
-                    "a ripple in the acceleration whose frequency goes with the speed, at the same places in every recording",
-                ),
-                check: "Turn the rig slowly with the power off and feel for notches; count the teeth, slots or balls that pass in one turn.",
-            }),
-            valid_for: "travel of a wavelength or two at least, over less it is a curved spring; four samples per wavelength passed",
-            source: "Jahns and Soong 1996, Pulsating torque minimization techniques for permanent magnet AC motor drives – a review, IEEE Transactions on Industrial Electronics 43",
-        }
+        &DESCRIPTION
     }
 
     #[inline(always)]
