@@ -1,4 +1,4 @@
-//! The tightenings of a question, the work done with them and who watches it, and how they stand side by side.
+//! The tightenings of a question, the work done with them and who watches it, and how they stand side by side; what is noise.
 
 pub(crate) mod cases;
 pub(crate) mod clusters;
@@ -9,3 +9,4 @@ pub(crate) mod power;
 pub(crate) mod simulation;
 pub(crate) mod thresholds;
 pub(crate) mod watch;
+pub(crate) mod white_noise;

@@ -19,4 +19,3 @@ pub(crate) mod tightening_fits;
 pub(crate) mod trend;
 pub(crate) mod units;
 mod unsigned;
-mod white_noise;

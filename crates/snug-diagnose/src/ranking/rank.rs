@@ -16,7 +16,7 @@ use crate::ranking::first_ranking::first_ranking;
 use crate::ranking::max_t::Family;
 use crate::ranking::paired_gain::{chance, clearness, gains, spread_of_sum};
 use crate::ranking::pairs::{Pair, promising_pairs};
-use crate::ranking::refit::{followed, possible, refit};
+use crate::ranking::refit::{followed, possible, refit, refit_beside_noise};
 use crate::ranking::score_test::{Control, Scored, Scorer};
 use crate::ranking::sensitivity::Column;
 use crate::ranking::shows::where_it_shows;
@@ -176,7 +176,8 @@ pub(crate) fn rank(
     cases.tally().signatures(cases.len() * columns.len());
     let family = Family::new(&columns, settings.sign_flips, settings.seed);
     let heldout = current.heldout_beyond_torque_noise();
-    let promises = match clusters.are_whole() {
+    let leaves_noise = !clusters.are_whole() && current.leaves_white_noise(cases);
+    let promises = match clusters.are_whole() || leaves_noise {
         true => Vec::new(),
         false => first_ranking(cases, current, candidates),
     };
@@ -185,9 +186,12 @@ pub(crate) fn rank(
         .map(|&effect| {
             watch.go_on()?;
             let promise = promises.iter().find(|promise| promise.effect == effect);
-            let fitted = refit(
-                cases, current, effect, &columns, promise, clusters, settings,
-            );
+            let fitted = match leaves_noise {
+                true => refit_beside_noise(cases, current, effect, &columns, clusters),
+                false => refit(
+                    cases, current, effect, &columns, promise, clusters, settings,
+                ),
+            };
             watch.pieces(Pieces::Done);
             Ok(possible(fitted)?.map(|fitted| {
                 let p_family = family.p(&columns, effect);
@@ -200,14 +204,8 @@ pub(crate) fn rank(
     let impossible = outcomes.filter(|(_, outcome)| outcome.is_none());
     let impossible = impossible.map(|(&effect, _)| effect).collect();
     let mut candidates: Vec<Candidate> = refitted.into_iter().flatten().collect();
-    follow_best(
-        cases,
-        &heldout,
-        current.is_at_floor(),
-        &mut candidates,
-        clusters,
-        watch,
-    )?;
+    let is_noise = leaves_noise || (clusters.are_whole() && current.is_at_floor());
+    follow_best(cases, &heldout, is_noise, &mut candidates, clusters, watch)?;
     try_by_group(cases, &heldout, &mut candidates, clusters, settings, watch)?;
     look_where_it_shows(cases, current, &mut candidates, clusters, settings, watch)?;
     Ok(Ranking {
@@ -270,17 +268,16 @@ fn is_told(
 fn follow_best(
     cases: Cases<'_>,
     heldout: &[f64],
-    is_at_floor: bool,
+    is_noise: bool,
     candidates: &mut [Candidate],
     clusters: Clusters,
     watch: &Watch<'_>,
 ) -> Result<(), DiagnoseError> {
     sort(candidates);
     let followed = match clusters.are_whole() {
-        true if !is_at_floor => BEST,
+        _ if is_noise => 0,
         false if long_record::take_long(&cases) => BEST_OF_LONG,
-        false => BEST,
-        true => 0,
+        _ => BEST,
     };
     let best = candidates.par_iter_mut().take(followed);
     best.try_for_each(|candidate| {

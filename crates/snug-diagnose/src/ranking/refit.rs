@@ -73,6 +73,36 @@ pub(crate) fn refit(
     Ok(Fitted::new(&pooled, end, &clusters))
 }
 
+/// The same beside a model that leaves white noise of a few long records: nothing is led astray there, and a few steps from the usual starts
+/// tell all that could be gained.
+pub(crate) fn refit_beside_noise(
+    cases: Cases<'_>,
+    current: &Fitted,
+    effect: Effect,
+    columns: &[Column],
+    clusters: Clusters,
+) -> Result<Fitted, DiagnoseError> {
+    let effects = [&current.effects[..], &[effect]].concat();
+    let mut pooled = PooledModel::shared_by(cases, &effects, &current.sharing)?;
+    let mut read_off = wavelengths::starts(cases, current, effect);
+    read_off.extend(resonances::starts(cases, current, effect));
+    let usual = promising(effect, columns, 1);
+    let begun = |values: &[f64]| {
+        let start = pooled.with_effect(current.start(&pooled), effect, values);
+        simulable(&pooled, start)
+    };
+    let nothing = nothing_of(&pooled, effect, usual.first().copied());
+    let nothing: Vec<Start> = nothing.iter().map(|values| begun(values)).collect();
+    let starts = read_off.iter().map(Vec::as_slice).chain(usual).map(begun);
+    let mut starts: Vec<Start> = starts.collect();
+    if starts.is_empty() {
+        starts.push(current.start(&pooled));
+    }
+    let end = long_record::lowest_nearby(&mut pooled, &starts);
+    let end = no_worse(&mut pooled, current, &nothing, end)?;
+    Ok(Fitted::new(&pooled, end, &clusters))
+}
+
 /// Where the starts lead to, all of the effect's parameters free; `current` may have been led astray.
 fn led_by(
     pooled: &mut PooledModel<'_>,

@@ -2,6 +2,7 @@
 
 use crate::data::neighbours::correlation;
 use crate::data::power::power;
+use crate::data::white_noise::is_white_noise;
 use crate::locate::Seen;
 use crate::pooled::equation::PlainEquation;
 use crate::pooled::fitted::Fitted;
@@ -14,7 +15,6 @@ use crate::verdict::thresholds::{
     FAR_BETTER, FEW_SAMPLES, LEAST_EXPLAINED, MOST_IN_FEW, MOSTLY_EXPLAINED, SHORTFALL,
 };
 use crate::verdict::unsigned::lost_their_sign;
-use crate::verdict::white_noise::is_white_noise;
 use snug_campaign::Quantity;
 use snug_campaign::words::explained::{Explained, is_white};
 use snug_campaign::words::suspicion::Suspicion;

@@ -2,6 +2,7 @@
 
 use crate::data::cases::Cases;
 use crate::data::neighbours::correlation;
+use crate::data::white_noise::is_white_noise;
 use crate::pooled::equation::values;
 use crate::pooled::fitted::Fitted;
 use snug_campaign::words::explained::is_a_motion;
@@ -12,6 +13,12 @@ impl Fitted {
     pub fn leaves_a_motion(&self, cases: Cases<'_>) -> bool {
         let left = self.left(cases);
         left.is_some_and(|left| is_a_motion(correlation(&left)))
+    }
+
+    /// Whether that is white noise, however long it is looked at.
+    pub fn leaves_white_noise(&self, cases: Cases<'_>) -> bool {
+        let left = self.left(cases);
+        left.is_some_and(|left| is_white_noise(&left))
     }
 
     /// Measured less simulated of each of `cases`, scored samples only, in the output's unit; `None` where it cannot be simulated.

@@ -247,3 +247,28 @@ fn a_term_in_no_catalogue_is_followed_from_its_best_start_only() {
     assert_eq!(tally.done().pooled_fits, before + 1);
     close(fitted.shared[0], 3000.0, 0.01);
 }
+
+/// Of two records of noise a few steps from the usual start take as much as all, to a hundredth of what chance does, with fewer steps.
+#[test]
+fn beside_noise_a_few_steps_tell_what_the_end_does() {
+    let cases: Vec<FitTask> = (0..2).map(|number| noisy(number, &[], &[])).collect();
+    let tally = Tally::default();
+    let counted = Cases::new(&cases, &tally);
+    let clusters = Clusters { per_case: 8 };
+    let current = fit_effects(counted, &[], None, clusters).expect("the base model can be fitted");
+    assert!(current.leaves_white_noise(counted));
+    let settings = DiagnoseSettings::default();
+    let steps = || tally.done().steps;
+    for effect in [CubicStiffness, TorqueOffset, AccelerationBias] {
+        let before = steps();
+        let end = refit(counted, &current, effect, &[], None, clusters, &settings);
+        let between = steps();
+        let nearby = refit_beside_noise(counted, &current, effect, &[], clusters);
+        let [end, nearby] = [end, nearby].map(|fitted| fitted.expect("fitted").squares());
+        let by_chance = current.squares() / current.count() as f64;
+        assert!(nearby <= current.squares(), "{}", effect.name());
+        let missed = (nearby - end) / by_chance;
+        assert!(missed < 0.01, "{}: {missed}", effect.name());
+        assert!(steps() - between <= between - before);
+    }
+}
