@@ -11,6 +11,7 @@ mod response;
 use crate::data::cases::Cases;
 use crate::pooled::equation::values;
 use crate::pooled::fitted::Fitted;
+use crate::pooled::parameter_place::first_parameter;
 use crate::ranking::thresholds::{
     FEW, FINER, HALF_WIDTHS_OF_BALANCE, PARTS_OF_A_WAVE, PEAKS, PER_WAVE, SAMPLES_OF_BALANCE,
     SAMPLES_OF_RESPONSE, WAVELENGTHS,
@@ -34,24 +35,24 @@ pub(crate) fn starts(cases: Cases<'_>, current: &Fitted, effect: Effect) -> Vec<
     let values = values(cases, current);
     let record = |(case, &member): (&FitTask<'_>, &usize)| {
         let mut record = Record::of(case, SAMPLES_OF_BALANCE / some.len())?;
-        let known = current.all_named(member);
-        let waves = current.effects.iter();
-        waves.for_each(|&effect| record.explain_away_wave(effect, &known));
-        let values = values.as_ref().map(|values| &values[member]);
-        let most = SAMPLES_OF_RESPONSE / some.len();
-        let response = values.and_then(|all| Response::of(case, &current.effects, all, most));
+        let response = values.as_ref().and_then(|values| {
+            let (effects, values) = (&current.effects, &values[member]);
+            record.explain_away_waves(effects, values);
+            Response::of(case, effects, values, SAMPLES_OF_RESPONSE / some.len())
+        });
         record.shown.push(response.map(Shown::InOutput));
         Some(record)
     };
     let records: Vec<Record> = some.iter().zip(&few).filter_map(record).collect();
     let ranges = some[0].model.ranges(effect);
-    let balances: Vec<usize> = (0..HALF_WIDTHS_OF_BALANCE.len()).collect();
+    let all = peaks(&records, effect, place, &ranges).into_iter();
+    let is_in_torques = |(way, _): &(usize, Peak)| *way < HALF_WIDTHS_OF_BALANCE.len();
+    let (in_torques, in_output): (Vec<_>, Vec<_>) = all.partition(is_in_torques);
     let mut starts: Vec<Vec<f64>> = Vec::new();
-    for ways in [balances, vec![HALF_WIDTHS_OF_BALANCE.len()]] {
-        let mut best = peaks(&records, &ways, effect, place, &ranges);
-        best.sort_by(|a, b| b.share.total_cmp(&a.share));
+    for mut best in [in_torques, in_output] {
+        best.sort_by(|(_, a), (_, b)| b.share.total_cmp(&a.share));
         let most = starts.len() + PEAKS;
-        for peak in best {
+        for (_, peak) in best {
             let is_near = |known: &Vec<f64>| (known[place] / peak.values[place] - 1.0).abs() < 0.02;
             if starts.len() < most && !starts.iter().any(is_near) {
                 starts.push(peak.values);
@@ -69,14 +70,13 @@ struct Peak {
     values: Vec<f64>,
 }
 
-/// The highest peaks of what wavelengths explain, one of the ways in which they show after the other.
+/// The highest peaks of what wavelengths explain, each with the way in which it shows, one way after the other.
 fn peaks(
     records: &[Record],
-    ways: &[usize],
     effect: Effect,
     place: usize,
     ranges: &[PlausibleRange],
-) -> Vec<Peak> {
+) -> Vec<(usize, Peak)> {
     let reach = records.iter().map(Record::reach).fold(0.0, f64::max);
     let (shortest, longest) = (ranges[place].minimum, ranges[place].maximum);
     let step = 1.0 / (PER_WAVE * reach);
@@ -88,8 +88,8 @@ fn peaks(
     let explained =
         |ways: &[usize], wave_number: f64| explain(records, ways, &waves, place, wave_number);
     let at = |index: f64| 1.0 / longest + step * index;
-    let is_shown = |way: &&usize| records.iter().any(|one| one.shown[**way].is_some());
-    let ways: Vec<usize> = ways.iter().filter(is_shown).copied().collect();
+    let is_shown = |way: &usize| records.iter().any(|one| one.shown[*way].is_some());
+    let ways: Vec<usize> = (0..records[0].shown.len()).filter(is_shown).collect();
     let grid: Vec<Vec<Peak>> = (0..(count as usize).min(WAVELENGTHS))
         .into_par_iter()
         .map(|index| explained(&ways, at(index as f64)))
@@ -109,9 +109,10 @@ fn peaks(
             let near = offsets.map(|offset| at((index as f64 + offset).max(0.0)));
             near.flat_map(|wave_number| explained(&[way], wave_number))
                 .max_by(|a, b| a.share.total_cmp(&b.share))
+                .map(|peak| (way, peak))
         }));
     }
-    for peak in &mut found {
+    for (_, peak) in &mut found {
         for (value, range) in peak.values.iter_mut().zip(ranges) {
             *value = value.clamp(range.limits.0, range.limits.1);
         }
@@ -326,31 +327,27 @@ impl Record {
         })
     }
 
-    /// Takes up what `effect`, that is in the model with these `known` parameters, explains, where it comes again with a wavelength.
-    fn explain_away_wave(&mut self, effect: Effect, known: &[(String, f64)]) {
-        let parameters = effect.description().parameters;
-        let wavelength = effect.wavelength().and_then(|place| {
-            let name = format!("{}.{}", effect.name(), parameters[place].name);
-            let (_, wavelength_m) = known.iter().find(|(known, _)| *known == name)?;
-            Some((place, *wavelength_m))
-        });
-        let Some((place, wavelength_m)) = wavelength else {
-            return;
-        };
-        let forces: Vec<Vec<f64>> = (Wave::of(effect, place, self.lever_arm_m).iter())
-            .map(|wave| {
-                let at = |x_m: &f64| wave.at(&InWave::after(x_m / wavelength_m));
-                self.x_m.iter().map(at).collect()
-            })
-            .collect();
-        for shown in self.shown.iter_mut().flatten() {
-            let Shown::InTorques(balance) = shown else {
+    /// Takes up, in the balances, what the waves explain that are in a model of these `effects` and `values`.
+    fn explain_away_waves(&mut self, effects: &[Effect], values: &[f64]) {
+        for &effect in effects {
+            let Some(place) = effect.wavelength() else {
                 continue;
             };
-            let columns = forces.iter();
-            let columns = columns.map(|force| balance.of_force(force, self.lever_arm_m));
-            let columns: Vec<Vec<f64>> = columns.collect();
-            balance.explain_away(columns);
+            let wavelength_m = values[first_parameter(effects, effect) + place];
+            let places: Vec<InWave> = (self.x_m.iter())
+                .map(|x_m| InWave::after(x_m / wavelength_m))
+                .collect();
+            let forces: Vec<Vec<f64>> = (Wave::of(effect, place, self.lever_arm_m).iter())
+                .map(|wave| places.iter().map(|place| wave.at(place)).collect())
+                .collect();
+            for shown in self.shown.iter_mut().flatten() {
+                if let Shown::InTorques(balance) = shown {
+                    let columns = forces.iter();
+                    let columns = columns.map(|force| balance.of_force(force, self.lever_arm_m));
+                    let columns: Vec<Vec<f64>> = columns.collect();
+                    balance.explain_away(columns);
+                }
+            }
         }
     }
 
@@ -368,28 +365,37 @@ impl Record {
 mod tests {
     use super::*;
     use crate::data::cases::Tally;
-    use crate::tests::made_up::{SAMPLES, close, exact, hand, noisy};
+    use crate::pooled::fit::fit_effects;
+    use crate::pooled::model::PooledModel;
+    use crate::tests::made_up::{WHOLE, close, exact, noisy};
+    use snug_least_squares::PooledSettings;
 
-    /// The most promising start of `effect` where some tightenings hide what is `hidden` in them, and the model has the first ripple, if its
-    /// wavelength is known.
+    /// The most promising start of `effect` where some tightenings hide what is `hidden` in them, beside the base model, with the first ripple as
+    /// far as it is `known`.
     fn first(
         of: fn(usize, &[Effect], &[f64]) -> FitTask<'static>,
         hidden: (&[Effect], &[f64]),
-        wavelength_m: Option<f64>,
+        known: Option<&[f64]>,
         effect: Effect,
     ) -> Option<Vec<f64>> {
         let cases: Vec<FitTask> = (0..4)
             .map(|number| of(number, hidden.0, hidden.1))
             .collect();
-        let own = (0..4).map(|number| [&hand(number)[..], wavelength_m.as_slice()].concat());
-        let known: &[Effect] = wavelength_m.map_or(&[], |_| &[Effect::TorqueRipple]);
-        let names = ["m", "c", "k", "torque_ripple.wavelength_m"];
-        let names = &names[..3 + known.len()];
-        let current = Fitted::made_up(known, &[1.0; 4], SAMPLES).with_own(names, own.collect(), 0);
         let tally = Tally::default();
-        starts(Cases::new(&cases, &tally), &current, effect)
-            .into_iter()
-            .next()
+        let counted = Cases::new(&cases, &tally);
+        let mut current = fit_effects(counted, &[], None, WHOLE).expect("it can be fitted");
+        if let Some(known) = known {
+            let mut pooled = PooledModel::new(counted, &[Effect::TorqueRipple]).expect("it is one");
+            let start = current.start(&pooled);
+            let start = pooled.with_effect(start, Effect::TorqueRipple, known);
+            let there = PooledSettings {
+                max_iterations: 0,
+                ..PooledSettings::default()
+            };
+            let end = pooled.fit(&start, &there);
+            current = Fitted::new(&pooled, end.expect("it can be fitted"), &WHOLE);
+        }
+        starts(counted, &current, effect).into_iter().next()
     }
 
     fn is_near(found: &[f64], sizes: &[f64]) {
@@ -416,7 +422,7 @@ mod tests {
         let effects = [Effect::TorqueRipple, Effect::SecondRipple];
         let hidden = (&effects[..], &[strong, weak].concat()[..]);
         for of in [exact, noisy] {
-            let found = first(of, hidden, Some(strong[2]), Effect::SecondRipple);
+            let found = first(of, hidden, Some(&strong), Effect::SecondRipple);
             is_near(&found.expect("it has a wavelength"), &weak);
         }
     }
