@@ -37,7 +37,7 @@ fn is_ripple(found: &[EffectParameter], size_n: f64, wavelength_m: f64) {
     let off = (sine.hypot(cosine) / size_n - 1.0).abs();
     assert!(off < 0.03, "{sine} {cosine}");
     let off = (wavelength / wavelength_m - 1.0).abs();
-    assert!(off < 0.01, "{wavelength}");
+    assert!(off < 0.005, "{wavelength}");
 }
 
 /// What takes most of the error in parts that took no part comes first, with its size, and the model without it is not called adequate.
