@@ -14,7 +14,7 @@ use crate::pooled::sharing::Sharing;
 use crate::question::Question;
 use crate::ranking::applicability::candidates;
 use crate::ranking::first_ranking::first_ranking;
-use crate::ranking::refit::refit;
+use crate::ranking::refit::{Way, refit};
 use crate::ranking::score_test::{Control, Scorer};
 use crate::ranking::sensitivity::Column;
 use crate::settings::DiagnoseSettings;
@@ -173,7 +173,7 @@ impl LiveCases {
             current,
             effect,
             &columns,
-            promises.first(),
+            Way::Far(promises.first()),
             self.clusters,
             &self.settings,
         )

@@ -8,7 +8,7 @@ use crate::pooled::thresholds::{
     SOON, TRIAL_OF_A_START,
 };
 use snug_identify::{FitTask, TighteningResidual, convex_set};
-use snug_least_squares::{DenseResidual, PooledFit, PooledSettings, Settings, SolveError, solve};
+use snug_least_squares::{DenseResidual, PooledFit, PooledSettings, Settings, solve};
 
 /// Fits from each of `starts`; the lowest cost goes on to the end. Where the records [take long](take_long) to simulate, that is done on
 /// their beginnings, and from where it leads a few steps are taken on the whole.
@@ -39,8 +39,7 @@ pub(crate) fn lowest_nearby(
     pooled: &mut PooledModel<'_>,
     starts: &[Start],
 ) -> Result<PooledFit, DiagnoseError> {
-    let lowest = ends(pooled, starts, &A_FEW_STEPS)?.into_iter().next();
-    lowest.ok_or_else(|| SolveError::NoStart.into())
+    Ok(ends(pooled, starts, &A_FEW_STEPS)?.swap_remove(0))
 }
 
 /// Whether the records together take so long to simulate that not every candidate is followed to its end.
@@ -153,7 +152,7 @@ fn ends(
         }
     }
     if ends.is_empty() {
-        let none = || SolveError::NoStart.into();
+        let none = || snug_least_squares::SolveError::NoStart.into();
         return Err(refused.unwrap_or_else(none));
     }
     ends.sort_by(|a, b| a.cost().total_cmp(&b.cost()));

@@ -13,7 +13,7 @@ use crate::pooled::model::PooledModel;
 use crate::pooled::thresholds::A_FEW_STEPS;
 use crate::ranking::applicability::candidates;
 use crate::ranking::first_ranking::first_ranking;
-use crate::ranking::refit::{as_regressed, refit};
+use crate::ranking::refit::{Way, as_regressed, refit};
 use crate::ranking::thresholds::{RUN_FREELY, WORTH_A_START};
 use crate::settings::DiagnoseSettings;
 use rayon::prelude::*;
@@ -58,7 +58,15 @@ pub fn is_followed_with_an_effect(cases: &[FitTask<'_>], most: f64) -> Result<bo
     listed.retain(|effect| promises.iter().all(|promise| promise.effect != *effect));
     let settings = DiagnoseSettings::default();
     let follows = |&effect: &Effect| {
-        let fitted = refit(cases, &current, effect, &[], None, clusters, &settings);
+        let fitted = refit(
+            cases,
+            &current,
+            effect,
+            &[],
+            Way::Far(None),
+            clusters,
+            &settings,
+        );
         let left = fitted.map_or(f64::INFINITY, |fitted| fitted.squares());
         tracing::debug!(effect = effect.name(), left, most, "run freely");
         left < most

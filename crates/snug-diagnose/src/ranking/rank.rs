@@ -16,7 +16,7 @@ use crate::ranking::first_ranking::first_ranking;
 use crate::ranking::max_t::Family;
 use crate::ranking::paired_gain::{chance, clearness, gains, spread_of_sum};
 use crate::ranking::pairs::{Pair, promising_pairs};
-use crate::ranking::refit::{followed, possible, refit, refit_beside_noise};
+use crate::ranking::refit::{Way, followed, possible, refit};
 use crate::ranking::score_test::{Control, Scored, Scorer};
 use crate::ranking::sensitivity::Column;
 use crate::ranking::shows::where_it_shows;
@@ -185,13 +185,11 @@ pub(crate) fn rank(
         .par_iter()
         .map(|&effect| {
             watch.go_on()?;
-            let promise = promises.iter().find(|promise| promise.effect == effect);
-            let fitted = match leaves_noise {
-                true => refit_beside_noise(cases, current, effect, &columns, clusters),
-                false => refit(
-                    cases, current, effect, &columns, promise, clusters, settings,
-                ),
+            let way = match leaves_noise {
+                true => Way::Nearby,
+                false => Way::Far(promises.iter().find(|promise| promise.effect == effect)),
             };
+            let fitted = refit(cases, current, effect, &columns, way, clusters, settings);
             watch.pieces(Pieces::Done);
             Ok(possible(fitted)?.map(|fitted| {
                 let p_family = family.p(&columns, effect);

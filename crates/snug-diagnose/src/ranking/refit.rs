@@ -28,13 +28,22 @@ use snug_least_squares::{PooledFit, PooledSettings, SolveError};
 use snug_model::{BASE_PARAMETERS, Effect, Law, ParameterSpec};
 use snug_statistics::descriptive::median;
 
+/// How far a candidate is followed.
+#[derive(Clone, Copy)]
+pub(crate) enum Way<'a> {
+    /// To its end, and from where the equation of motion puts the numbers, if the effect promises much there.
+    Far(Option<&'a Promise>),
+    /// A few steps: beside a model that leaves white noise of a few long records nothing is led astray, and they tell all that could be gained.
+    Nearby,
+}
+
 /// Refits one effect from its most promising starts, first roughly on a few tightenings; the lowest cost wins.
 pub(crate) fn refit(
     cases: Cases<'_>,
     current: &Fitted,
     effect: Effect,
     columns: &[Column],
-    promise: Option<&Promise>,
+    way: Way<'_>,
     clusters: Clusters,
     settings: &DiagnoseSettings,
 ) -> Result<Fitted, DiagnoseError> {
@@ -42,8 +51,9 @@ pub(crate) fn refit(
     effects.push(effect);
     let mut read_off = wavelengths::starts(cases, current, effect);
     read_off.extend(resonances::starts(cases, current, effect));
+    let is_nearby = matches!(way, Way::Nearby);
     // A term describes; which of its starts promises most is near enough to begin with.
-    let most = match is_unlisted(effect) || !read_off.is_empty() {
+    let most = match is_unlisted(effect) || !read_off.is_empty() || is_nearby {
         true => 1,
         false => settings.starts,
     };
@@ -54,7 +64,7 @@ pub(crate) fn refit(
     let mut starts: Vec<Start> = (read_off.iter().map(Vec::as_slice).chain(starts))
         .map(begun)
         .collect();
-    let is_astray = may_be_astray(&cases, current);
+    let is_astray = !is_nearby && may_be_astray(&cases, current);
     if is_astray {
         // What the model lacks may have led its mass and damping so far off that the rig passes other waves than it did.
         starts.extend(with_shapes_of(&pooled, &starts[..read_off.len()]));
@@ -65,42 +75,29 @@ pub(crate) fn refit(
     let nothing: Vec<Start> = (nothing.iter())
         .map(|values| simulable(begun(values)))
         .collect();
-    let end = led_by(&mut pooled, current, &starts, is_astray, clusters);
+    let end = match way {
+        Way::Far(_) => led_by(&mut pooled, current, &starts, is_astray, clusters),
+        Way::Nearby => nearby(&mut pooled, current, &starts),
+    };
     let mut end = no_worse(&mut pooled, current, &nothing, end)?;
-    if !clusters.are_whole() {
+    if let Way::Far(promise) = way
+        && !clusters.are_whole()
+    {
         end = as_promised(&mut pooled, current, promise, end)?;
     }
     Ok(Fitted::new(&pooled, end, &clusters))
 }
 
-/// The same beside a model that leaves white noise of a few long records: nothing is led astray there, and a few steps from the usual starts
-/// tell all that could be gained.
-pub(crate) fn refit_beside_noise(
-    cases: Cases<'_>,
+/// A few steps from each start; where there is none, from the usual one.
+fn nearby(
+    pooled: &mut PooledModel<'_>,
     current: &Fitted,
-    effect: Effect,
-    columns: &[Column],
-    clusters: Clusters,
-) -> Result<Fitted, DiagnoseError> {
-    let effects = [&current.effects[..], &[effect]].concat();
-    let mut pooled = PooledModel::shared_by(cases, &effects, &current.sharing)?;
-    let mut read_off = wavelengths::starts(cases, current, effect);
-    read_off.extend(resonances::starts(cases, current, effect));
-    let usual = promising(effect, columns, 1);
-    let begun = |values: &[f64]| {
-        let start = pooled.with_effect(current.start(&pooled), effect, values);
-        simulable(&pooled, start)
-    };
-    let nothing = nothing_of(&pooled, effect, usual.first().copied());
-    let nothing: Vec<Start> = nothing.iter().map(|values| begun(values)).collect();
-    let starts = read_off.iter().map(Vec::as_slice).chain(usual).map(begun);
-    let mut starts: Vec<Start> = starts.collect();
-    if starts.is_empty() {
-        starts.push(current.start(&pooled));
+    starts: &[Start],
+) -> Result<PooledFit, DiagnoseError> {
+    match starts {
+        [] => long_record::lowest_nearby(pooled, &[current.start(pooled)]),
+        starts => long_record::lowest_nearby(pooled, starts),
     }
-    let end = long_record::lowest_nearby(&mut pooled, &starts);
-    let end = no_worse(&mut pooled, current, &nothing, end)?;
-    Ok(Fitted::new(&pooled, end, &clusters))
 }
 
 /// Where the starts lead to, all of the effect's parameters free; `current` may have been led astray.

@@ -13,7 +13,7 @@ use crate::pooled::fitted::Fitted;
 use crate::pooled::model::PooledModel;
 use crate::pooled::parameter_place::effect_of;
 use crate::ranking::paired_gain::gains;
-use crate::ranking::refit::{possible, refit};
+use crate::ranking::refit::{Way, possible, refit};
 use crate::ranking::score_test::{Control, Scorer};
 use crate::ranking::shows::Shows;
 use crate::ranking::thresholds::{BEST, CANDIDATE};
@@ -48,7 +48,15 @@ pub(super) fn best_where_it_shows(
         .par_iter()
         .map(|&effect| {
             watch.go_on()?;
-            let fitted = refit(there, &of_part, effect, &columns, None, clusters, settings);
+            let fitted = refit(
+                there,
+                &of_part,
+                effect,
+                &columns,
+                Way::Far(None),
+                clusters,
+                settings,
+            );
             let gain = |fitted: &Fitted| gains(&heldout, fitted).iter().sum::<f64>();
             Ok(possible(fitted)?.map(|fitted| (gain(&fitted), effect, fitted)))
         })

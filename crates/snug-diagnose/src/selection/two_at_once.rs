@@ -18,7 +18,7 @@ pub(super) struct Both {
     pub both: Candidate,
     seed: usize,
     second: Step,
-    /// Whether the second is, beside the first.
+    /// Whether the second is supported beside the first.
     second_is_supported: bool,
 }
 

@@ -182,7 +182,16 @@ fn refitted(effect: Effect, size: f64, columns: &[Column]) -> Fitted {
     let counted = Cases::new(&cases, &tally);
     let current = fit_effects(counted, &[], None, WHOLE).expect("the base model can be fitted");
     let settings = DiagnoseSettings::default();
-    refit(counted, &current, effect, columns, None, WHOLE, &settings).expect("it can be fitted")
+    refit(
+        counted,
+        &current,
+        effect,
+        columns,
+        Way::Far(None),
+        WHOLE,
+        &settings,
+    )
+    .expect("it can be fitted")
 }
 
 #[test]
@@ -243,7 +252,16 @@ fn a_term_in_no_catalogue_is_followed_from_its_best_start_only() {
     let before = tally.done().pooled_fits;
     let columns = [at(0.009, 9.0), at(0.04, 4.0)];
     let settings = DiagnoseSettings::default();
-    let fitted = refit(counted, &current, stop, &columns, None, WHOLE, &settings).expect("fitted");
+    let fitted = refit(
+        counted,
+        &current,
+        stop,
+        &columns,
+        Way::Far(None),
+        WHOLE,
+        &settings,
+    )
+    .expect("fitted");
     assert_eq!(tally.done().pooled_fits, before + 1);
     close(fitted.shared[0], 3000.0, 0.01);
 }
@@ -261,9 +279,10 @@ fn beside_noise_a_few_steps_tell_what_the_end_does() {
     let steps = || tally.done().steps;
     for effect in [CubicStiffness, TorqueOffset, AccelerationBias] {
         let before = steps();
-        let end = refit(counted, &current, effect, &[], None, clusters, &settings);
+        let along = |way| refit(counted, &current, effect, &[], way, clusters, &settings);
+        let end = along(Way::Far(None));
         let between = steps();
-        let nearby = refit_beside_noise(counted, &current, effect, &[], clusters);
+        let nearby = along(Way::Nearby);
         let [end, nearby] = [end, nearby].map(|fitted| fitted.expect("fitted").squares());
         let by_chance = current.squares() / current.count() as f64;
         assert!(nearby <= current.squares(), "{}", effect.name());
