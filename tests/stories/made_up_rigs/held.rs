@@ -39,10 +39,8 @@ fn a_pendulum_driven_by_a_held_torque_is_known_to_its_noise() {
     assert!(!headline.contains("still a motion"), "{headline}");
 }
 
-/// A slide whose acceleration is measured, which follows its force at once: half a sampling interval is no delay there, and what does what
-/// a hold does is found instead of one, a spring beside a damper. Nothing is missing.
-#[test]
-fn a_slide_with_an_accelerometer_and_a_held_force_lacks_nothing() {
+/// A slide whose acceleration is measured, which follows its force at once, that a controller holds from sample to sample.
+pub(super) fn slide() -> Rig {
     let mut noise = Noise(13);
     let mut recording = || -> Vec<[f64; 2]> {
         let inputs = noise.levels([-3.0, 3.0], 100, 4000);
@@ -51,11 +49,17 @@ fn a_slide_with_an_accelerometer_and_a_held_force_lacks_nothing() {
         let accelerations = states.iter().zip(&inputs).map(|(&at, &u)| rate(at, u)[1]);
         noise.with(&inputs, accelerations, OF_THE_ACCELEROMETER)
     };
-    let rig = Rig {
+    Rig {
         recordings: (0..6).map(|_| recording()).collect(),
         declared: [FORCE, "Acceleration", "MetrePerSecondSquared"],
-    };
-    let diagnosis = rig.told(&Verb::Improve);
+    }
+}
+
+/// Half a sampling interval is no delay there, and what does what a hold does is found instead of one, a spring beside a damper. Nothing is
+/// missing.
+#[test]
+fn a_slide_with_an_accelerometer_and_a_held_force_lacks_nothing() {
+    let diagnosis = slide().told(&Verb::Improve);
     let none: [&str; 0] = [];
     assert_eq!(names(&diagnosis), none, "{}", diagnosis.headline);
     assert!(says(&diagnosis, "held from sample to sample"));

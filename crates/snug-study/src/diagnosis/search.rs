@@ -9,10 +9,15 @@ use crate::tasks::cases::with_settled;
 use crate::tasks::held_input;
 use snug_campaign::words::number::significant;
 use snug_campaign::words::reason::Reason;
-use snug_diagnose::{Answer, DiagnoseError, Goal, Pieces, Question, Until, Watch, examine};
+use snug_diagnose::{
+    Answer, DiagnoseError, Goal, Pieces, Question, RungModel, Until, Watch, examine,
+};
 use snug_identify::{FitTask, IdentifyError};
 use snug_least_squares::SolveError;
 use std::sync::atomic::AtomicBool;
+
+/// What is told where a search goes on with a held input.
+const HELD: &str = "taking the input as held from sample to sample";
 
 /// How an answer is looked for.
 pub(super) struct Search<'a> {
@@ -43,7 +48,16 @@ impl Search<'_> {
         if is_open && let Some((held, study)) = self.held_at_once(study, question)? {
             return Ok((held, Some(study)));
         }
-        let mut straight = self.examined(question)?;
+        // What comes in after a hold that is told as a delay is looked for with the hold.
+        let is_a_hold = |rung: &RungModel| {
+            held_input::is_a_hold(rung, &with_rung(study, rung), cases).is_ok_and(|is| is)
+        };
+        let up_to_a_hold = Until::new(&is_a_hold);
+        let until = question.until.or(is_open.then_some(&up_to_a_hold));
+        let mut straight = self.examined(&Question {
+            until,
+            ..question.clone()
+        })?;
         if question.until.is_some_and(Until::is_reached) {
             return Ok((straight, None));
         }
@@ -51,6 +65,9 @@ impl Search<'_> {
         straight.diagnosis.reasons.extend(not_tried);
         if !is_open || straight.diagnosis.interrupted {
             return Ok((straight, None));
+        }
+        if up_to_a_hold.is_reached() {
+            return self.held_from_there(study, question, straight);
         }
         let last = with_last_rung(study, &straight);
         let is_worth_it = held_input::is_worth_it(&straight.diagnosis, study, &last, cases)?;
@@ -62,13 +79,10 @@ impl Search<'_> {
         if !is_worth_it && !self.fewer_do(&held_study, &question, &straight)? {
             return Ok((straight, None));
         }
-        // Of a model whose delay is half an interval the rest is the model, whatever a search afresh would find.
+        self.tell(HELD);
+        let rest = rest_of(&held_study, &cases, &straight)?;
+        let goals = std::iter::once(question.goal.clone()).chain(rest);
         let interval_s = cases[0].tightening.time_base.interval_s;
-        let rest = held_input::without_stand_ins(&straight.diagnosis, interval_s);
-        let from = rest.map(|names| effects(&held_study, &names, &cases));
-        let from = from.transpose()?;
-        let from = from.map(|rest| Goal::ImproveFrom(begun(rest, &straight)));
-        let goals = std::iter::once(question.goal.clone()).chain(from);
         for goal in goals {
             let question = Question {
                 goal,
@@ -82,20 +96,37 @@ impl Search<'_> {
                 return Ok((held, Some(held_study)));
             }
             if held.diagnosis.interrupted {
-                let mut diagnosis = straight
-                    .diagnosis
-                    .ended(cases[0].quantity(), &question.units);
+                let quantity = cases[0].quantity();
+                let mut diagnosis = straight.diagnosis.ended(quantity, &question.units);
                 diagnosis.reasons.push(Reason::HeldUndecided);
-                return Ok((
-                    Answer {
-                        diagnosis,
-                        ..straight
-                    },
-                    None,
-                ));
+                let straight = Answer {
+                    diagnosis,
+                    ..straight
+                };
+                return Ok((straight, None));
             }
         }
         Ok((straight, None))
+    }
+
+    /// What a search with a held input finds beside the rest of `straight`, whose delay is a hold.
+    fn held_from_there(
+        &self,
+        study: &Study,
+        question: &Question<'_>,
+        straight: Answer,
+    ) -> Result<(Answer, Option<Study>), StudyError> {
+        self.tell(HELD);
+        let (held_study, cases) = held_input::held(study, question.cases)?;
+        let goal = rest_of(&held_study, &cases, &straight)?;
+        let mut held = self.examined(&Question {
+            cases: &cases,
+            goal: goal.unwrap_or_else(|| question.goal.clone()),
+            ..question.clone()
+        })?;
+        let reason = held_input::spares_stand_ins(&straight.diagnosis);
+        held.diagnosis.reasons.push(reason);
+        Ok((held, Some(held_study)))
     }
 
     /// Whether with the `held` input a model before the last leaves as little as that does without, fitted again from where it ended: what
@@ -163,16 +194,39 @@ impl Search<'_> {
         Ok(Some((answer, held_study)))
     }
 
+    fn tell(&self, what: &str) {
+        (self.progress)(ProgressEvent::Stage { what });
+    }
+
     pub fn examined(&self, question: &Question<'_>) -> Result<Answer, StudyError> {
-        let progress = self.progress;
-        let tell = |what: &str| progress(ProgressEvent::Stage { what });
-        let count = |pieces: Pieces| match pieces {
-            Pieces::Of(of) => progress(ProgressEvent::Candidates { of }),
-            Pieces::Done => progress(ProgressEvent::CandidateDone),
+        let tell = |what: &str| self.tell(what);
+        let count = |pieces: Pieces| {
+            (self.progress)(match pieces {
+                Pieces::Of(of) => ProgressEvent::Candidates { of },
+                Pieces::Done => ProgressEvent::CandidateDone,
+            });
         };
         let watch = Watch::new(&tell).counting(&count).until(self.interrupted);
         examine(question, self.settings, &watch).map_err(|error| nothing_fits(error, question))
     }
+}
+
+/// To go on from what `straight` found, of which half a sampling interval is a delay, without what stands in for that: the rest is the
+/// model, whatever a search afresh would find.
+fn rest_of(
+    study: &Study,
+    cases: &[FitTask<'_>],
+    straight: &Answer,
+) -> Result<Option<Goal>, StudyError> {
+    let Some(first) = cases.first() else {
+        return Ok(None);
+    };
+    let interval_s = first.tightening.time_base.interval_s;
+    let rest = held_input::without_stand_ins(&straight.diagnosis, interval_s);
+    let rest = rest
+        .map(|names| effects(study, &names, cases))
+        .transpose()?;
+    Ok(rest.map(|rest| Goal::ImproveFrom(begun(rest, straight))))
 }
 
 /// Where not a single fit could begin, what was tried and what to check.

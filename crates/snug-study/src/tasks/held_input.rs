@@ -7,13 +7,16 @@ use crate::error::StudyError;
 use crate::study::Study;
 use crate::tasks::cases::with_settled;
 use snug_campaign::words::reason::Reason;
-use snug_campaign::{Diagnosis, Intersample, Rung};
+use snug_campaign::{Diagnosis, EffectParameter, Intersample, Rung};
+use snug_diagnose::RungModel;
 use snug_identify::{FitTask, identify_all};
 use snug_model::{BASE_PARAMETERS, Law, ParameterSettings, Scale};
 use std::borrow::Cow;
 
 /// The effect whose size is a delay.
 const DELAY: &str = "torque_delay";
+/// Its size [s].
+const DELAY_SIZE: &str = "delay_s";
 /// Effects that stand in for half a sampling interval.
 const STAND_INS: [&str; 5] = [
     DELAY,
@@ -130,6 +133,35 @@ fn needs_nothing(study: &Study, last: &Study, cases: &[FitTask<'_>]) -> Result<b
         leaves_less(&held, cases, SOMEWHAT_LESS)
             && leaves_less(&held, &last, AS_LITTLE * AS_LITTLE),
     )
+}
+
+/// Whether a delay of half a sampling interval among a rung's listed effects is a hold: the others of its study leave less with that than all
+/// of them with a straight input.
+pub(crate) fn is_a_hold(
+    rung: &RungModel,
+    study: &Study,
+    cases: &[FitTask<'_>],
+) -> Result<bool, StudyError> {
+    let Some(first) = cases.first() else {
+        return Ok(false);
+    };
+    let interval_s = first.tightening.time_base.interval_s;
+    let mut delays = rung.parameters.iter().filter(|one| one.name == DELAY_SIZE);
+    let is_late = delays.any(|delay| is_half_an_interval(delay, interval_s));
+    if !is_late || !rung.declarations.is_empty() {
+        return Ok(false);
+    }
+    let (_, held) = held(&with_no_stand_in(study, cases)?, cases)?;
+    let straight = with_settled(study, cases.iter().map(FitTask::lent).collect())?;
+    Ok(leaves_less(&held, &straight, 1.0))
+}
+
+/// That a held input does without what stands in for half a sampling interval in `straight`.
+pub(crate) fn spares_stand_ins(straight: &Diagnosis) -> Reason {
+    Reason::Held {
+        spared: stand_ins(straight).map(str::to_owned).collect(),
+        is_half_an_interval: false,
+    }
 }
 
 /// Whether the last model of `held` leaves plainly less than its like `without` that input, and as little as the `last` model does.
@@ -265,8 +297,12 @@ pub(crate) fn without_stand_ins(straight: &Diagnosis, interval_s: f64) -> Option
 /// Whether one of the effects is a delay of half a sampling interval.
 fn is_half_an_interval_late(straight: &Diagnosis, interval_s: f64) -> bool {
     let delays = straight.added.iter().filter(|one| one.effect == DELAY);
-    let mut values = delays.flat_map(|one| &one.parameters);
-    values.any(|delay| HALF_AN_INTERVAL.contains(&(delay.value / interval_s)))
+    let mut delays = delays.flat_map(|one| &one.parameters);
+    delays.any(|delay| is_half_an_interval(delay, interval_s))
+}
+
+fn is_half_an_interval(delay: &EffectParameter, interval_s: f64) -> bool {
+    HALF_AN_INTERVAL.contains(&(delay.value / interval_s))
 }
 
 fn stand_ins(diagnosis: &Diagnosis) -> impl Iterator<Item = &str> {
