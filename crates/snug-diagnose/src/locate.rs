@@ -22,6 +22,7 @@ mod repeatable;
 mod residual;
 mod response;
 mod time_since_onset;
+mod tone;
 
 #[cfg(test)]
 mod tests;

@@ -5,6 +5,7 @@
 
 use super::force_shape::Followed;
 use super::residual::Residuals;
+use super::tone::{Tone, tone};
 use crate::locate::thresholds::{
     FOLLOWS, HARDLY_REPEATS, MORE_THAN_DUE, MOST, MOSTLY_REPEATS, NEARLY_AS_WELL, QUIET, RESEMBLES,
     WORTH,
@@ -27,7 +28,7 @@ pub fn remarks(
         .filter_map(|aspect| match aspect.aspect.as_str() {
             "time_since_onset_s" => seen.time(&aspect.parts),
             "phase" => seen.phase(&aspect.parts),
-            "frequency_hz" => seen.frequency(&aspect.parts),
+            "frequency_hz" => seen.tone().or_else(|| seen.frequency(&aspect.parts)),
             "amplitude_rad" => seen.amplitude(&aspect.parts),
             _ => seen.condition(aspect),
         })
@@ -71,6 +72,12 @@ impl Seen<'_> {
             of_time: of_data(std::slice::from_ref(part), parts),
             error: self.times(part.error_over_noise),
         })
+    }
+
+    /// One steady tone says more than the band that it lies in.
+    fn tone(&self) -> Option<Remark> {
+        let Tone { hz, share } = tone(self.residuals)?;
+        Some(Remark::Tone { share, hz })
     }
 
     fn frequency(&self, parts: &[Share]) -> Option<Remark> {

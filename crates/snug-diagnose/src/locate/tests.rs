@@ -5,6 +5,7 @@
 mod correlation;
 mod drift;
 mod response;
+mod tone;
 
 use super::missing_force::missing_force_n;
 use super::residual::Residuals;

@@ -69,3 +69,15 @@ pub(crate) const MOSTLY_REPEATS: f64 = 0.7;
 pub(crate) const HARDLY_REPEATS: f64 = 0.25;
 /// Shapes of the missing force whose shares differ by less are told together \[–\]. Chosen.
 pub(crate) const NEARLY_AS_WELL: f64 = 0.1;
+/// Lines of a spectrum on each side of a tone that it lies within: as far as the window's edges spread it. Chosen.
+pub(crate) const LINES: usize = 2;
+/// Fewest cycles in a recording that make a tone: two lines are a band of a twenty-fifth of its frequency then. Chosen.
+pub(crate) const FEWEST_CYCLES: f64 = 50.0;
+/// Parts of a recording in which a tone is as loud. Chosen.
+pub(crate) const QUARTERS: usize = 4;
+/// Standard deviation over mean of a tone's loudness \[–\]: of a lightly damped mode under chance forces it is 0.5 (Rayleigh). Chosen.
+pub(crate) const AS_LOUD: f64 = 0.25;
+/// Lines on each side of one of the input's that it is compared with. Chosen.
+pub(crate) const SURROUNDINGS: usize = 20;
+/// Power over the median about it from which a line of the input stands out \[–\]: of three lines of chance one does in one case of 300. Chosen.
+pub(crate) const OUTSTANDING: f64 = 10.0;

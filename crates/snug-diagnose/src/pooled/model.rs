@@ -240,7 +240,7 @@ impl<'a> PooledModel<'a> {
         Ok(fit)
     }
 
-    /// Fits what is left of the residual once it is averaged over `reach` samples to either side, see [`smooth`].
+    /// Fits what is left of the residual once it is averaged over `reach` samples to either side.
     pub fn fit_averaged(
         &mut self,
         start: &Start,

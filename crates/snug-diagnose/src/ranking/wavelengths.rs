@@ -1,7 +1,7 @@
 //! Starts for an effect whose force comes again with a wavelength of the displacement: read off the measurement, since the
 //! cost has a minimum for every wavelength or so.
 //!
-//! For every wavelength the sizes follow by linear least squares, from the [balance](balance) of torques, what the model explains
+//! For every wavelength the sizes follow by linear least squares, from the [`balance`] of torques, what the model explains
 //! projected out, and from how the output [responds](response): two periodograms of the missing force over the displacement. The force is
 //! a function of x/λ that repeats, so that one wave of it is worked out once.
 

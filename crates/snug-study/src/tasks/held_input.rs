@@ -15,7 +15,7 @@ use std::borrow::Cow;
 
 /// The effect whose size is a delay.
 const DELAY: &str = "torque_delay";
-/// Its size [s].
+/// Its size \[s\].
 const DELAY_SIZE: &str = "delay_s";
 /// Effects that stand in for half a sampling interval.
 const STAND_INS: [&str; 5] = [

@@ -1,7 +1,7 @@
 //! What stands out of where a model fails: each remark as data, and the sentence it is said with.
 
 use crate::measurement::signal_units::SignalUnits;
-use crate::words::number::{whole_percent, without_last_digits};
+use crate::words::number::{significant, whole_percent, without_last_digits};
 use crate::words::sentence::said::written_as_said;
 use crate::words::size::amount;
 use std::fmt::{self, Display, Formatter};
@@ -62,6 +62,13 @@ pub enum Remark {
         to_hz: f64,
         /// From where on there is nothing but noise \[Hz\].
         quiet_from_hz: Option<f64>,
+    },
+    /// One steady tone that the input does not have holds most of the misfit.
+    Tone {
+        /// Share of the misfit.
+        share: f64,
+        /// Its frequency \[Hz\].
+        hz: f64,
     },
     /// The error differs between small and large displacements.
     Amplitude {
@@ -165,6 +172,7 @@ impl Display for Remark {
                 to_hz,
                 quiet_from_hz,
             } => frequency(f, *share, (*from_hz, *to_hz), *quiet_from_hz),
+            Self::Tone { share, hz } => tone(f, *share, *hz),
             Self::Amplitude {
                 grows,
                 small,
@@ -249,6 +257,15 @@ fn frequency(
         Some(from) => write!(f, "; above {from} Hz there is nothing but noise."),
         None => write!(f, "."),
     }
+}
+
+fn tone(f: &mut Formatter<'_>, share: f64, hz: f64) -> fmt::Result {
+    write!(
+        f,
+        "One tone of {} Hz, alike all the time and not in the input, is {} of the misfit: no answer of the rig. Look for what hums or turns so fast: the mains (50 or 60 Hz and multiples) in the sensor's cable, a fan, a pump, a converter.",
+        significant(hz, 4),
+        whole_percent(share)
+    )
 }
 
 fn condition_name(condition: &str) -> &'static str {

@@ -1,0 +1,36 @@
+//! A misfit that is one steady tone, and others that are none.
+
+use super::{campaign, locate, seen};
+use snug_campaign::words::remark::Remark;
+use std::f64::consts::TAU;
+
+fn tone(misfit: impl Fn(u32, f64) -> f64) -> Option<(f64, f64)> {
+    let made = campaign(6, 1, misfit);
+    let remarks = locate(&seen(&made), 1).remarks;
+    remarks.into_iter().find_map(|remark| match remark {
+        Remark::Tone { hz, share } => Some((hz, share)),
+        _ => None,
+    })
+}
+
+/// 3 rad/s² of another phase in each tightening beside noise of 0.5 rad/s², of which nothing is above half the sampling rate.
+#[test]
+fn a_hum_is_told_with_its_frequency() {
+    let hum = |number: u32, t: f64| 3.0 * (TAU * 403.7 * t + 1.7 * f64::from(number)).sin();
+    let (hz, share) = tone(hum).expect("a tone");
+    assert!((hz - 403.7).abs() < 0.3, "{hz}");
+    assert!(share > 0.9, "{share}");
+}
+
+/// A tone that dies away after a push, one that comes and goes, two tones, and noise are none.
+#[test]
+fn what_rings_or_wavers_is_no_hum() {
+    let sine = |hz: f64, t: f64| 3.0 * (TAU * hz * t).sin();
+    let rings = |_: u32, t: f64| 3.0 * sine(400.0, t) * (-t.max(0.0) / 0.05).exp();
+    let wavers = |_: u32, t: f64| sine(400.0, t) * f64::from(u8::from(t > 0.1));
+    let two = |_: u32, t: f64| sine(400.0, t) + sine(700.0, t);
+    assert_eq!(tone(rings), None);
+    assert_eq!(tone(wavers), None);
+    assert_eq!(tone(two), None);
+    assert_eq!(tone(|_, _| 0.0), None);
+}
