@@ -46,7 +46,7 @@ impl Law for TorqueDeadZone {
             twins: &["coulomb_friction", "torque_offset"],
             excited_by: "commands that pass through nothing",
             shows_as: "misfit with the sign of the command, constant but where the command is small",
-            check: "Raise the command slowly from nothing, either way, and note at which the torque or current begins: friction of the rig holds the rig, not the current.",
+            check: "Raise the command slowly from nothing, either way, and note at which the torque or current begins: friction of the rig holds the rig, not the current. Of a measured force, see how it scatters while nothing acts: such noise looks the same.",
             on_machine: None,
             valid_for: "a dead zone as wide either way and at any speed; a command, not a torque that was measured at the rig",
             source: "Tao and Kokotovic 1996, Adaptive Control of Systems with Actuator and Sensor Nonlinearities, Wiley",
