@@ -21,6 +21,7 @@ mod remark;
 mod repeatable;
 mod residual;
 mod response;
+mod spectra;
 mod time_since_onset;
 mod tone;
 
@@ -32,6 +33,7 @@ use aspect::View;
 use bootstrap::Draws;
 use residual::Residuals;
 use snug_campaign::{Comparison, Drift, Estimate, Location, Motion, Tightening};
+use spectra::Spectra;
 
 /// One tightening with what a model makes of it.
 #[derive(Debug, Clone, Copy)]
@@ -82,10 +84,11 @@ pub fn locate(seen: &[Seen<'_>], seed: u64) -> Location {
         return Location::default();
     }
     let draws = Draws::new(residuals.all.len(), seed);
+    let spectra = Spectra::of(&residuals);
     let views: Vec<View> = [
         time_since_onset::view(&residuals),
         phase::view(&residuals),
-        frequency::view(&residuals),
+        frequency::view(&spectra),
         amplitude::view(&residuals),
     ]
     .into_iter()
@@ -99,7 +102,7 @@ pub fn locate(seen: &[Seen<'_>], seed: u64) -> Location {
     let (force_over_time, force_map) = missing_force::curve_and_map(&residuals, &draws);
     let followed = force_shape::followed(&residuals);
     let repeatable_share = repeatable::share(&residuals, followed.predicted);
-    let remarks = remark::remarks(&residuals, &aspects, &followed, repeatable_share);
+    let remarks = remark::remarks(&residuals, &spectra, &aspects, &followed, repeatable_share);
     Location {
         aspects,
         force_over_time,

@@ -1,43 +1,26 @@
 //! The misfit over frequency.
 //!
-//! The whitened residual's [`Periodogram`], whose expectation is 1 at every frequency where nothing but noise is left, summed
+//! The whitened residual's periodogram (see [`Spectra`]), whose expectation is 1 at every frequency where nothing but noise is left, summed
 //! over bands.
 
 use super::aspect::{Part, Sum, View};
 use super::grid::round_up;
-use super::residual::Residuals;
+use super::spectra::Spectra;
 use crate::locate::thresholds::NARROWEST;
 use rayon::prelude::*;
 use snug_campaign::words::number::without_last_digits;
-use snug_signal::Periodogram;
-use std::collections::BTreeMap;
 
 /// Bands that end at 1, 2, 5 times powers of ten, from the longest tightening's resolution to half the sampling rate.
-pub fn view(residuals: &Residuals<'_>) -> Option<View> {
-    let interval_s = |index: usize| residuals.all[index].seen.tightening.time_base.interval_s;
-    let every = 0..residuals.all.len();
-    let longest_s = every
-        .clone()
-        .map(|index| residuals.all[index].values.len() as f64 * interval_s(index))
-        .reduce(f64::max)?;
-    let highest_hz = every
-        .map(|index| 0.5 / interval_s(index))
+pub fn view(spectra: &Spectra<'_, '_>) -> Option<View> {
+    let all = &spectra.of_misfits;
+    let longest_s = all.iter().map(|one| one.length_s).reduce(f64::max)?;
+    let highest_hz = (all.iter())
+        .map(|one| 0.5 / one.recording.interval_s())
         .reduce(f64::max)?;
     let edges = edges_hz(NARROWEST / longest_s, highest_hz);
-    let mut periodograms: BTreeMap<usize, Periodogram> = BTreeMap::new();
-    for one in &residuals.all {
-        let length = one.values.len();
-        (periodograms.entry(length)).or_insert_with(|| Periodogram::of_length(length));
-    }
-    let sums = residuals
-        .all
+    let sums = all
         .par_iter()
-        .map(|one| {
-            let power = periodograms[&one.values.len()].power(&one.values);
-            let step_hz =
-                1.0 / (one.values.len() as f64 * one.seen.tightening.time_base.interval_s);
-            band_sums(&power, step_hz, &edges)
-        })
+        .map(|one| band_sums(&one.power, 1.0 / one.length_s, &edges))
         .collect();
     let parts = edges
         .windows(2)
@@ -81,6 +64,7 @@ fn band_sums(power: &[f64], step_hz: f64, edges: &[f64]) -> Vec<Sum> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use snug_signal::Periodogram;
     use std::f64::consts::PI;
 
     /// A whole number of cycles: its power lies in its band but for what the window's edges spread, n/2 · A² in total.

@@ -5,6 +5,7 @@
 
 use super::force_shape::Followed;
 use super::residual::Residuals;
+use super::spectra::Spectra;
 use super::tone::{Tone, tone};
 use crate::locate::thresholds::{
     FOLLOWS, HARDLY_REPEATS, MORE_THAN_DUE, MOST, MOSTLY_REPEATS, NEARLY_AS_WELL, QUIET, RESEMBLES,
@@ -15,6 +16,7 @@ use snug_campaign::{Aspect, Share};
 
 pub fn remarks(
     residuals: &Residuals<'_>,
+    spectra: &Spectra<'_, '_>,
     aspects: &[Aspect],
     followed: &Followed,
     repeatable_share: Option<f64>,
@@ -28,7 +30,7 @@ pub fn remarks(
         .filter_map(|aspect| match aspect.aspect.as_str() {
             "time_since_onset_s" => seen.time(&aspect.parts),
             "phase" => seen.phase(&aspect.parts),
-            "frequency_hz" => seen.tone().or_else(|| seen.frequency(&aspect.parts)),
+            "frequency_hz" => steady(spectra).or_else(|| seen.frequency(&aspect.parts)),
             "amplitude_rad" => seen.amplitude(&aspect.parts),
             _ => seen.condition(aspect),
         })
@@ -72,12 +74,6 @@ impl Seen<'_> {
             of_time: of_data(std::slice::from_ref(part), parts),
             error: self.times(part.error_over_noise),
         })
-    }
-
-    /// One steady tone says more than the band that it lies in.
-    fn tone(&self) -> Option<Remark> {
-        let Tone { hz, share } = tone(self.residuals)?;
-        Some(Remark::Tone { share, hz })
     }
 
     fn frequency(&self, parts: &[Share]) -> Option<Remark> {
@@ -130,6 +126,12 @@ impl Seen<'_> {
             part.share_of_excess >= WORTH && part.share_of_excess >= MORE_THAN_DUE * due && beyond;
         (parts.len() > 1 && stands_out).then_some(part)
     }
+}
+
+/// One steady tone says more than the band that it lies in.
+fn steady(spectra: &Spectra<'_, '_>) -> Option<Remark> {
+    let Tone { hz, share } = tone(spectra)?;
+    Some(Remark::Tone { share, hz })
 }
 
 /// What the missing force follows, where one shape explains most of it; with others that do so nearly as well.

@@ -17,7 +17,12 @@ impl White<'_> {
     /// Time of sample `index` since the onset \[s\] (since the window's start where there is none).
     pub fn time_s(&self, index: usize) -> f64 {
         let onset = self.seen.tightening.onset.unwrap_or(0) as f64;
-        (index as f64 - onset) * self.seen.tightening.time_base.interval_s
+        (index as f64 - onset) * self.interval_s()
+    }
+
+    /// Time from sample to sample \[s\].
+    pub fn interval_s(&self) -> f64 {
+        self.seen.tightening.time_base.interval_s
     }
 
     /// Sample indices that `values` belong to.

@@ -1,12 +1,15 @@
 //! A misfit that is one steady tone, and others that are none.
 
-use super::{campaign, locate, seen};
+use super::{Made, campaign, locate, seen};
 use snug_campaign::words::remark::Remark;
 use std::f64::consts::TAU;
 
 fn tone(misfit: impl Fn(u32, f64) -> f64) -> Option<(f64, f64)> {
-    let made = campaign(6, 1, misfit);
-    let remarks = locate(&seen(&made), 1).remarks;
+    told(&campaign(6, 1, misfit))
+}
+
+fn told(made: &[Made]) -> Option<(f64, f64)> {
+    let remarks = locate(&seen(made), 1).remarks;
     remarks.into_iter().find_map(|remark| match remark {
         Remark::Tone { hz, share } => Some((hz, share)),
         _ => None,
@@ -33,4 +36,27 @@ fn what_rings_or_wavers_is_no_hum() {
     assert_eq!(tone(wavers), None);
     assert_eq!(tone(two), None);
     assert_eq!(tone(|_, _| 0.0), None);
+}
+
+/// A short recording that is sampled too slowly for the tone says nothing of it, and takes nothing from it.
+#[test]
+fn the_tone_is_told_beside_a_recording_that_cannot_show_it() {
+    let hum = |number: u32, t: f64| 3.0 * (TAU * 403.7 * t + 1.7 * f64::from(number)).sin();
+    let mut made = campaign(6, 1, hum);
+    let slow = &mut made[0];
+    slow.tightening.time_base.interval_s = 2e-3;
+    slow.tightening.torque_nm.truncate(100);
+    slow.tightening.onset = None;
+    for motion in [&mut slow.tightening.motion, &mut slow.simulated] {
+        let quantities = [
+            &mut motion.displacement_rad,
+            &mut motion.velocity_rad_per_s,
+            &mut motion.acceleration_rad_per_s2,
+        ];
+        for values in quantities.into_iter().flatten() {
+            values.truncate(100);
+        }
+    }
+    let (hz, _) = told(&made).expect("a tone");
+    assert!((hz - 403.7).abs() < 0.3, "{hz}");
 }
