@@ -121,6 +121,9 @@ written_as_said!(Remark);
 const SPREAD_OUT: &str =
     "Nothing stands out: the misfit is spread over time, frequency and conditions.";
 
+/// Share by which a tone of the mains may be off its frequency \[–\]: grids keep within 0.4 %. Chosen.
+const OFF_THE_MAINS: f64 = 0.005;
+
 impl Remark {
     /// The same where displacements are shown in these units.
     pub fn told_in(self, units: &SignalUnits) -> Self {
@@ -260,12 +263,23 @@ fn frequency(
 }
 
 fn tone(f: &mut Formatter<'_>, share: f64, hz: f64) -> fmt::Result {
+    let (tone, share) = (significant(hz, 4), whole_percent(share));
     write!(
         f,
-        "One tone of {} Hz, alike all the time and not in the input, is {} of the misfit: no answer of the rig. Look for what hums or turns so fast: the mains (50 or 60 Hz and multiples) in the sensor's cable, a fan, a pump, a converter.",
-        significant(hz, 4),
-        whole_percent(share)
-    )
+        "One tone of {tone} Hz, alike all the time and not in the input, is {share} of the misfit: no answer of the rig. "
+    )?;
+    match is_of_the_mains(hz) {
+        true => f.write_str("Look at the mains in the sensor's cable first, then for what hums or turns so fast: a fan, a pump, a converter."),
+        false => f.write_str("Look for what hums, turns or sways so fast, at the rig, at what it stands on or in the sensor."),
+    }
+}
+
+/// Whether a frequency is the mains' or one of its first ten multiples, as near as mains keep it.
+fn is_of_the_mains(hz: f64) -> bool {
+    [50.0, 60.0].into_iter().any(|mains| {
+        let multiple = (hz / mains).round();
+        (1.0..=10.0).contains(&multiple) && (hz / (multiple * mains) - 1.0).abs() < OFF_THE_MAINS
+    })
 }
 
 fn condition_name(condition: &str) -> &'static str {
@@ -352,5 +366,22 @@ mod tests {
             spaces(&grows.told_in(&slide)),
             "The misfit grows with the displacement: 1.5 times the noise below 0.0100 m, 4.0 times the noise above 0.0500 m."
         );
+    }
+    #[test]
+    fn only_what_is_near_a_multiple_of_the_mains_is_called_theirs() {
+        for (hz, is_theirs) in [
+            (50.02, true),
+            (59.9, true),
+            (100.3, true),
+            (360.0, true),
+            (0.31, false),
+            (25.0, false),
+            (55.0, false),
+            (403.7, false),
+            (650.0, false),
+        ] {
+            let said = Remark::Tone { share: 0.9, hz }.to_string();
+            assert_eq!(said.contains("the mains"), is_theirs, "{said}");
+        }
     }
 }
