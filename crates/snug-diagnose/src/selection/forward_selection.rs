@@ -20,15 +20,17 @@ enum Reached {
 }
 
 impl ModelSelection<'_> {
-    /// Adds to the study's own effects, begun with those `from` which the way is known to lead that are supported beside those before or take
-    /// much, as far as the data justify, or until whoever watches ends it.
+    /// Adds to the study's own effects, begun with those others `from` which the way is known to lead that are supported beside those before or
+    /// take much, as far as the data justify, or until whoever watches ends it.
     pub fn improve(
         &self,
         from: &[Begun],
         mut path: SelectionPath,
     ) -> Result<SelectionPath, DiagnoseError> {
         let least = SMALL * path.rungs[0].squares();
-        let put_in = self.put_in(from, &mut path, |candidate, falls| {
+        let others = from.iter().filter(|one| !self.own.contains(&one.effect));
+        let others: Vec<Begun> = others.cloned().collect();
+        let put_in = self.put_in(&others, &mut path, |candidate, falls| {
             candidate.is_supported(self.settings) || falls > least
         });
         let ended = put_in.and_then(|()| self.add_justified(&mut path));
@@ -104,7 +106,7 @@ mod tests {
     use crate::data::watch::Watch;
     use crate::pooled::sharing::Sharing;
     use crate::question::Until;
-    use crate::tests::made_up::{WHOLE, close, noisy, quick};
+    use crate::tests::made_up::{WHOLE, close, noisy, quick, with_selection};
     use snug_identify::FitTask;
     use snug_model::Effect::{self, CubicStiffness};
     use std::sync::atomic::{AtomicBool, Ordering};
@@ -179,6 +181,26 @@ mod tests {
             assert_eq!(path.ranking.candidates.is_empty(), is_enough);
             assert_eq!(path.stopped.is_none(), is_enough);
         }
+    }
+
+    /// As a search is taken up again that began with it.
+    #[test]
+    fn a_way_that_begins_with_the_studys_own_effect_does_not_add_it_again() {
+        let cases: Vec<FitTask> = (0..8)
+            .map(|number| noisy(number, &[CubicStiffness], &[2e6]))
+            .collect();
+        with_selection(&cases, &quick(999), |selection| {
+            let own = [CubicStiffness];
+            let selection = ModelSelection {
+                own: &own,
+                ..*selection
+            };
+            let path = selection.compare().expect("it can be fitted");
+            let path = selection.improve(&own.map(Begun::as_usual), path);
+            let path = path.expect("it goes on");
+            assert_eq!(path.last().effects, own);
+            assert!(path.additions.is_empty());
+        });
     }
 
     /// The second ranking is that beside the first addition: it is not made any more.
