@@ -115,7 +115,7 @@ pub(crate) fn is_worth_it(
         return Ok(true);
     }
     let rest = with_no_stand_in(last, cases)?;
-    let straight = with_settled(&rest, cases.iter().map(FitTask::lent).collect())?;
+    let straight = of_model(&rest, cases)?;
     let (_, held) = held(&rest, cases)?;
     let least = match stand_ins(diagnosis).next() {
         Some(_) => 1.0,
@@ -128,7 +128,7 @@ pub(crate) fn is_worth_it(
 /// any effect that does what a hold does may have been found, not only a delay.
 fn needs_nothing(study: &Study, last: &Study, cases: &[FitTask<'_>]) -> Result<bool, StudyError> {
     let (_, held) = held(study, cases)?;
-    let last = with_settled(last, cases.iter().map(FitTask::lent).collect())?;
+    let last = of_model(last, cases)?;
     Ok(
         leaves_less(&held, cases, SOMEWHAT_LESS)
             && leaves_less(&held, &last, AS_LITTLE * AS_LITTLE),
@@ -142,7 +142,8 @@ pub(crate) fn is_a_hold(
     study: &Study,
     cases: &[FitTask<'_>],
 ) -> Result<bool, StudyError> {
-    let Some(first) = cases.first() else {
+    let has_delay = rung.effects.iter().any(|name| name == DELAY);
+    let Some(first) = cases.first().filter(|_| has_delay) else {
         return Ok(false);
     };
     let interval_s = first.tightening.time_base.interval_s;
@@ -152,7 +153,7 @@ pub(crate) fn is_a_hold(
         return Ok(false);
     }
     let (_, held) = held(&with_no_stand_in(study, cases)?, cases)?;
-    let straight = with_settled(study, cases.iter().map(FitTask::lent).collect())?;
+    let straight = of_model(study, cases)?;
     Ok(leaves_less(&held, &straight, 1.0))
 }
 
@@ -214,6 +215,11 @@ fn squares_left(cases: &[FitTask<'_>]) -> Option<f64> {
         squares += case.squares_left(&case.model, &values).ok()?;
     }
     Some(squares)
+}
+
+/// The recordings with the model of `study`.
+fn of_model<'a>(study: &Study, cases: &'a [FitTask<'_>]) -> Result<Vec<FitTask<'a>>, StudyError> {
+    with_settled(study, cases.iter().map(FitTask::lent).collect())
 }
 
 /// The study and its recordings with a held input.
