@@ -107,14 +107,14 @@ impl<'a> Until<'a> {
         }
     }
 
-    /// Whether one was reached.
+    /// Whether the last that was asked about is enough.
     pub fn is_reached(&self) -> bool {
         self.is_reached.load(Ordering::Relaxed)
     }
 
     pub(crate) fn is_reached_by(&self, model: &RungModel) -> bool {
         let is_enough = (self.is_enough)(model);
-        self.is_reached.fetch_or(is_enough, Ordering::Relaxed);
+        self.is_reached.store(is_enough, Ordering::Relaxed);
         is_enough
     }
 }

@@ -10,15 +10,6 @@ use crate::selection::model_selection::{ModelSelection, Step};
 use crate::selection::path::{SelectionPath, Stop, justified};
 use crate::selection::thresholds::{MOST_EFFECTS, SMALL};
 
-/// How far a way led.
-#[derive(PartialEq)]
-enum Reached {
-    /// To all that the data justify.
-    All,
-    /// To a model beside which nothing more is asked for.
-    Enough,
-}
-
 impl ModelSelection<'_> {
     /// Adds to the study's own effects, begun with those others `from` which the way is known to lead that are supported beside those before or
     /// take much, as far as the data justify, or until whoever watches ends it.
@@ -39,18 +30,27 @@ impl ModelSelection<'_> {
 
     /// Rung by rung; `path` holds those that were reached also where this fails.
     fn add_justified(&self, path: &mut SelectionPath) -> Result<(), DiagnoseError> {
-        if self.go_on(path)? == Reached::Enough {
-            return Ok(());
-        }
+        self.go_on(path)?;
         let Some((place, law)) = self.one_law(path)? else {
             return Ok(());
         };
         path.go_back_to(place);
         self.go_up(path, vec![law])?;
-        self.go_on(path).map(|_| ())
+        match self.is_enough(path) {
+            true => Ok(()),
+            false => self.go_on(path),
+        }
     }
 
-    fn go_on(&self, path: &mut SelectionPath) -> Result<Reached, DiagnoseError> {
+    /// Whether beside the last model nothing more is asked for.
+    fn is_enough(&self, path: &SelectionPath) -> bool {
+        let model = || RungModel::of(&self.cases, path.last());
+        self.until
+            .is_some_and(|until| until.is_reached_by(&model()))
+    }
+
+    /// To all that the data justify, or to a model beside which nothing more is asked for.
+    fn go_on(&self, path: &mut SelectionPath) -> Result<(), DiagnoseError> {
         loop {
             self.rank_last(path)?;
             if path.additions.len() >= MOST_EFFECTS {
@@ -78,16 +78,17 @@ impl ModelSelection<'_> {
             let room = MOST_EFFECTS - path.additions.len();
             let steps = self.choose(path.last(), &path.ranking, best, room)?;
             self.go_up(path, steps)?;
-            if let Some(until) = self.until
-                && until.is_reached_by(&RungModel::of(&self.cases, path.last()))
-            {
-                return Ok(Reached::Enough);
+            if let Some((place, law)) = self.plainly_one_law(path)? {
+                path.go_back_to(place);
+                self.go_up(path, vec![law])?;
+            }
+            if self.is_enough(path) {
+                return Ok(());
             }
         }
         try_removals(self, path)?;
         prefer_simpler(self, path)?;
-        look_at_twins_again(self, path)?;
-        Ok(Reached::All)
+        look_at_twins_again(self, path)
     }
 
     fn go_up(&self, path: &mut SelectionPath, steps: Vec<Step>) -> Result<(), DiagnoseError> {
