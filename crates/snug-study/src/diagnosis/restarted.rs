@@ -122,13 +122,11 @@ impl Restarted<'_> {
         let (free, (answer, held, is_better, is_all)) =
             in_short_enough_steps(free, search.progress, |free| {
                 let cases = with_settled(free, recorded())?;
+                // It declares the laws that are in no catalogue.
+                let last = with_last_rung(free, found);
                 let question = Question {
                     goal: match follows {
-                        // It declares the laws that are in no catalogue.
-                        true => {
-                            let last = with_last_rung(free, found);
-                            Goal::ImproveFrom(begun(effects(&last, &names, &cases)?, found))
-                        }
+                        true => Goal::ImproveFrom(begun(effects(&last, &names, &cases)?, found)),
                         false => Goal::Improve,
                     },
                     cases: &cases,
@@ -136,7 +134,7 @@ impl Restarted<'_> {
                 };
                 let (answer, held) = with_those.answer(free, &question)?;
                 let then = match &held {
-                    Some(_) => with_found(free, &answer, held_input::held(free, &cases)?.1)?,
+                    Some(held) => with_found(held, &answer, held_input::held(held, &cases)?.1)?,
                     None => with_found(free, &answer, recorded())?,
                 };
                 let left = missed(&then);

@@ -1,6 +1,7 @@
 //! A question answered as a study asks it: with a held input where that is the likelier story.
 
 use super::rung_study::{begun, effects, with_last_rung, with_rung};
+use super::shorter_steps::in_short_enough_steps;
 use super::verb::Verb;
 use crate::error::StudyError;
 use crate::progress::ProgressEvent;
@@ -45,8 +46,8 @@ impl Search<'_> {
     ) -> Result<(Answer, Option<Study>), StudyError> {
         let cases = question.cases;
         let is_open = *self.verb == Verb::Improve && held_input::is_open(study, cases);
-        if is_open && let Some((held, study)) = self.held_at_once(study, question)? {
-            return Ok((held, Some(study)));
+        if is_open && let Some(held) = self.held_at_once(study, question)? {
+            return Ok(held);
         }
         // What comes in after a hold that is told as a delay is looked for with the hold.
         let is_a_hold = |rung: &RungModel| {
@@ -109,7 +110,7 @@ impl Search<'_> {
         Ok((straight, None))
     }
 
-    /// What a search with a held input finds beside the rest of `straight`, whose delay is a hold.
+    /// What a search with a held input finds beside the rest of `straight`, whose delay is a hold: known also where it takes shorter steps.
     fn held_from_there(
         &self,
         study: &Study,
@@ -117,15 +118,38 @@ impl Search<'_> {
         straight: Answer,
     ) -> Result<(Answer, Option<Study>), StudyError> {
         self.tell(HELD);
-        let (held_study, cases) = held_input::held(study, question.cases)?;
-        let goal = rest_of(&held_study, &cases, &straight)?;
-        let mut held = self.examined(&Question {
-            cases: &cases,
-            goal: goal.unwrap_or_else(|| question.goal.clone()),
-            ..question.clone()
-        })?;
+        let (_, (held_study, mut held)) =
+            in_short_enough_steps(study.clone(), self.progress, |study| {
+                let (held_study, cases) = held_input::held(study, question.cases)?;
+                let goal = rest_of(&held_study, &cases, &straight)?;
+                let held = self.examined(&Question {
+                    cases: &cases,
+                    goal: goal.unwrap_or_else(|| question.goal.clone()),
+                    ..question.clone()
+                })?;
+                Ok((held_study, held))
+            })?;
         let reason = held_input::spares_stand_ins(&straight.diagnosis);
         held.diagnosis.reasons.push(reason);
+        Ok((held, Some(held_study)))
+    }
+
+    /// What a search with a held input finds.
+    fn held(
+        &self,
+        study: &Study,
+        question: &Question<'_>,
+    ) -> Result<(Answer, Option<Study>), StudyError> {
+        self.tell(HELD);
+        let (held_study, cases) = held_input::held(study, question.cases)?;
+        let mut held = self.examined(&Question {
+            cases: &cases,
+            ..question.clone()
+        })?;
+        held.diagnosis.reasons.push(Reason::Held {
+            spared: Vec::new(),
+            is_half_an_interval: false,
+        });
         Ok((held, Some(held_study)))
     }
 
@@ -164,11 +188,11 @@ impl Search<'_> {
         &self,
         study: &Study,
         question: &Question<'_>,
-    ) -> Result<Option<(Answer, Study)>, StudyError> {
+    ) -> Result<Option<(Answer, Option<Study>)>, StudyError> {
         if !held_input::is_likely(study, question.cases)? {
             return Ok(None);
         }
-        let (held_study, held_cases) = held_input::held(study, question.cases)?;
+        let (_, held_cases) = held_input::held(study, question.cases)?;
         let asked = |cases, goal| Question {
             cases,
             goal,
@@ -186,12 +210,7 @@ impl Search<'_> {
         if straight.interrupted || !held_input::leaves_far_less(&held, &straight) {
             return Ok(None);
         }
-        let mut answer = self.examined(&asked(&held_cases, question.goal.clone()))?;
-        answer.diagnosis.reasons.push(Reason::Held {
-            spared: Vec::new(),
-            is_half_an_interval: false,
-        });
-        Ok(Some((answer, held_study)))
+        self.held(study, question).map(Some)
     }
 
     fn tell(&self, what: &str) {
@@ -223,8 +242,10 @@ fn rest_of(
     };
     let interval_s = first.tightening.time_base.interval_s;
     let rest = held_input::without_stand_ins(&straight.diagnosis, interval_s);
+    // It declares the laws that are in no catalogue.
+    let last = with_last_rung(study, straight);
     let rest = rest
-        .map(|names| effects(study, &names, cases))
+        .map(|names| effects(&last, &names, cases))
         .transpose()?;
     Ok(rest.map(|rest| Goal::ImproveFrom(begun(rest, straight))))
 }

@@ -149,7 +149,7 @@ pub(crate) fn is_a_hold(
     let interval_s = first.tightening.time_base.interval_s;
     let mut delays = rung.parameters.iter().filter(|one| one.name == DELAY_SIZE);
     let is_late = delays.any(|delay| is_half_an_interval(delay, interval_s));
-    if !is_late || !rung.declarations.is_empty() {
+    if !is_late {
         return Ok(false);
     }
     let (_, held) = held(&with_no_stand_in(study, cases)?, cases)?;
@@ -288,15 +288,14 @@ fn is_ahead(held: &Diagnosis, straight: &Diagnosis) -> bool {
 }
 
 /// The effects of a model that takes half a sampling interval for a delay, without those that stand in for it; `None` where it takes none
-/// or has nothing else, or a law that is in no catalogue.
+/// or has nothing else.
 pub(crate) fn without_stand_ins(straight: &Diagnosis, interval_s: f64) -> Option<Vec<String>> {
-    let is_listed = straight.added.iter().all(|one| one.expression.is_none());
     let added = straight.added.iter().map(|added| added.effect.as_str());
     let rest: Vec<String> = added
         .filter(|effect| !STAND_INS.contains(effect))
         .map(str::to_owned)
         .collect();
-    let is_late = is_listed && is_half_an_interval_late(straight, interval_s);
+    let is_late = is_half_an_interval_late(straight, interval_s);
     (is_late && !rest.is_empty()).then_some(rest)
 }
 
