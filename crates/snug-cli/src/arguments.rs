@@ -56,7 +56,7 @@ pub struct RunOptions {
     /// Folder for the results; made if it is not there.
     #[arg(long, value_name = "DIR", default_value = "out")]
     pub out: PathBuf,
-    /// Ends after so many seconds with the best answer so far, which says that it is one.
+    /// Ends after so many seconds with the best answer so far, which says that it is one; without it `improve` looks for effects for 240.
     #[arg(long, value_name = "S", value_parser = seconds)]
     pub time: Option<Duration>,
     /// Waits for another run that writes into the same folder.

@@ -6,6 +6,11 @@ use crate::error::CliError;
 use crate::front::Front;
 use snug_study::{Outcome, Study, StudyError, Verb};
 use std::process::ExitCode;
+use std::time::Duration;
+
+/// How long `improve` looks for effects where nobody says how long. Chosen: with what is looked at afterwards less than five minutes; most
+/// rigs take one or two.
+const LONGEST_SEARCH: Duration = Duration::from_secs(240);
 
 /// Model against measurement: `compare`, `diagnose`.
 pub fn diagnose(options: &RunOptions, front: &Front, verb: &Verb) -> ExitCode {
@@ -59,13 +64,20 @@ fn evaluate(
     again: &str,
     write: bool,
 ) -> ExitCode {
-    carry_out(options, again, |settings, progress, interrupted| {
-        let outcome = snug_study::diagnose(study, verb, settings, progress, interrupted)?;
-        if write {
-            write_back(options, &outcome)?;
-        }
-        Ok(outcome)
-    })
+    let longest = (*verb == Verb::Improve).then_some(LONGEST_SEARCH);
+    let longest = options.time.or(longest);
+    carry_out(
+        options,
+        longest,
+        again,
+        |settings, progress, interrupted| {
+            let outcome = snug_study::diagnose(study, verb, settings, progress, interrupted)?;
+            if write {
+                write_back(options, &outcome)?;
+            }
+            Ok(outcome)
+        },
+    )
 }
 
 /// A study file gets a model that is complete, or none.

@@ -12,6 +12,7 @@ use snug_study::{Outcome, Preset, ProgressEvent, RunSettings, Study, StudyError}
 use std::path::Path;
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
 
 /// From recordings to report and MCAP.
 pub fn run(options: &RunOptions, front: &Front) -> ExitCode {
@@ -19,17 +20,21 @@ pub fn run(options: &RunOptions, front: &Front) -> ExitCode {
         Ok(study) => study,
         Err(error) => return refused(&error),
     };
-    carry_out(options, "", |settings, progress, interrupted| {
-        snug_study::run(&study, settings, progress, interrupted)
-    })
+    carry_out(
+        options,
+        options.time,
+        "",
+        |settings, progress, interrupted| snug_study::run(&study, settings, progress, interrupted),
+    )
 }
 
 /// How a verb hears of progress.
 type Tell<'a> = &'a (dyn Fn(ProgressEvent<'_>) + Sync);
 
-/// Does the work with progress, stops it politely on a signal, prints the summary and chooses the exit code.
+/// Does the work with progress, stops it politely on a signal and after the `longest` time, prints the summary and chooses the exit code.
 pub fn carry_out(
     options: &RunOptions,
+    longest: Option<Duration>,
     next: &str,
     work: impl FnOnce(&RunSettings, Tell<'_>, &AtomicBool) -> Result<Outcome, StudyError>,
 ) -> ExitCode {
@@ -40,7 +45,7 @@ pub fn carry_out(
         ..RunSettings::new(&options.out)
     };
     let interrupted = signals::interruption();
-    let is_up = (options.time).map(|time| signals::after(time, &interrupted));
+    let is_up = longest.map(|time| signals::after(time, &interrupted));
     let is_up = || {
         is_up
             .as_ref()
@@ -55,10 +60,17 @@ pub fn carry_out(
             if outcome.nothing_identified().is_some() {
                 hint(options);
             }
-            match options.quiet {
-                true => code,
-                false => terminal::say(&told(&outcome, options, next), code),
+            if options.quiet {
+                return code;
             }
+            let code = terminal::say(&told(&outcome, options, next), code);
+            if let (true, Some(longest), None) = (is_up(), longest, options.time) {
+                complain(&format!(
+                    "ended after {} s, as a search does that is not told how long: --time 1800 gives it half an hour",
+                    longest.as_secs()
+                ));
+            }
+            code
         }
         Err(error) if error.is_interruption() && is_up() => {
             complain("the time was up before anything was found: allow more by --time");
