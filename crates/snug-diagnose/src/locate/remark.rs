@@ -130,8 +130,15 @@ impl Seen<'_> {
 
 /// One steady tone says more than the band that it lies in.
 fn steady(spectra: &Spectra<'_, '_>) -> Option<Remark> {
-    let Tone { hz, share } = tone(spectra)?;
-    Some(Remark::Tone { share, hz })
+    let Tone {
+        hz,
+        share,
+        in_input,
+    } = tone(spectra)?;
+    Some(match in_input {
+        true => Remark::PickedUp { share, hz },
+        false => Remark::Tone { share, hz },
+    })
 }
 
 /// What the missing force follows, where one shape explains most of it; with others that do so nearly as well.

@@ -81,3 +81,5 @@ pub(crate) const AS_LOUD: f64 = 0.25;
 pub(crate) const SURROUNDINGS: usize = 20;
 /// Power over the median about it from which a line of the input stands out \[–\]: of three lines of chance one does in one case of 300. Chosen.
 pub(crate) const OUTSTANDING: f64 = 10.0;
+/// Share of the input's power up to which a line does not drive the rig \[–\]: of a hundred lines of a multisine each has as much. Chosen.
+pub(crate) const FAINT: f64 = 0.01;

@@ -1,14 +1,15 @@
 //! A misfit that is one steady tone: hum of the mains, a fan, a pump.
 //!
 //! P(f) of the residual is summed over the recordings, each on its own lines (see [`Spectra`]). A tone lies within two lines of one
-//! frequency, is as loud in every quarter of every recording, and has no line in the input: what rings after each push, or answers a sine
-//! that drives the rig, is none. Recordings that are sampled too slowly for it have no say.
+//! frequency, is as loud in every quarter of every recording, and has no line in the input, or a faint one of the mains: what rings after
+//! each push, or answers a sine that drives the rig, is none. Recordings that are sampled too slowly for it have no say.
 
 use super::residual::White;
 use super::spectra::{Spectra, Spectrum};
 use crate::locate::thresholds::{
-    AS_LOUD, FEWEST_CYCLES, LINES, MOST, OUTSTANDING, QUARTERS, SURROUNDINGS,
+    AS_LOUD, FAINT, FEWEST_CYCLES, LINES, MOST, OUTSTANDING, QUARTERS, SURROUNDINGS,
 };
+use snug_campaign::words::remark::is_of_the_mains;
 use snug_signal::Complex;
 use snug_statistics::descriptive::{mean, standard_deviation};
 use std::f64::consts::TAU;
@@ -20,6 +21,8 @@ pub struct Tone {
     pub hz: f64,
     /// Share of the misfit \[–\].
     pub share: f64,
+    /// Whether the input has a faint one, too.
+    pub in_input: bool,
 }
 
 /// The tone that holds most of the misfit, if one does.
@@ -33,15 +36,25 @@ pub fn tone(spectra: &Spectra<'_, '_>) -> Option<Tone> {
     let share = near / whole;
     let is_narrow = hz * longest.length_s >= FEWEST_CYCLES && share >= MOST;
     let has_it: Vec<&Spectrum> = all.iter().filter(|one| one.shows(hz)).collect();
-    let is_driven = || {
-        let mut recordings = has_it.iter();
-        recordings.any(|one| stands_out(&spectra.of_input(one.recording), one.line(hz)))
+    let part_of_input = || {
+        let parts = (has_it.iter()).map(|one| part(&spectra.of_input(one.recording), one.line(hz)));
+        parts.fold(0.0, f64::max)
     };
     let is_steady = || {
         let loudness = has_it.iter().flat_map(|one| quarters(one.recording, hz));
         is_as_loud(&loudness.collect::<Vec<_>>())
     };
-    (is_narrow && !is_driven() && is_steady()).then_some(Tone { hz, share })
+    if !is_narrow || !is_steady() {
+        return None;
+    }
+    let part = part_of_input();
+    let in_input = part > 0.0;
+    let is_picked_up = part <= FAINT && is_of_the_mains(hz);
+    (!in_input || is_picked_up).then_some(Tone {
+        hz,
+        share,
+        in_input,
+    })
 }
 
 impl Spectrum<'_, '_> {
@@ -76,13 +89,18 @@ fn about(line: usize, lines: usize, power: &[f64]) -> Range<usize> {
     line.saturating_sub(lines)..(line + lines + 1).min(power.len())
 }
 
-/// Whether a line of `power` stands out of those about it.
-fn stands_out(power: &[f64], line: usize) -> bool {
+/// Share of `power` near a line that stands out of those about it; 0 where it does not.
+fn part(power: &[f64], line: usize) -> f64 {
     let mut surroundings = power[about(line, SURROUNDINGS, power)].to_vec();
     surroundings.sort_unstable_by(f64::total_cmp);
     let usual = surroundings[surroundings.len() / 2];
     let here = power[about(line, 1, power)].iter();
-    here.copied().fold(0.0, f64::max) > OUTSTANDING * usual
+    let stands_out = here.copied().fold(0.0, f64::max) > OUTSTANDING * usual;
+    let sum = |lines: &[f64]| lines.iter().sum::<f64>();
+    match stands_out {
+        true => sum(&power[about(line, LINES, power)]) / sum(power),
+        false => 0.0,
+    }
 }
 
 /// How loud a frequency is in the quarters of a recording: |Σ w e^{−2πi f t}| over each.

@@ -70,6 +70,13 @@ pub enum Remark {
         /// Its frequency \[Hz\].
         hz: f64,
     },
+    /// One steady tone of the mains holds most of the misfit, and the input has a faint one, too.
+    PickedUp {
+        /// Share of the misfit.
+        share: f64,
+        /// Its frequency \[Hz\].
+        hz: f64,
+    },
     /// The error differs between small and large displacements.
     Amplitude {
         /// Whether it grows with the displacement.
@@ -176,6 +183,7 @@ impl Display for Remark {
                 quiet_from_hz,
             } => frequency(f, *share, (*from_hz, *to_hz), *quiet_from_hz),
             Self::Tone { share, hz } => tone(f, *share, *hz),
+            Self::PickedUp { share, hz } => picked_up(f, *share, *hz),
             Self::Amplitude {
                 grows,
                 small,
@@ -262,6 +270,15 @@ fn frequency(
     }
 }
 
+fn picked_up(f: &mut Formatter<'_>, share: f64, hz: f64) -> fmt::Result {
+    write!(
+        f,
+        "One tone of {} Hz, alike all the time, is {} of the misfit, and a faint one is in the input, too: where nobody drives the rig with it, the mains get into the cables of both, and an effect that explains it explains no answer of the rig. Look at both cables first.",
+        significant(hz, 4),
+        whole_percent(share)
+    )
+}
+
 fn tone(f: &mut Formatter<'_>, share: f64, hz: f64) -> fmt::Result {
     let (tone, share) = (significant(hz, 4), whole_percent(share));
     write!(
@@ -274,8 +291,8 @@ fn tone(f: &mut Formatter<'_>, share: f64, hz: f64) -> fmt::Result {
     }
 }
 
-/// Whether a frequency is the mains' or one of its first ten multiples, as near as mains keep it.
-fn is_of_the_mains(hz: f64) -> bool {
+/// Whether a frequency \[Hz\] is the mains' or one of its first ten multiples, as near as mains keep it.
+pub fn is_of_the_mains(hz: f64) -> bool {
     [50.0, 60.0].into_iter().any(|mains| {
         let multiple = (hz / mains).round();
         (1.0..=10.0).contains(&multiple) && (hz / (multiple * mains) - 1.0).abs() < OFF_THE_MAINS
@@ -383,5 +400,8 @@ mod tests {
             let said = Remark::Tone { share: 0.9, hz }.to_string();
             assert_eq!(said.contains("the mains"), is_theirs, "{said}");
         }
+        let (share, hz) = (0.9, 50.02);
+        let said = Remark::PickedUp { share, hz };
+        assert!(said.to_string().contains("the cables of both"), "{said}");
     }
 }

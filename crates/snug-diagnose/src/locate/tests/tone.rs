@@ -16,6 +16,25 @@ fn told(made: &[Made]) -> Option<(f64, f64)> {
     })
 }
 
+/// Whether the input is said to have the tone, where one is told that the torque has this much of \[Nm\], too.
+fn is_in_input(hz: f64, torque_nm: f64) -> Option<bool> {
+    let sine = |t: f64| (TAU * hz * t).sin();
+    let mut made = campaign(6, 1, |_, t| 3.0 * sine(t));
+    for one in &mut made {
+        let tightening = &mut one.tightening;
+        let interval_s = tightening.time_base.interval_s;
+        for (index, torque) in tightening.torque_nm.iter_mut().enumerate() {
+            *torque += torque_nm * sine(index as f64 * interval_s);
+        }
+    }
+    let remarks = locate(&seen(&made), 1).remarks;
+    remarks.into_iter().find_map(|remark| match remark {
+        Remark::Tone { .. } => Some(false),
+        Remark::PickedUp { .. } => Some(true),
+        _ => None,
+    })
+}
+
 /// 3 rad/s² of another phase in each tightening beside noise of 0.5 rad/s², of which nothing is above half the sampling rate.
 #[test]
 fn a_hum_is_told_with_its_frequency() {
@@ -36,6 +55,15 @@ fn what_rings_or_wavers_is_no_hum() {
     assert_eq!(tone(wavers), None);
     assert_eq!(tone(two), None);
     assert_eq!(tone(|_, _| 0.0), None);
+}
+
+/// Mains in the cables of both, unless the tone is loud enough to drive the rig, or none of the mains.
+#[test]
+fn a_faint_tone_of_the_mains_in_the_input_drives_no_rig() {
+    assert_eq!(is_in_input(400.1, 0.0), Some(false));
+    assert_eq!(is_in_input(400.1, 0.1), Some(true));
+    assert_eq!(is_in_input(400.1, 10.0), None);
+    assert_eq!(is_in_input(403.7, 0.1), None);
 }
 
 /// A short recording that is sampled too slowly for the tone says nothing of it, and takes nothing from it.
