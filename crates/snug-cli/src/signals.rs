@@ -17,12 +17,21 @@ pub fn interruption() -> Arc<AtomicBool> {
     interrupted
 }
 
-/// Interrupts as the first signal does once `time` has passed; becomes true where it was that which did.
-pub fn after(time: Duration, interrupted: &Arc<AtomicBool>) -> Arc<AtomicBool> {
+/// Interrupts as the first signal does once `time` has passed, unless what it limits `is_over` by then; becomes true where it was that which
+/// did.
+pub fn after(
+    time: Duration,
+    interrupted: &Arc<AtomicBool>,
+    is_over: &Arc<AtomicBool>,
+) -> Arc<AtomicBool> {
     let is_up = Arc::new(AtomicBool::new(false));
     let (interrupted, told) = (Arc::clone(interrupted), Arc::clone(&is_up));
+    let is_over = Arc::clone(is_over);
     std::thread::spawn(move || {
         std::thread::sleep(time);
+        if is_over.load(Ordering::Relaxed) {
+            return;
+        }
         let was_ended = interrupted.swap(true, Ordering::Relaxed);
         told.store(!was_ended, Ordering::Relaxed);
     });
@@ -73,4 +82,27 @@ fn stop(interrupted: &AtomicBool) {
         std::process::exit(exit::INTERRUPTED.into());
     }
     complain("stopping after what is at hand; once more stops at once");
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Whether work that is over, or not, by the time is interrupted, and whether that was for the time.
+    fn interrupts(is_over: bool) -> (bool, bool) {
+        let interrupted = Arc::new(AtomicBool::new(false));
+        let time = Duration::from_millis(1);
+        let is_up = after(time, &interrupted, &Arc::new(AtomicBool::new(is_over)));
+        std::thread::sleep(Duration::from_millis(200));
+        (
+            interrupted.load(Ordering::Relaxed),
+            is_up.load(Ordering::Relaxed),
+        )
+    }
+
+    #[test]
+    fn a_limit_interrupts_what_it_limits_and_not_what_comes_after() {
+        assert_eq!(interrupts(false), (true, true));
+        assert_eq!(interrupts(true), (false, false));
+    }
 }

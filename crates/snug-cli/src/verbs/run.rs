@@ -11,6 +11,7 @@ use snug_campaign::words::program::program;
 use snug_study::{Outcome, Preset, ProgressEvent, RunSettings, Study, StudyError};
 use std::path::Path;
 use std::process::ExitCode;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
@@ -45,14 +46,21 @@ pub fn carry_out(
         ..RunSettings::new(&options.out)
     };
     let interrupted = signals::interruption();
-    let is_up = longest.map(|time| signals::after(time, &interrupted));
+    // A limit that nobody asked for is one of the search: what is evaluated afterwards is evaluated whole.
+    let is_over = Arc::new(AtomicBool::new(false));
+    let is_up = longest.map(|time| signals::after(time, &interrupted, &is_over));
     let is_up = || {
         is_up
             .as_ref()
             .is_some_and(|is_up| is_up.load(Ordering::Relaxed))
     };
     let progress = Progress::new(options.quiet);
-    let outcome = work(&settings, &|event| progress.report(event), &interrupted);
+    let tell = |event: ProgressEvent<'_>| {
+        let ends_search = matches!(event, ProgressEvent::Started { .. });
+        is_over.fetch_or(ends_search && options.time.is_none(), Ordering::Relaxed);
+        progress.report(event);
+    };
+    let outcome = work(&settings, &tell, &interrupted);
     progress.finish();
     match outcome {
         Ok(outcome) => {
