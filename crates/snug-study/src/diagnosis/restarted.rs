@@ -122,11 +122,13 @@ impl Restarted<'_> {
         let (free, (answer, held, is_better, is_all)) =
             in_short_enough_steps(free, search.progress, |free| {
                 let cases = with_settled(free, recorded())?;
-                // It declares the laws that are in no catalogue.
-                let last = with_last_rung(free, found);
                 let question = Question {
                     goal: match follows {
-                        true => Goal::ImproveFrom(begun(effects(&last, &names, &cases)?, found)),
+                        // It declares the laws that are in no catalogue.
+                        true => {
+                            let last = with_last_rung(free, found);
+                            Goal::ImproveFrom(begun(effects(&last, &names, &cases)?, found))
+                        }
                         false => Goal::Improve,
                     },
                     cases: &cases,

@@ -46,8 +46,8 @@ impl Search<'_> {
     ) -> Result<(Answer, Option<Study>), StudyError> {
         let cases = question.cases;
         let is_open = *self.verb == Verb::Improve && held_input::is_open(study, cases);
-        if is_open && let Some(held) = self.held_at_once(study, question)? {
-            return Ok(held);
+        if is_open && let Some((held, study)) = self.held_at_once(study, question)? {
+            return Ok((held, Some(study)));
         }
         // What comes in after a hold that is told as a delay is looked for with the hold.
         let is_a_hold = |rung: &RungModel| {
@@ -134,25 +134,6 @@ impl Search<'_> {
         Ok((held, Some(held_study)))
     }
 
-    /// What a search with a held input finds.
-    fn held(
-        &self,
-        study: &Study,
-        question: &Question<'_>,
-    ) -> Result<(Answer, Option<Study>), StudyError> {
-        self.tell(HELD);
-        let (held_study, cases) = held_input::held(study, question.cases)?;
-        let mut held = self.examined(&Question {
-            cases: &cases,
-            ..question.clone()
-        })?;
-        held.diagnosis.reasons.push(Reason::Held {
-            spared: Vec::new(),
-            is_half_an_interval: false,
-        });
-        Ok((held, Some(held_study)))
-    }
-
     /// Whether with the `held` input a model before the last leaves as little as that does without, fitted again from where it ended: what
     /// came in after it may stand in for the hold.
     fn fewer_do(
@@ -188,11 +169,11 @@ impl Search<'_> {
         &self,
         study: &Study,
         question: &Question<'_>,
-    ) -> Result<Option<(Answer, Option<Study>)>, StudyError> {
+    ) -> Result<Option<(Answer, Study)>, StudyError> {
         if !held_input::is_likely(study, question.cases)? {
             return Ok(None);
         }
-        let (_, held_cases) = held_input::held(study, question.cases)?;
+        let (held_study, held_cases) = held_input::held(study, question.cases)?;
         let asked = |cases, goal| Question {
             cases,
             goal,
@@ -210,7 +191,12 @@ impl Search<'_> {
         if straight.interrupted || !held_input::leaves_far_less(&held, &straight) {
             return Ok(None);
         }
-        self.held(study, question).map(Some)
+        let mut answer = self.examined(&asked(&held_cases, question.goal.clone()))?;
+        answer.diagnosis.reasons.push(Reason::Held {
+            spared: Vec::new(),
+            is_half_an_interval: false,
+        });
+        Ok(Some((answer, held_study)))
     }
 
     fn tell(&self, what: &str) {
