@@ -81,5 +81,9 @@ pub(crate) const AS_LOUD: f64 = 0.25;
 pub(crate) const SURROUNDINGS: usize = 20;
 /// Power over the median about it from which a line of the input stands out \[–\]: of three lines of chance one does in one case of 300. Chosen.
 pub(crate) const OUTSTANDING: f64 = 10.0;
-/// Share of the input's power up to which a line does not drive the rig \[–\]: of a hundred lines of a multisine each has as much. Chosen.
+/// Share of the input's power up to which a line of the mains may not drive the rig \[–\], ... Chosen.
 pub(crate) const FAINT: f64 = 0.01;
+/// ... where within this share of its frequency \[–\] ... Chosen.
+pub(crate) const NEAR: f64 = 0.1;
+/// ... no other has as much of its power \[–\]: of two hundred lines of a multisine each has half a hundredth of all. Chosen.
+pub(crate) const AS_LOUD_AS_IT: f64 = 0.1;

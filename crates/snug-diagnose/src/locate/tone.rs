@@ -1,13 +1,14 @@
 //! A misfit that is one steady tone: hum of the mains, a fan, a pump.
 //!
 //! P(f) of the residual is summed over the recordings, each on its own lines (see [`Spectra`]). A tone lies within two lines of one
-//! frequency, is as loud in every quarter of every recording, and has no line in the input, or a faint one of the mains: what rings after
+//! frequency, is as loud in every quarter of every recording, and has no line in the input, or a faint one of the mains alone: what rings after
 //! each push, or answers a sine that drives the rig, is none. Recordings that are sampled too slowly for it have no say.
 
 use super::residual::White;
 use super::spectra::{Spectra, Spectrum};
 use crate::locate::thresholds::{
-    AS_LOUD, FAINT, FEWEST_CYCLES, LINES, MOST, OUTSTANDING, QUARTERS, SURROUNDINGS,
+    AS_LOUD, AS_LOUD_AS_IT, FAINT, FEWEST_CYCLES, LINES, MOST, NEAR, OUTSTANDING, QUARTERS,
+    SURROUNDINGS,
 };
 use snug_campaign::words::remark::is_of_the_mains;
 use snug_signal::Complex;
@@ -36,10 +37,6 @@ pub fn tone(spectra: &Spectra<'_, '_>) -> Option<Tone> {
     let share = near / whole;
     let is_narrow = hz * longest.length_s >= FEWEST_CYCLES && share >= MOST;
     let has_it: Vec<&Spectrum> = all.iter().filter(|one| one.shows(hz)).collect();
-    let part_of_input = || {
-        let parts = (has_it.iter()).map(|one| part(&spectra.of_input(one.recording), one.line(hz)));
-        parts.fold(0.0, f64::max)
-    };
     let is_steady = || {
         let loudness = has_it.iter().flat_map(|one| quarters(one.recording, hz));
         is_as_loud(&loudness.collect::<Vec<_>>())
@@ -47,10 +44,14 @@ pub fn tone(spectra: &Spectra<'_, '_>) -> Option<Tone> {
     if !is_narrow || !is_steady() {
         return None;
     }
-    let part = part_of_input();
-    let in_input = part > 0.0;
-    let is_picked_up = part <= FAINT && is_of_the_mains(hz);
-    (!in_input || is_picked_up).then_some(Tone {
+    let inputs = (has_it.iter()).map(|one| (spectra.of_input(one.recording), one.line(hz)));
+    let driving: Vec<_> = inputs
+        .filter(|(power, line)| stands_out(power, *line))
+        .collect();
+    let in_input = !driving.is_empty();
+    let is_faint = |(power, line): &(Vec<f64>, usize)| is_faint_and_alone(power, *line);
+    let is_picked_up = || is_of_the_mains(hz) && driving.iter().all(is_faint);
+    (!in_input || is_picked_up()).then_some(Tone {
         hz,
         share,
         in_input,
@@ -89,18 +90,27 @@ fn about(line: usize, lines: usize, power: &[f64]) -> Range<usize> {
     line.saturating_sub(lines)..(line + lines + 1).min(power.len())
 }
 
-/// Share of `power` near a line that stands out of those about it; 0 where it does not.
-fn part(power: &[f64], line: usize) -> f64 {
+/// Whether a line of `power` stands out of those about it.
+fn stands_out(power: &[f64], line: usize) -> bool {
     let mut surroundings = power[about(line, SURROUNDINGS, power)].to_vec();
     surroundings.sort_unstable_by(f64::total_cmp);
     let usual = surroundings[surroundings.len() / 2];
-    let here = power[about(line, 1, power)].iter();
-    let stands_out = here.copied().fold(0.0, f64::max) > OUTSTANDING * usual;
+    loudest(&power[about(line, 1, power)]) > OUTSTANDING * usual
+}
+
+/// Whether a line of `power` has little of all, and none near it is as loud: one of many drives the rig with them.
+fn is_faint_and_alone(power: &[f64], line: usize) -> bool {
+    let here = about(line, LINES, power);
     let sum = |lines: &[f64]| lines.iter().sum::<f64>();
-    match stands_out {
-        true => sum(&power[about(line, LINES, power)]) / sum(power),
-        false => 0.0,
-    }
+    let far = about(line, (line as f64 * NEAR) as usize, power);
+    let below = loudest(&power[far.start..here.start.max(far.start)]);
+    let above = loudest(&power[here.end.min(far.end)..far.end]);
+    sum(&power[here.clone()]) <= FAINT * sum(power)
+        && below.max(above) < AS_LOUD_AS_IT * loudest(&power[here])
+}
+
+fn loudest(power: &[f64]) -> f64 {
+    power.iter().copied().fold(0.0, f64::max)
 }
 
 /// How loud a frequency is in the quarters of a recording: |Σ w e^{−2πi f t}| over each.

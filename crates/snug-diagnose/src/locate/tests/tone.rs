@@ -18,8 +18,13 @@ fn told(made: &[Made]) -> Option<(f64, f64)> {
 
 /// Whether the input is said to have the tone, where one is told that the torque has this much of \[Nm\], too.
 fn is_in_input(hz: f64, torque_nm: f64) -> Option<bool> {
-    let sine = |t: f64| (TAU * hz * t).sin();
-    let mut made = campaign(6, 1, |_, t| 3.0 * sine(t));
+    is_among(hz, &[hz], torque_nm)
+}
+
+/// The same of a torque that has as much of several.
+fn is_among(hz: f64, all_hz: &[f64], torque_nm: f64) -> Option<bool> {
+    let sine = |t: f64| -> f64 { all_hz.iter().map(|hz| (TAU * hz * t).sin()).sum() };
+    let mut made = campaign(6, 1, |_, t| 3.0 * (TAU * hz * t).sin());
     for one in &mut made {
         let tightening = &mut one.tightening;
         let interval_s = tightening.time_base.interval_s;
@@ -64,6 +69,7 @@ fn a_faint_tone_of_the_mains_in_the_input_drives_no_rig() {
     assert_eq!(is_in_input(400.1, 0.1), Some(true));
     assert_eq!(is_in_input(400.1, 10.0), None);
     assert_eq!(is_in_input(403.7, 0.1), None);
+    assert_eq!(is_among(400.1, &[400.1, 425.0], 0.1), None);
 }
 
 /// A short recording that is sampled too slowly for the tone says nothing of it, and takes nothing from it.
