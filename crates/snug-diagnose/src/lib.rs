@@ -32,7 +32,7 @@ pub use pooled::groups::nothing::Nothing;
 pub use pooled::shared_block::{SharedBlock, SharedParameter, shared_blocks, shared_parameters};
 pub use pooled::steps::friction::steps_per_sample;
 pub use pooled::thresholds::{FALSE_DISCOVERIES, ROUNDING};
-pub use pooled::together::{Together, fit_together};
+pub use pooled::together::{Together, fit_together, starts_together};
 pub use question::{Begun, Goal, Question, Until};
 pub use ranking::free_run::is_followed_with_an_effect;
 pub use rung_model::RungModel;

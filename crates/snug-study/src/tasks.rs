@@ -6,4 +6,5 @@ pub(crate) mod copies;
 pub(crate) mod free_run;
 pub(crate) mod held_input;
 mod initial_state;
+pub(crate) mod own_effects;
 pub(crate) mod settling;

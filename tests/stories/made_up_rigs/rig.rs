@@ -1,6 +1,6 @@
 //! A rig that was made up: its recordings, what they are declared as, and noise that is the same at every run.
 
-use snug_campaign::Diagnosis;
+use snug_campaign::{CampaignResult, Diagnosis};
 use snug_study::{ProgressEvent, RunSettings, Study, Verb, diagnose};
 use std::f64::consts::TAU;
 use std::path::Path;
@@ -68,6 +68,18 @@ impl Rig {
         progress: &(dyn Fn(ProgressEvent<'_>) + Sync),
         interrupted: &AtomicBool,
     ) -> Diagnosis {
+        let result = self.came_of(model, verb, progress, interrupted);
+        result.diagnosis.unwrap()
+    }
+
+    /// All that comes of it.
+    pub fn came_of(
+        &self,
+        model: &str,
+        verb: &Verb,
+        progress: &(dyn Fn(ProgressEvent<'_>) + Sync),
+        interrupted: &AtomicBool,
+    ) -> CampaignResult {
         let (folder, out) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
         for (number, recording) in self.recordings.iter().enumerate() {
             let rows = recording.iter().map(|[u, y]| format!("{u:e},{y:e}\n"));
@@ -93,7 +105,7 @@ impl Rig {
         let study = Study::parse(&text, Path::new("rig.ron")).unwrap();
         let settings = RunSettings::new(out.path());
         let outcome = diagnose(&study, verb, &settings, progress, interrupted).unwrap();
-        outcome.result.diagnosis.unwrap()
+        outcome.result
     }
 }
 

@@ -4,6 +4,7 @@ use crate::data::cases::{Cases, Tally};
 use crate::data::clusters::Clusters;
 use crate::error::DiagnoseError;
 use crate::pooled::fit::fit_effects;
+use crate::pooled::one_machine::one_machine_or_several;
 use snug_campaign::WorkDone;
 use snug_identify::FitTask;
 use snug_model::Effect;
@@ -44,4 +45,22 @@ pub fn fit_together(cases: &[FitTask<'_>], effects: &[Effect]) -> Result<Togethe
         converged: fitted.converged,
         work: tally.done(),
     })
+}
+
+/// Where the study's base model and these effects begin: where a fit of all recordings ends, which share m, c, k where they are of
+/// one machine. Names with unit suffix and values; nothing of m, c, k where there are many tightenings.
+///
+/// # Errors
+/// As [`fit_together`].
+pub fn starts_together(
+    cases: &[FitTask<'_>],
+    effects: &[Effect],
+) -> Result<Vec<(String, f64)>, DiagnoseError> {
+    let tally = Tally::default();
+    let clusters = Clusters::of(cases);
+    let counted = Cases::checked(cases, &tally, "there is none to begin with")?;
+    let (counted, _) = one_machine_or_several(counted, effects, clusters)?;
+    let fitted = fit_effects(counted, effects, None, clusters)?;
+    let base = fitted.base().into_iter();
+    Ok(base.chain(fitted.shared_named()).collect())
 }

@@ -1,6 +1,6 @@
 //! What restarts found, and what a free run over the whole of each recording finds then.
 
-use super::rung_study::{begun, effects, with_last_rung, with_rung};
+use super::rung_study::{begun, with_last_rung, with_rung};
 use super::search::Search;
 use super::shorter_steps::in_short_enough_steps;
 use crate::error::StudyError;
@@ -8,6 +8,7 @@ use crate::study::Study;
 use crate::tasks::cases::with_settled;
 use crate::tasks::free_run::{Missed, missed};
 use crate::tasks::held_input;
+use crate::tasks::own_effects::effects;
 use snug_diagnose::{Answer, Goal, Question, RungModel, Until};
 use snug_identify::{FitTask, Simulation};
 use snug_model::Law;

@@ -1,10 +1,8 @@
 //! A rung of a ladder as a study: its model in the study, its effects as they act on the study's rig, and where a further fit begins with them.
 
-use crate::error::StudyError;
 use crate::study::Study;
 use snug_campaign::{GroupSize, GroupSizes};
 use snug_diagnose::{Answer, Begun, RungModel};
-use snug_identify::FitTask;
 use snug_model::{Effect, GroupValue, ParameterSettings, ValuesByGroup};
 
 /// The study with a rung's model. What all tightenings share is held where they put it together.
@@ -65,23 +63,6 @@ fn values_by_group(sizes: &GroupSizes) -> ValuesByGroup {
 pub(super) fn with_last_rung(study: &Study, answer: &Answer) -> Study {
     let last = answer.models.last();
     last.map_or_else(|| study.clone(), |model| with_rung(study, model))
-}
-
-/// The named effects, the study's own among them, as they act on its rig.
-pub(crate) fn effects(
-    study: &Study,
-    names: &[String],
-    cases: &[FitTask<'_>],
-) -> Result<Vec<Effect>, StudyError> {
-    let Some(first) = cases.first() else {
-        return Ok(Vec::new());
-    };
-    let scale = study.model.scale;
-    let named = names.iter().map(|name| {
-        let effect = study.model.effect(name)?;
-        scale.effect(effect, &first.tightening.rig)
-    });
-    Ok(named.collect::<Result<_, _>>()?)
 }
 
 /// These effects one after the other as the rungs of `answer` have them; where none has just these, as its last has them.

@@ -1,6 +1,6 @@
 //! A question answered as a study asks it: with a held input where that is the likelier story.
 
-use super::rung_study::{begun, effects, with_last_rung, with_rung};
+use super::rung_study::{begun, with_last_rung, with_rung};
 use super::shorter_steps::in_short_enough_steps;
 use super::verb::Verb;
 use crate::error::StudyError;
@@ -8,6 +8,7 @@ use crate::progress::ProgressEvent;
 use crate::study::Study;
 use crate::tasks::cases::with_settled;
 use crate::tasks::held_input;
+use crate::tasks::own_effects::effects;
 use snug_campaign::words::number::significant;
 use snug_campaign::words::reason::Reason;
 use snug_diagnose::{

@@ -6,6 +6,7 @@ use crate::study::Study;
 use crate::tasks::cases::with_settled;
 use crate::tasks::free_run::{Restarts, restarts};
 use crate::tasks::initial_state;
+use crate::tasks::own_effects::begun_together;
 use snug_campaign::Quantity;
 use snug_campaign::words::reason::Reason;
 use snug_diagnose::steps_per_sample;
@@ -82,6 +83,13 @@ pub(crate) fn settle(study: &Study, cases: &[FitTask<'_>]) -> Option<Settled> {
     if let Some(moving) = moving {
         settled.study.model = moving.model;
         settled.reasons.push(Reason::BeginsMoving);
+    }
+    if !states_a_start(study) {
+        let lent = cases.iter().map(FitTask::lent).collect();
+        let cases = with_settled(&settled.study, lent).ok()?;
+        if let Some(begun) = begun_together(&settled.study, &cases) {
+            settled.study = begun;
+        }
     }
     Some(settled)
 }

@@ -2,7 +2,7 @@
 //! one, of the sizes that they share.
 
 use crate::diagnosis::Verb;
-use crate::diagnosis::{climbed, effects};
+use crate::diagnosis::climbed;
 use crate::error::StudyError;
 use crate::evaluation::file::outcomes;
 use crate::evaluation::rungs::{RungShare, Simulated};
@@ -13,6 +13,7 @@ use crate::run::{Collected, pool};
 use crate::study::Study;
 use crate::tasks::cases::case_of;
 use crate::tasks::comparable::comparable;
+use crate::tasks::own_effects::effects;
 use serde::{Deserialize, Serialize};
 use snug_campaign::{CampaignResult, Quantity, Tightening};
 use snug_diagnose::{DiagnoseError, SharedBlock, SharedParameter};

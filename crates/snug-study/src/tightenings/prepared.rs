@@ -1,11 +1,11 @@
 //! A study's tightenings, read, prepared and settled once, for models to be tried on them by hand.
 
-use crate::diagnosis::effects;
 use crate::error::StudyError;
 use crate::evaluation::tightening::is_usable;
 use crate::run::campaign_result::vocabulary;
 use crate::study::Study;
 use crate::tasks::cases::{FilesRead, chosen, with_settled};
+use crate::tasks::own_effects::effects;
 use crate::tasks::settling::{Settled, settle};
 use snug_campaign::SignalUnits;
 use snug_campaign::words::capitalised;
