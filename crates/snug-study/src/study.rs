@@ -13,8 +13,8 @@ use serde::{Deserialize, Serialize};
 use snug_campaign::{Factor, Intersample, Quantity, Rig, Tightening};
 use snug_identify::{ConstraintKind, IdentifyError, IdentifySettings};
 use snug_ingest::Source;
-use snug_model::{Model, ModelError, ModelSettings, ParameterSettings};
-use snug_preprocess::{PreprocessSettings, Preset, Stretch};
+use snug_model::{Model, ModelError, ModelSettings, ParameterSettings, Scale};
+use snug_preprocess::{PreprocessSettings, Preset, Stretch, Window};
 use snug_record::RecordSettings;
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
@@ -156,7 +156,7 @@ impl Study {
                 });
             }
         }
-        let model = self.model.model(self.any_rig())?;
+        let model = self.model_before_data()?;
         let positive = self
             .identify
             .constraints
@@ -170,6 +170,15 @@ impl Study {
             }
         }
         Ok(())
+    }
+
+    /// The model as far as it is known before any data. Where the scale of a rig is found from those, so are the bounds of effects.
+    fn model_before_data(&self) -> Result<Model, ModelError> {
+        let mut model = self.model.clone();
+        if model.scale == Scale::Automatic && self.preprocess.window != Window::Whole {
+            model.scale = Scale::HandOnTool;
+        }
+        model.model(self.any_rig())
     }
 
     /// The model of one tightening, with what its groups have of the sizes.
@@ -367,5 +376,32 @@ mod tests {
         let study = Study::parse(text, Path::new("rig.ron")).expect("it is a study");
         // Tests run in the crate's folder.
         assert_eq!(study.title(), "snug-study");
+    }
+
+    /// A stiffening spring of 4 · 10¹⁰ N/m³ moves by micrometres; no hand has one.
+    #[test]
+    fn a_start_may_be_as_large_as_the_rig_whose_scale_the_data_tell() {
+        let told = |window: &str, bounds: &str| {
+            let text = format!(
+                r#"(source: (path: ".", format: Csv(
+                    channels: [
+                        (column: Name("u"), signal: Force, unit: Newton),
+                        (column: Name("y"), signal: Displacement, unit: Metre),
+                    ],
+                    sampling: Rate(hz: 1000.0),
+                )), {window} identify: (fitted_output: Displacement), model: (
+                    effects: ["cubic_stiffness"],
+                    parameters: {{"k3_n_per_m3": (value: 4e10{bounds})}},
+                ))"#
+            );
+            let study = Study::parse(&text, Path::new("rig.ron")).expect("it is a study");
+            study.check().map_err(|error| error.to_string())
+        };
+        assert_eq!(told("preprocess: (window: Whole),", ""), Ok(()));
+        let of_a_hand = told("", "").expect_err("no hand has it");
+        assert!(of_a_hand.contains("`k3_n_per_m3`"), "{of_a_hand}");
+        let beyond_its_own =
+            told("preprocess: (window: Whole),", ", maximum: 1e10").expect_err("the study says so");
+        assert!(beyond_its_own.contains("10000000000"), "{beyond_its_own}");
     }
 }

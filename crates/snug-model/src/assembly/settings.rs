@@ -126,7 +126,11 @@ impl ModelSettings {
             .collect::<Result<Vec<_>, _>>()?;
         let mut model = Model::scaled(rig, &effects, self.scale)?;
         for (name, settings) in &self.parameters {
-            settings.of_group(group).apply(name, &mut model)?;
+            let settings = settings.of_group(group);
+            if self.scale == Scale::Automatic {
+                settings.make_room(name, &mut model);
+            }
+            settings.apply(name, &mut model)?;
             settings.check_groups(name, &model)?;
         }
         Ok(model)
@@ -224,6 +228,18 @@ impl ParameterSettings {
                 maximum,
             }),
             None => Ok(()),
+        }
+    }
+
+    /// Lets a parameter be where the study says, which gives it no bounds: they are those of a hand until it is known how large things are on
+    /// the rig.
+    fn make_room(&self, name: &str, model: &mut Model) {
+        let mut parameters = model.parameters_mut().iter_mut();
+        if let Some(parameter) = parameters.find(|one| one.name == name)
+            && let Some(value) = self.value.filter(|value| value.is_finite())
+        {
+            parameter.minimum = parameter.minimum.min(value);
+            parameter.maximum = parameter.maximum.max(value);
         }
     }
 
