@@ -6,6 +6,7 @@ use snug_campaign::{
 };
 use snug_identify::{Simulation, agreement};
 use snug_model::{Input, Model, Scale};
+use snug_preprocess::cumulative_trapezoid;
 use std::f64::consts::TAU;
 
 /// The mean of every parameter over converged fits, carried by the first of them; `None` where there is none.
@@ -62,15 +63,19 @@ pub(crate) fn predicted(
 
 /// Restarts per period of the motion: short enough that small errors stay small, long enough that forces show.
 const STRETCHES_PER_PERIOD: f64 = 8.0;
-/// Fewest samples between restarts: fewer say nothing of a motion, and rigs so fast are sampled for a free run.
+/// Fewest samples between restarts: fewer say nothing of a motion.
 const FEWEST_SAMPLES: f64 = 8.0;
+/// Fewest restarts per period where that many samples ask for longer ways between them; rigs faster than that are sampled for a free
+/// run. Chosen.
+const FEWEST_PER_PERIOD: f64 = 4.0;
 
 /// From one restart to the next \[s\]: as the study restarts the model, or as it would; `None` where it could not.
 fn restarted_every_s(study: &Study, tightening: &Tightening) -> Option<f64> {
     let motion = &tightening.motion;
-    let is_accelerometer = study.identify.fitted_output == Quantity::Acceleration
-        || motion.acceleration_rad_per_s2.is_some();
-    if is_accelerometer || motion.displacement_rad.is_none() {
+    if study.identify.fitted_output == Quantity::Acceleration
+        || motion.displacement_rad.is_none()
+        || is_of_an_accelerometer(tightening)
+    {
         return None;
     }
     match (study.identify.simulation, study.model.scale) {
@@ -80,13 +85,26 @@ fn restarted_every_s(study: &Study, tightening: &Tightening) -> Option<f64> {
     }
 }
 
+/// Whether the displacement was integrated from an acceleration: it drifts, and is no motion that a model could be restarted from. One that a
+/// sensor of its own measured beside an accelerometer is.
+pub(crate) fn is_of_an_accelerometer(tightening: &Tightening) -> bool {
+    let motion = &tightening.motion;
+    let is_integral = |of: &Option<Vec<f64>>, that: &Option<Vec<f64>>| {
+        let integral = |samples| cumulative_trapezoid(samples, tightening.time_base.interval_s);
+        (of.as_deref().zip(that.as_deref())).is_some_and(|(of, that)| integral(of) == that)
+    };
+    is_integral(&motion.acceleration_rad_per_s2, &motion.velocity_rad_per_s)
+        && is_integral(&motion.velocity_rad_per_s, &motion.displacement_rad)
+}
+
 /// From one restart to the next where the motion has this period \[s\]; `None` where that is too fast for its sampling. Whole
 /// samples, so that it does not depend on the unit of time.
 pub(crate) fn every_s_of(period_s: f64, tightening: &Tightening) -> Option<f64> {
     let interval_s = tightening.time_base.interval_s;
-    let samples = period_s / STRETCHES_PER_PERIOD / interval_s;
+    let period = period_s / interval_s;
+    let samples = (period / STRETCHES_PER_PERIOD).max(FEWEST_SAMPLES);
     let every_s = samples.round() * interval_s;
     // As people write it, who do not mean the last bits of a product.
     let every_s = format!("{every_s:.12e}").parse().unwrap_or(every_s);
-    (samples >= FEWEST_SAMPLES).then_some(every_s)
+    (samples <= period / FEWEST_PER_PERIOD).then_some(every_s)
 }

@@ -1,5 +1,6 @@
 //! Whether a free run over a study's recordings tells effects apart, or the model is restarted from the measured motion instead.
 
+use crate::evaluation::validation::is_of_an_accelerometer;
 use crate::study::Study;
 use crate::tasks::held_input;
 use crate::tasks::initial_state::{longest_s, swings};
@@ -151,7 +152,7 @@ pub(crate) fn missed(cases: &[FitTask<'_>]) -> Option<Missed> {
     let [mut damped, mut sprung] = [0, 0];
     for case in cases {
         let motion = &case.tightening.motion;
-        if case.quantity() == Quantity::Acceleration || motion.acceleration_rad_per_s2.is_some() {
+        if case.quantity() == Quantity::Acceleration || is_of_an_accelerometer(&case.tightening) {
             return None;
         }
         let settings = IdentifySettings {
