@@ -9,6 +9,7 @@ mod held;
 mod hysteresis;
 mod loads;
 mod loops;
+mod restarted;
 mod rig;
 mod ringing;
 mod ripples;

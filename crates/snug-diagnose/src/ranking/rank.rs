@@ -1,5 +1,7 @@
 //! Every candidate scored, refitted and held out; best first.
 
+mod taken_up;
+
 use crate::data::cases::Cases;
 use crate::data::clusters::Clusters;
 use crate::data::watch::{Pieces, Watch};
@@ -29,6 +31,7 @@ use crate::settings::DiagnoseSettings;
 use rayon::prelude::*;
 use snug_identify::FitTask;
 use snug_model::{Effect, Law};
+use taken_up::look_beside_restarts;
 
 /// A candidate after its refit.
 #[derive(Debug, Clone)]
@@ -42,6 +45,8 @@ pub(crate) struct Candidate {
     pub gains: Vec<f64>,
     /// Whether its size has an interval that excludes nothing.
     pub is_told_from_nothing: bool,
+    /// Whether it explains what another motion at restarts does not; where nothing is restarted, always.
+    pub shows_beside_restarts: bool,
 }
 
 impl Candidate {
@@ -206,6 +211,7 @@ pub(crate) fn rank(
     follow_best(cases, &heldout, is_noise, &mut candidates, clusters, watch)?;
     try_by_group(cases, &heldout, &mut candidates, clusters, settings, watch)?;
     look_where_it_shows(cases, current, &mut candidates, clusters, settings, watch)?;
+    look_beside_restarts(cases, current, &mut candidates, settings);
     Ok(Ranking {
         candidates,
         impossible,
@@ -231,6 +237,7 @@ fn judged(
         score: own.map(Column::statistic).fold(0.0, f64::max),
         p_family,
         is_told_from_nothing: is_told(&cases, &fitted, effect, heldout, &gains),
+        shows_beside_restarts: true,
         gains,
         fitted,
     }

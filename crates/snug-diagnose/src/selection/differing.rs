@@ -33,6 +33,7 @@ impl ModelSelection<'_> {
             score: 0.0,
             p_family: (chance(&gains, fitted.scale()) * forms as f64).min(1.0),
             is_told_from_nothing: is_told_from_nothing(&self.cases, &fitted, effect),
+            shows_beside_restarts: true,
             fitted,
             gains,
         };

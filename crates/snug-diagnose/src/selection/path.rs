@@ -228,6 +228,7 @@ impl SelectionPath {
                 }
             };
             !candidate.is_supported(settings)
+                && candidate.shows_beside_restarts
                 && (is_seldom || explains)
                 && gain > 2.0 * settings.smallest_gain * last.squares()
                 && candidate.clearness() > 1.0
@@ -243,6 +244,8 @@ pub(crate) enum Stop {
     NothingSupported { best_p: f64 },
     /// The best of the rest is beyond chance, but the interval of its size holds nothing.
     SizeMayBeNothing { effect: Effect },
+    /// What the best of the rest explains, another motion at restarts explains, too.
+    OfRestarts { effect: Effect },
     /// The best supported candidate lowers the error by too little to matter.
     TooSmall { effect: Effect, share: f64 },
     /// What is left is rounding.
@@ -259,7 +262,10 @@ impl Candidate {
     /// Whether the data support it: beyond chance over the family, a gain in held-out tightenings, and a size that is told from
     /// nothing.
     pub fn is_supported(&self, settings: &DiagnoseSettings) -> bool {
-        self.p_family <= settings.level && self.gains_clearly() && self.is_told_from_nothing
+        self.p_family <= settings.level
+            && self.gains_clearly()
+            && self.is_told_from_nothing
+            && self.shows_beside_restarts
     }
 
     /// Whether of a long record it plainly leaves more than `other`.
@@ -344,7 +350,10 @@ pub(crate) fn justified(
             let is_beyond_chance = |one: &&Candidate| one.p_family <= settings.level;
             if let Some(one) = gaining.clone().find(is_beyond_chance) {
                 let effect = one.effect;
-                return Err(Stop::SizeMayBeNothing { effect });
+                return Err(match one.shows_beside_restarts {
+                    true => Stop::SizeMayBeNothing { effect },
+                    false => Stop::OfRestarts { effect },
+                });
             }
             Err(Stop::NothingSupported {
                 best_p: gaining.map(|one| one.p_family).fold(1.0, f64::min),

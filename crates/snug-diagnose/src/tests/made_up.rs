@@ -139,6 +139,7 @@ pub(crate) fn on_machine(
 pub(crate) fn candidate(effect: Effect, p_family: f64, gains: &[f64]) -> Candidate {
     Candidate {
         is_told_from_nothing: true,
+        shows_beside_restarts: true,
         effect,
         score: 0.0,
         p_family,

@@ -367,6 +367,7 @@ pub(crate) fn stopped(situation: &Situation<'_>) -> Option<Stopped> {
             level: situation.settings.level,
         },
         Stop::SizeMayBeNothing { effect } => Stopped::SizeMayBeNothing(named(effect)),
+        Stop::OfRestarts { effect } => Stopped::OfRestarts(named(effect)),
         Stop::TooSmall { effect, share } => Stopped::TooSmall {
             effect: named(effect),
             share,

@@ -32,7 +32,7 @@ pub struct Input {
     before_nm: Option<f64>,
     onset_s: f64,
     zero_at: Option<usize>,
-    restarts: Restarts,
+    pub(super) restarts: Restarts,
     /// Made when an effect first asks for the torque between samples.
     between: OnceLock<Vec<f64>>,
     /// Made when an effect first asks for the torque's slope.
@@ -198,30 +198,6 @@ impl Input {
     pub fn with_zero_at(mut self, sample: Option<usize>) -> Self {
         self.zero_at = sample;
         self
-    }
-
-    /// States that the simulation does not run freely: every `apart` samples, from the first on, it takes up the next of
-    /// `motions`, angle \[rad\] and velocity \[rad/s\]. What effects carry along (a second mass, a hysteresis) runs on.
-    pub fn with_restarts(mut self, apart: usize, motions: Vec<[f64; 2]>) -> Self {
-        self.restarts = Restarts::new(apart * self.substeps, motions);
-        self
-    }
-
-    /// Whether the simulation takes up the measured motion anywhere.
-    pub fn is_restarted(&self) -> bool {
-        !self.restarts.is_empty()
-    }
-
-    /// Samples from one restart to the next; `None` where the simulation runs freely.
-    pub fn samples_between_restarts(&self) -> Option<usize> {
-        self.is_restarted()
-            .then(|| self.restarts.apart() / self.substeps)
-    }
-
-    /// Angle \[rad\] and velocity \[rad/s\] from which the simulation goes on at a grid point.
-    #[inline(always)]
-    pub(crate) fn restart_at(&self, point: usize) -> Option<[f64; 2]> {
-        self.restarts.at(point)
     }
 
     /// The sample at which the measured displacement was zeroed.

@@ -19,6 +19,8 @@ pub enum Stopped {
     },
     /// The best of the rest is beyond chance, but the interval of its size holds nothing.
     SizeMayBeNothing(Named),
+    /// What the best of the rest takes away, another motion at the restarts takes away, too.
+    OfRestarts(Named),
     /// The best supported candidate lowers the error by too little to matter.
     TooSmall {
         /// The candidate.
@@ -61,6 +63,11 @@ impl Display for Stopped {
             Self::SizeMayBeNothing(effect) => write!(
                 f,
                 "No further effect is supported: the best of the rest, {}, is more than chance, but these data do not tell its size from nothing.",
+                effect.spoken()
+            ),
+            Self::OfRestarts(effect) => write!(
+                f,
+                "No further effect is supported: what the best of the rest, {}, takes away, another motion at each restart takes away as well. It foretells errors with which the measured motion is taken up, and is no part of the rig.",
                 effect.spoken()
             ),
             Self::TooSmall { effect, share, smallest, is_at_floor } => write!(
