@@ -3,5 +3,6 @@
 mod grid;
 mod position;
 pub(crate) mod restart;
+mod restarted;
 pub(crate) mod slope;
 pub(crate) mod torque;
