@@ -2,6 +2,7 @@
 
 use crate::error::StudyError;
 use crate::study::Study;
+use crate::tasks::cases::with_settled;
 use snug_diagnose::starts_together;
 use snug_identify::FitTask;
 use snug_model::Effect;
@@ -23,20 +24,24 @@ pub(crate) fn effects(
     Ok(named.collect::<Result<_, _>>()?)
 }
 
-/// The study beginning where one fit of all its recordings ends: a line through a force that bends is no place from which each
-/// recording alone comes to it. `None` where the study has no effects or that fit says nothing.
-pub(super) fn begun_together(study: &Study, cases: &[FitTask<'_>]) -> Option<Study> {
-    if study.model.effects.is_empty() {
-        return None;
-    }
-    let own = effects(study, &study.model.effects, cases).ok()?;
-    let starts = starts_together(cases, &own).ok()?;
-    let mut study = study.clone();
-    for (name, value) in starts {
+/// The study beginning where one fit of all its recordings ends, if it has effects: a line through a force that bends is no place from which
+/// each recording alone comes to it. As it is where that fit says nothing.
+pub(super) fn begun_together(mut study: Study, cases: &[FitTask<'_>]) -> Study {
+    for (name, value) in starts(&study, cases).unwrap_or_default() {
         let told = study.model.parameters.entry(name).or_default();
         if !told.fixed {
             told.value = Some(value);
         }
     }
-    Some(study)
+    study
+}
+
+/// Where that fit ends; nothing for a study without effects.
+fn starts(study: &Study, cases: &[FitTask<'_>]) -> Result<Vec<(String, f64)>, StudyError> {
+    if study.model.effects.is_empty() {
+        return Ok(Vec::new());
+    }
+    let cases = with_settled(study, cases.iter().map(FitTask::lent).collect())?;
+    let own = effects(study, &study.model.effects, &cases)?;
+    Ok(starts_together(&cases, &own)?)
 }

@@ -85,11 +85,7 @@ pub(crate) fn settle(study: &Study, cases: &[FitTask<'_>]) -> Option<Settled> {
         settled.reasons.push(Reason::BeginsMoving);
     }
     if !states_a_start(study) {
-        let lent = cases.iter().map(FitTask::lent).collect();
-        let cases = with_settled(&settled.study, lent).ok()?;
-        if let Some(begun) = begun_together(&settled.study, &cases) {
-            settled.study = begun;
-        }
+        settled.study = begun_together(settled.study, &cases);
     }
     Some(settled)
 }

@@ -1,8 +1,7 @@
 //! Tightenings that were prepared before and are kept in a place of their own: a sample of them diagnosed, and all of them asked, one by
 //! one, of the sizes that they share.
 
-use crate::diagnosis::Verb;
-use crate::diagnosis::climbed;
+use crate::diagnosis::{Verb, climbed};
 use crate::error::StudyError;
 use crate::evaluation::file::outcomes;
 use crate::evaluation::rungs::{RungShare, Simulated};

@@ -30,6 +30,9 @@ pub(super) fn look_beside_restarts(
     candidates: &mut [Candidate],
     settings: &DiagnoseSettings,
 ) {
+    if !cases.are_restarted() {
+        return;
+    }
     let Some(without) = runs(&cases, current) else {
         return;
     };
@@ -83,8 +86,8 @@ fn runs<'a>(cases: &'a Cases<'_>, fitted: &Fitted) -> Option<Vec<Run<'a>>> {
 impl<'a> Run<'a> {
     fn of(case: FitTask<'a>, model: Model, values: Vec<f64>) -> Option<Self> {
         Some(Self {
-            simulated: case.simulated(&model, &values).ok()?,
             apart: case.input.samples_between_restarts()?,
+            simulated: case.simulated(&model, &values).ok()?,
             case,
             model,
             values,
