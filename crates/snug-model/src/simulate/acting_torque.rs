@@ -4,7 +4,7 @@ use crate::assembly::inputs::SimulationInputs;
 use crate::assembly::layout::Part;
 use crate::input::torque::Earlier;
 use crate::law::{Instant, Law, LoggedTorque};
-use crate::numeric::lanewise::Lanewise;
+use crate::numeric::lanewise::{Lanewise, Task};
 use crate::numeric::number::{Number, Real};
 use crate::simulate::actuator::{Actuator, Within};
 
@@ -59,24 +59,13 @@ impl<'a, N: Number> ActingTorque<'a, N> {
             drive: None,
         };
         acting.drive = actuator(parts, p, inputs).map(|actuator| {
-            let given = acting.given(&actuator);
+            let given = inputs.zero.vectorize(Giving {
+                acting: &acting,
+                actuator: &actuator,
+            });
             Drive { actuator, given }
         });
         acting
-    }
-
-    /// What a drive gave up to every grid point; before the first it rested at what it was told there.
-    fn given(&self, actuator: &Actuator<N>) -> Vec<N> {
-        let points = self.inputs.torque_nm().len();
-        let mut given = Vec::with_capacity(points);
-        let mut last = self.before();
-        for point in 0..points {
-            given.push(last);
-            let told = self.told(point);
-            let rise = self.rise(told, |next| self.told(next), point);
-            last = actuator.within(last, told, rise)[2];
-        }
-        given
     }
 
     /// What was told before the first grid point.
@@ -108,25 +97,37 @@ impl<'a, N: Number> ActingTorque<'a, N> {
     pub fn within(&self, point: usize) -> Within<N> {
         if self.is_known() {
             let told = self.inputs.torque_nm()[point];
-            let rise = self.rise(told, |next| self.inputs.torque_nm()[next], point);
-            return [told, told + rise * 0.5, told + rise].map(N::from);
+            let rise = rise(
+                self.inputs,
+                told,
+                point,
+                #[inline(always)]
+                |next| self.inputs.torque_nm()[next],
+            );
+            return [
+                N::from(told),
+                N::from(told + rise * 0.5),
+                N::from(told + rise),
+            ];
         }
         let told = self.told(point);
-        let rise = self.rise(told, |next| self.told(next), point);
+        let rise = self.rise(told, point);
         match &self.drive {
             Some(Drive { actuator, given }) => actuator.within(given[point], told, rise),
             None => [told, told + rise * 0.5, told + rise],
         }
     }
 
-    /// By how much what is `told` at a grid point rises within the step from there, if at a `point` it is that.
+    /// By how much what is `told` at a grid point rises within the step from there.
     #[inline(always)]
-    fn rise<M: Number>(&self, told: M, at: impl Fn(usize) -> M, point: usize) -> M {
-        let last = self.inputs.torque_nm().len().saturating_sub(1);
-        match self.inputs.held || point >= last {
-            true => told.constant(0.0),
-            false => at(point + 1) - told,
-        }
+    fn rise(&self, told: N, point: usize) -> N {
+        rise(
+            self.inputs,
+            told,
+            point,
+            #[inline(always)]
+            |next| self.told(next),
+        )
     }
 
     /// What is told at a grid point \[Nm\], whatever a drive makes of it.
@@ -140,6 +141,44 @@ impl<'a, N: Number> ActingTorque<'a, N> {
         delay.chain(then.torque_nm, -then.slope_nm_per_s)
             + how.lag_s * delay.chain(then.rate_nm_per_s, -then.change_nm_per_s2)
             - how.offset_nm
+    }
+}
+
+/// What a drive gave up to every grid point; before the first it rested at what it was told there.
+struct Giving<'a, N: Number> {
+    acting: &'a ActingTorque<'a, N>,
+    actuator: &'a Actuator<N>,
+}
+
+impl<N: Number> Task for Giving<'_, N> {
+    type Output = Vec<N>;
+    #[inline(always)]
+    fn run(self) -> Vec<N> {
+        let Self { acting, actuator } = self;
+        let points = acting.inputs.torque_nm().len();
+        let mut given = Vec::with_capacity(points);
+        let mut last = acting.before();
+        for point in 0..points {
+            given.push(last);
+            let told = acting.told(point);
+            last = actuator.within(last, told, acting.rise(told, point))[2];
+        }
+        given
+    }
+}
+
+/// By how much what is `told` at a grid point rises within the step from there, if at a `point` it is that.
+#[inline(always)]
+fn rise<M: Number>(
+    inputs: &SimulationInputs<'_, impl Real>,
+    told: M,
+    point: usize,
+    at: impl Fn(usize) -> M,
+) -> M {
+    let last = inputs.torque_nm().len().saturating_sub(1);
+    match inputs.held || point >= last {
+        true => told.constant(0.0),
+        false => at(point + 1) - told,
     }
 }
 

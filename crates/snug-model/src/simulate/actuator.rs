@@ -76,7 +76,7 @@ impl<N: Number> Actuator<N> {
 /// nothing where it does not arrive.
 #[inline(always)]
 fn no_further<N: Number>(before: N, given: Within<N>, most: N) -> Within<N> {
-    let [begins, middle, ends] = given.map(|one| one - before);
+    let [begins, middle, ends] = [given[0] - before, given[1] - before, given[2] - before];
     let taken = ends.abs() / most;
     let (early, late) = (
         taken * -3.0 + 1.0,

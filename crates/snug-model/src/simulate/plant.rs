@@ -3,6 +3,7 @@
 use crate::assembly::inputs::SimulationInputs;
 use crate::assembly::layout::{Assembly, MAXIMUM_OWN_STATES, Part};
 use crate::law::{Deflection, Delayed, Instant, Law};
+use crate::numeric::lanewise::{Lanewise, Task};
 use crate::numeric::number::{Number, OfOne};
 use crate::simulate::dry_friction::Slowed;
 use crate::simulate::history::History;
@@ -153,18 +154,7 @@ impl<'a, N: Number> Plant<'a, N> {
     /// out in it.
     #[inline(never)]
     pub fn held(&self, at: &Instant<N>) -> N {
-        let mut force = at.x_m.constant(0.0);
-        for hooked in &self.hook_set.dry_friction_n {
-            hooked.ask(
-                #[inline(always)]
-                |law, p, _| {
-                    if let Some(more) = law.dry_friction_n(p, at) {
-                        force += more;
-                    }
-                },
-            );
-        }
-        -force.times_one::<MASS>(self.lever_mobility)
+        at.lever_arm_m.vectorize(Held { plant: self, at })
     }
 
     /// What dry friction makes of a step that begins `at` an instant. All else pushes it with `at_first_m_per_s2`, which foresees where it slides
@@ -243,6 +233,32 @@ impl<'a, N: Number> Plant<'a, N> {
     fn spring_and_damper(&self, x_m: N, v_m_per_s: N) -> N {
         x_m.times_one::<STIFFNESS>(self.stiffness_n_per_m)
             + v_m_per_s.times_one::<DAMPING>(self.damping_kg_per_s)
+    }
+}
+
+/// What dry friction holds with at an instant.
+struct Held<'a, 'p, N: Number> {
+    plant: &'a Plant<'p, N>,
+    at: &'a Instant<N>,
+}
+
+impl<N: Number> Task for Held<'_, '_, N> {
+    type Output = N;
+    #[inline(always)]
+    fn run(self) -> N {
+        let Self { plant, at } = self;
+        let mut force = at.x_m.constant(0.0);
+        for hooked in &plant.hook_set.dry_friction_n {
+            hooked.ask(
+                #[inline(always)]
+                |law, p, _| {
+                    if let Some(more) = law.dry_friction_n(p, at) {
+                        force += more;
+                    }
+                },
+            );
+        }
+        -force.times_one::<MASS>(plant.lever_mobility)
     }
 }
 

@@ -149,7 +149,9 @@ fn taken_up<N: Number>(
     (at, own): (&Instant<N>, &[N]),
     from: [N; 2],
 ) -> [N; 2] {
-    let [angle, velocity] = driven(assembly, p, restart.motion.map(N::from), at, own);
+    let [angle, velocity] = restart.motion;
+    let measured = [N::from(angle), N::from(velocity)];
+    let [angle, velocity] = driven(assembly, p, measured, at, own);
     let lever = at.lever_arm_m;
     [
         N::select(restart.lanes, angle.times(lever), from[0]),
