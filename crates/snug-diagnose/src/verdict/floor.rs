@@ -2,12 +2,14 @@
 //! of the equation of motion does is a failed fit, and no physics.
 
 use crate::data::cases::Cases;
+use crate::data::power::bent_power;
 use crate::pooled::equation::{PlainEquation, falls_short, named, values};
 use crate::pooled::fitted::Fitted;
 use crate::verdict::earned::share;
 use crate::verdict::thresholds::PLAIN_PROMISE;
 use snug_campaign::words::suspicion::FailedFit;
-use snug_identify::EquationFit;
+use snug_identify::{EquationFit, FitTask};
+use snug_model::Effect;
 
 /// What is wrong with `fitted`, if it falls short of the `plain` regression with its own effects or, where candidates were tried as well,
 /// of one with dry friction and an offset.
@@ -49,15 +51,32 @@ pub(crate) fn shortfall(
         kept,
         sizes: named(&found.base),
     };
-    // Run freely, a fit that explains as much of the output itself keeps the promise: high up, an acceleration is the coarseness of a
-    // logged angle. Restarted every so often, any model explains nearly all of it.
-    let of_output = share(&cases, fitted).filter(|_| !cases.are_restarted());
+    // A fit that explains as much of the output itself keeps the promise: high up, an acceleration is the coarseness of a logged angle; low
+    // down, where force and spring all but cancel, hardly one is left.
+    let of_output = match cases.are_restarted() {
+        true => share_of_bend(&cases, &fitted.effects, &at),
+        false => share(&cases, fitted),
+    };
     let keeps = |found: &EquationFit| {
         of_output.is_some_and(|share| !falls_short(share, found, PLAIN_PROMISE))
     };
     let fails = |found: &EquationFit| !keeps(found) && falls_short(kept, found, PLAIN_PROMISE);
     let own = own.filter(fails).map(|found| told(found, false));
     own.or_else(|| further.filter(fails).map(|found| told(found, true)))
+}
+
+/// Share that restarted models with these values of all parameters explain of what bends the motion from one restart to the next \[–\]: of all of
+/// it, any model explains nearly everything. `None` where one cannot be simulated.
+fn share_of_bend(cases: &[FitTask<'_>], effects: &[Effect], at: &[Vec<f64>]) -> Option<f64> {
+    let (mut whole, mut left) = (0.0, 0.0);
+    for (case, values) in cases.iter().zip(at) {
+        let simulated = case.simulated(&case.model_with(effects).ok()?, values);
+        let pairs = case.measured().iter().zip(simulated.ok()?);
+        let residual: Vec<f64> = pairs.map(|(y, s)| y - s).collect();
+        whole += bent_power(case, case.measured());
+        left += bent_power(case, &residual);
+    }
+    Some(1.0 - left / whole).filter(|share| !share.is_nan())
 }
 
 #[cfg(test)]

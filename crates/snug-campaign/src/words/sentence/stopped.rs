@@ -67,7 +67,7 @@ impl Display for Stopped {
             ),
             Self::OfRestarts(effect) => write!(
                 f,
-                "No further effect is supported: what the best of the rest, {}, takes away, another motion at each restart takes away as well. It foretells errors with which the measured motion is taken up, and is no part of the rig.",
+                "No further effect is supported: what the best of the rest, {}, takes away, another motion at each restart takes away as well. These data do not tell it from errors with which the measured motion is taken up.",
                 effect.spoken()
             ),
             Self::TooSmall { effect, share, smallest, is_at_floor } => write!(

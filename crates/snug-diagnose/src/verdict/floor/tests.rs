@@ -5,10 +5,13 @@ use super::*;
 use crate::data::cases::Tally;
 use crate::tests::made_up::machine_with_friction as machine;
 use snug_model::Effect;
+use std::borrow::Cow;
 
 /// m, c, k of the machine.
 const TRUTH: [f64; 3] = [0.4, 1.9, 30.0];
 const SAMPLES: usize = 3000;
+/// Samples from one restart to the next.
+const APART: usize = 10;
 
 /// What is said of a fit of the base model that ended at these numbers and explains nothing of the output.
 fn said(friction_nm: f64, values: [f64; 3], were_tried: bool) -> Option<FailedFit> {
@@ -56,6 +59,27 @@ fn a_lost_fit_is_told_with_both_shares_and_where_to_begin() {
 #[test]
 fn a_fit_that_explains_all_of_the_output_is_no_failed_one() {
     assert_eq!(said_leaving(1e-9, 0.0, [4.0, 30.0, 900.0], true), None);
+}
+
+/// Restarted from the motion itself, any model explains nearly all of the output; what bends it from one restart to the next, only the machine.
+#[test]
+fn what_bends_a_restarted_motion_is_what_counts() {
+    let mut case = machine(0.0);
+    // As the machine moves.
+    let motion = |sample: usize| {
+        let t = 5e-3 * sample as f64;
+        let angle = (5.0 * t).sin() + 0.5 * (11.0 * t).sin();
+        [angle, case.measured()[sample]]
+    };
+    let restarts = (0..SAMPLES).step_by(APART).map(motion).collect();
+    case.input = Cow::Owned(case.input.into_owned().with_restarts(APART, restarts));
+    let share = |values: [f64; 3]| {
+        let at = [values.to_vec()];
+        share_of_bend(std::slice::from_ref(&case), &[], &at).unwrap()
+    };
+    assert!(share(TRUTH) > 0.99, "{}", share(TRUTH));
+    let lost = [4.0, 30.0, 900.0];
+    assert!(share(lost) < 0.5, "{}", share(lost));
 }
 
 /// Without friction the regression does no better than a fit of the base model; with it both lack something, and only a search that
