@@ -20,7 +20,7 @@ mod valves;
 mod zeros;
 
 use held::pendulum;
-use rig::{Noise, Rig, moved};
+use rig::{Noise, POSITIVE, Rig, moved};
 use snug_campaign::{Diagnosis, Verdict};
 use snug_study::Verb;
 
@@ -91,6 +91,7 @@ fn a_valve_that_sticks_lacks_dry_friction_and_no_law_that_nobody_knows() {
     let rig = Rig {
         recordings: (0..3).map(|_| recording()).collect(),
         declared: ["signal: Torque, unit: Newton", "Displacement", "Metre"],
+        identified: POSITIVE,
     };
     let diagnosis = rig.told(&Verb::Improve);
     assert_ne!(
@@ -135,6 +136,7 @@ fn a_spring_of_its_own_kind_is_no_cubic_one_with_play() {
             "Acceleration",
             "MetrePerSecondSquared",
         ],
+        identified: POSITIVE,
     };
     let diagnosis = rig.told_with("intersample: ZeroOrder", &Verb::Improve);
     let headline = &diagnosis.headline;

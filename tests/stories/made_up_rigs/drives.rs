@@ -218,6 +218,54 @@ fn what_pushes_itself_away_has_no_wrong_sign() {
     );
 }
 
+/// Where it may push itself away and is restarted before it falls, as Snug advises.
+fn near_a_magnet(recordings: Vec<Vec<[f64; 2]>>) -> Rig {
+    Rig {
+        identified: "constraints: [], simulation: Restarted(every_s: 5.8e-2)",
+        ..Rig::that_slides(recordings)
+    }
+}
+
+/// Where a plain regression of it ends.
+const STARTS: &str = r#"parameters: {
+    "mass_kg": (value: 0.4), "damping_kg_per_s": (value: 0.3), "stiffness_n_per_m": (value: -120.0),
+}"#;
+
+/// Who goes on as Snug says is not told that it failed: averaged as long as a regression asks for, force and spring all but cancel, and a share of the
+/// acceleration that is left says next to nothing.
+#[test]
+fn what_pushes_itself_away_is_followed_as_advised() {
+    let mut noise = Noise(2611);
+    let mut recording = || {
+        let goals = noise.levels([-1e-3, 1e-3], 100, 6000);
+        let clean = held(goals, 0.4, [400.0, 12.0], |x, v| 300.0 * x - 0.75 * v);
+        with_noise(&mut noise, clean, 2e-6)
+    };
+    let rig = near_a_magnet((0..3).map(|_| recording()).collect());
+    let diagnosis = rig.told_with(STARTS, &Verb::Diagnose);
+    let headline = &diagnosis.headline;
+    assert_ne!(diagnosis.verdict, Verdict::NotFitted, "{headline}");
+    assert!(!says(&diagnosis, "the fit failed"), "{headline}");
+}
+
+/// Dry friction would stop what is taken up with a velocity that it does not have: it rests at every goal, and nothing rubs.
+#[test]
+fn what_rests_at_its_goals_has_no_dry_friction() {
+    let mut noise = Noise(2611);
+    let mut recording = || {
+        let goals = noise.levels([-1e-3, 1e-3], 300, 6000);
+        let clean = held(goals, 0.4, [1600.0, 30.0], |x, v| 300.0 * x - 0.75 * v);
+        with_noise(&mut noise, clean, 1e-5)
+    };
+    let rig = near_a_magnet((0..3).map(|_| recording()).collect());
+    let diagnosis = rig.told_with(
+        &format!("intersample: ZeroOrder, {STARTS}"),
+        &Verb::Diagnose,
+    );
+    let headline = &diagnosis.headline;
+    assert_eq!(diagnosis.verdict, Verdict::Undecided, "{headline}");
+}
+
 /// One that is restarted again and again is predicted well enough by anything: no friction, mode or law is to stand for a stiffness below 0.
 #[test]
 fn what_is_held_near_a_magnet_is_not_pieced_together() {

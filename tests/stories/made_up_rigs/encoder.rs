@@ -1,6 +1,6 @@
 //! Drives whose encoder begins anew after every turn, or reads something where they begin.
 
-use super::rig::{Noise, Rig, TORQUE, moved};
+use super::rig::{Noise, POSITIVE, Rig, TORQUE, moved};
 use super::says;
 use snug_campaign::words::headline::Headline;
 use snug_campaign::{Diagnosis, Verdict};
@@ -53,6 +53,7 @@ fn an_angle_that_begins_anew_after_every_turn_is_put_together() {
     let rig = Rig {
         recordings: driven(&mut Noise(41), [0.0, 1.7, -2.5], 5e-4, seen),
         declared: [TORQUE, "Displacement", "Degree"],
+        identified: POSITIVE,
     };
     lacks_dry_friction(&rig.told(&Verb::Improve));
 }

@@ -1,6 +1,6 @@
 //! Rigs whose input a controller holds from sample to sample, of which the study says nothing.
 
-use super::rig::{FORCE, Noise, Rig, moved};
+use super::rig::{FORCE, Noise, POSITIVE, Rig, moved};
 use super::{names, says};
 use snug_study::Verb;
 
@@ -52,6 +52,7 @@ pub(super) fn slide() -> Rig {
     Rig {
         recordings: (0..6).map(|_| recording()).collect(),
         declared: [FORCE, "Acceleration", "MetrePerSecondSquared"],
+        identified: POSITIVE,
     }
 }
 

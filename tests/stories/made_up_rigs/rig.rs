@@ -14,7 +14,12 @@ pub struct Rig {
     pub recordings: Vec<Vec<[f64; 2]>>,
     /// Input, and the output that is fitted: its signal and its unit.
     pub declared: [&'static str; 3],
+    /// What else its study says of how it is identified.
+    pub identified: &'static str,
 }
+
+/// What a study as README teaches it says.
+pub const POSITIVE: &str = "constraints: [Positive]";
 
 impl Rig {
     /// A drive whose angle is measured.
@@ -22,6 +27,7 @@ impl Rig {
         Self {
             recordings,
             declared: [TORQUE, "Displacement", "Radian"],
+            identified: POSITIVE,
         }
     }
 
@@ -30,6 +36,7 @@ impl Rig {
         Self {
             recordings,
             declared: [FORCE, "Displacement", "Metre"],
+            identified: POSITIVE,
         }
     }
 
@@ -38,6 +45,7 @@ impl Rig {
         Self {
             recordings,
             declared: [TORQUE, "Velocity", "RadianPerSecond"],
+            identified: POSITIVE,
         }
     }
 
@@ -46,6 +54,7 @@ impl Rig {
         Self {
             recordings,
             declared: [FORCE, "Velocity", "MetrePerSecond"],
+            identified: POSITIVE,
         }
     }
 
@@ -98,9 +107,10 @@ impl Rig {
                 )),
                 preprocess: (window: Whole, rig: (lever_arm_m: 1.0, known_inertia: Fixed(0.0))),
                 model: ({model}),
-                identify: (fitted_output: {signal}, constraints: [Positive]),
+                identify: (fitted_output: {signal}, {identified}),
             )"#,
             path = folder.path(),
+            identified = self.identified,
         );
         let study = Study::parse(&text, Path::new("rig.ron")).unwrap();
         let settings = RunSettings::new(out.path());

@@ -1,7 +1,7 @@
 //! Structures that ring: struck by a hammer, or moved by more than was recorded.
 
 use super::names;
-use super::rig::{FORCE, Noise, Rig, moved};
+use super::rig::{FORCE, Noise, POSITIVE, Rig, moved};
 use snug_campaign::Verdict;
 use snug_study::Verb;
 use std::f64::consts::TAU;
@@ -36,6 +36,7 @@ fn a_plate_that_a_hammer_strikes_lacks_its_cubic_spring() {
     let rig = Rig {
         recordings: blows.map(|most_n| struck(&mut noise, most_n)).to_vec(),
         declared: [FORCE, "Acceleration", "MetrePerSecondSquared"],
+        identified: POSITIVE,
     };
     let diagnosis = rig.told(&Verb::Improve);
     let headline = &diagnosis.headline;

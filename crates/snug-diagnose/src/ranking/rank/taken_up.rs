@@ -49,18 +49,19 @@ pub(super) fn look_beside_restarts(
     });
 }
 
-/// Share of what is left without an effect that it takes away beside another motion at every restart; `None` where it cannot be simulated. What
-/// another motion changes is that with the effect for both: one that bends what comes after a restart otherwise would be judged by
-/// another measure.
+/// Share of what is left without an effect that it takes away beside another motion at every restart; `None` where it cannot be simulated.
+///
+/// What another motion changes with the effect and what it changes without are taken off both: an effect that bends what comes after a restart
+/// otherwise would be judged by another measure, and where dry friction holds, another velocity changes nothing.
 fn taken_beside_restarts(without: &[Run<'_>], with: &[Run<'_>]) -> Option<f64> {
-    let of_one = |(without, with): (&Run<'_>, &Run<'_>)| {
-        let changes = with.changes_at_restarts()?;
-        Some([without, with].map(|run| run.left_beside(&changes)))
-    };
-    let pairs = without.iter().zip(with);
-    let pairs: Vec<[f64; 2]> = pairs.map(of_one).collect::<Option<_>>()?;
-    let sum = |which: usize| pairs.iter().map(|pair| pair[which]).sum::<f64>();
-    Some(1.0 - sum(1) / sum(0)).filter(|share| share.is_finite())
+    let (mut left_without, mut left_with) = (0.0, 0.0);
+    for (without, with) in without.iter().zip(with) {
+        let [of_with, of_without] = [with, without].map(Run::changes_at_restarts);
+        let changes = [of_with?, of_without?].concat();
+        left_without += without.left_beside(&changes);
+        left_with += with.left_beside(&changes);
+    }
+    Some(1.0 - left_with / left_without).filter(|share| share.is_finite())
 }
 
 /// A recording as a model runs from restart to restart.
@@ -114,30 +115,46 @@ impl<'a> Run<'a> {
         Some([changed([angle, 0.0])?, changed([0.0, velocity])?])
     }
 
-    /// Σ r² that no other motion at a restart takes away, which `changes` this \[the output's unit squared\].
-    fn left_beside(&self, [by_angle, by_velocity]: &[Vec<f64>; 2]) -> f64 {
+    /// Σ r² that no other motion at a restart takes away, which makes these `changes` \[the output's unit squared\].
+    fn left_beside(&self, changes: &[Vec<f64>]) -> f64 {
         let pairs = self.case.measured().iter().zip(&self.simulated);
         let left: Vec<f64> = pairs.map(|(y, s)| y - s).collect();
-        let stretches = left.chunks(self.apart).zip(by_angle.chunks(self.apart));
-        let stretches = stretches.zip(by_velocity.chunks(self.apart));
-        let whole = stretches.skip(self.case.unscored().div_ceil(self.apart));
-        whole.map(|((r, a), b)| squares_beside(r, a, b)).sum()
+        let unscored = self.case.unscored().div_ceil(self.apart) * self.apart;
+        let stretches = (unscored..left.len()).step_by(self.apart);
+        let of_one = |from: usize| {
+            let stretch = from..(from + self.apart).min(left.len());
+            let changes = changes
+                .iter()
+                .map(|change| change[stretch.clone()].to_vec());
+            squares_beside(&left[stretch.clone()], changes)
+        };
+        stretches.map(of_one).sum()
     }
 }
 
-/// Σ r² of what is left of `r` beside the nearest sum of `a` and `b`.
-fn squares_beside(r: &[f64], a: &[f64], b: &[f64]) -> f64 {
+/// Share of its squares that must be left of a change beside those before it for a direction of its own \[–\]: what two models change nearly
+/// alike would take what tells them apart. Chosen: another spring's are alike to 0.002, those where friction holds and where not have nothing
+/// in common.
+const OWN_DIRECTION: f64 = 0.01;
+
+/// Σ r² of what is left of `r` beside the nearest sum of these `changes`.
+fn squares_beside(r: &[f64], changes: impl Iterator<Item = Vec<f64>>) -> f64 {
     let dot = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(x, y)| x * y).sum::<f64>();
-    let less = |x: &[f64], y: &[f64]| -> Vec<f64> {
-        let square = dot(y, y);
-        let along = if square > 0.0 {
-            dot(x, y) / square
-        } else {
-            0.0
-        };
-        x.iter().zip(y).map(|(x, y)| x - along * y).collect()
+    let take = |from: &mut [f64], along: &[f64]| {
+        let size = dot(from, along) / dot(along, along);
+        let pairs = from.iter_mut().zip(along);
+        pairs.for_each(|(value, along)| *value -= size * along);
     };
-    let r = less(&less(r, a), &less(b, a));
+    let mut r = r.to_vec();
+    let mut known: Vec<Vec<f64>> = Vec::new();
+    for mut change in changes {
+        let whole = dot(&change, &change);
+        known.iter().for_each(|one| take(&mut change, one));
+        if dot(&change, &change) > OWN_DIRECTION * whole {
+            take(&mut r, &change);
+            known.push(change);
+        }
+    }
     dot(&r, &r)
 }
 
@@ -146,17 +163,19 @@ fn squares_beside(r: &[f64], a: &[f64], b: &[f64]) -> f64 {
 mod tests {
     use super::*;
     use crate::tests::made_up::on_machine;
-    use snug_model::Scale;
+    use snug_model::{Effect, Scale};
 
     /// Σ over t = 0 … n − 1 of what no straight line takes of t²: n (n² − 1) (n² − 4) / 180, the square of the discrete Legendre polynomial.
     #[test]
     fn what_a_line_takes_of_a_parabola_is_not_counted() {
         let times: Vec<f64> = (0..9).map(f64::from).collect();
         let parabola: Vec<f64> = times.iter().map(|t| 5.0 - 3.0 * t + t * t).collect();
-        let left = squares_beside(&parabola, &[1.0; 9], &times);
+        let line = [vec![1.0; 9], times.clone(), vec![2.0; 9]];
+        let left = squares_beside(&parabola, line.into_iter());
         let expected = 9.0 * 80.0 * 77.0 / 180.0;
         assert!((left / expected - 1.0).abs() < 1e-12, "{left}");
-        assert_eq!(squares_beside(&parabola, &[0.0; 9], &[0.0; 9]), 4017.0);
+        let nothing = [vec![0.0; 9], vec![0.0; 9]];
+        assert_eq!(squares_beside(&parabola, nothing.into_iter()), 4017.0);
     }
 
     /// x = 0.01 m · cos ωt of a mass on a spring that is taken up wrongly every tenth sample.
@@ -204,5 +223,42 @@ mod tests {
         assert!(taken(1.5 * stiffness, stiffness) > 0.999);
         assert!(taken(stiffness, 1.5 * stiffness) < -100.0);
         assert!(run(&free, stiffness).is_none());
+    }
+
+    /// A body that rests, with what its sensor adds, is taken up with velocities that it does not have. Dry friction stops each at once, and no
+    /// other velocity changes that.
+    #[test]
+    fn friction_that_stops_wrong_motions_at_restarts_takes_nothing_away() {
+        let (apart, interval_s) = (10, 1e-3);
+        let added = |k: usize| 1e-6 * ((k * k) as f64).sin();
+        let scale = Scale::Rig {
+            torque_nm: 5.0,
+            angle_rad: 0.01,
+            time_s: 0.025,
+        };
+        let measured: Vec<f64> = (0..1000).map(added).collect();
+        let mut case = on_machine(
+            scale,
+            interval_s,
+            vec![0.0; 1000],
+            Quantity::Displacement,
+            measured,
+        );
+        let wrongly = |k: usize| [0.0, 0.01 * (k as f64).sin()];
+        let motions = (0..1000).step_by(apart).map(wrongly).collect();
+        case.input = Cow::Owned(case.input.into_owned().with_restarts(apart, motions));
+        let plain = case.model.clone().into_owned();
+        let rubs = plain.with_effect(Effect::CoulombFriction).unwrap();
+        let run =
+            |model: Model, values: &[f64]| [Run::of(case.lent(), model, values.to_vec()).unwrap()];
+        let slides = run(plain, &[0.5, 0.0, 0.0]);
+        let stops = run(rubs, &[0.5, 0.0, 0.0, 10.0]);
+        let left = |run: &Run<'_>| -> f64 {
+            let pairs = run.case.measured().iter().zip(&run.simulated);
+            pairs.map(|(y, s)| (y - s).powi(2)).sum()
+        };
+        assert!(left(&stops[0]) < 0.1 * left(&slides[0]));
+        let taken = taken_beside_restarts(&slides, &stops).unwrap();
+        assert!(taken.abs() < 0.05, "{taken}");
     }
 }
