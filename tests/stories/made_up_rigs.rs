@@ -20,7 +20,7 @@ mod valves;
 mod zeros;
 
 use held::pendulum;
-use rig::{Noise, POSITIVE, Rig, moved};
+use rig::{Noise, Rig, moved};
 use snug_campaign::{Diagnosis, Verdict};
 use snug_study::Verb;
 
@@ -88,11 +88,10 @@ fn a_valve_that_sticks_lacks_dry_friction_and_no_law_that_nobody_knows() {
         let places = moved(&inputs, 20, rate).map(|[x, _]| x);
         noise.with(&inputs, places, 2e-5)
     };
-    let rig = Rig {
-        recordings: (0..3).map(|_| recording()).collect(),
-        declared: ["signal: Torque, unit: Newton", "Displacement", "Metre"],
-        identified: POSITIVE,
-    };
+    let rig = Rig::declared(
+        ["signal: Torque, unit: Newton", "Displacement", "Metre"],
+        (0..3).map(|_| recording()).collect(),
+    );
     let diagnosis = rig.told(&Verb::Improve);
     assert_ne!(
         diagnosis.verdict,
@@ -129,15 +128,14 @@ fn a_spring_of_its_own_kind_is_no_cubic_one_with_play() {
         let accelerations = states.iter().zip(&inputs).map(|(&at, &u)| rate(at, u)[1]);
         noise.with(&inputs, accelerations, 1.0)
     };
-    let rig = Rig {
-        recordings: (0..2).map(|_| recording()).collect(),
-        declared: [
+    let rig = Rig::declared(
+        [
             "signal: Force, unit: Newton",
             "Acceleration",
             "MetrePerSecondSquared",
         ],
-        identified: POSITIVE,
-    };
+        (0..2).map(|_| recording()).collect(),
+    );
     let diagnosis = rig.told_with("intersample: ZeroOrder", &Verb::Improve);
     let headline = &diagnosis.headline;
     let [law] = &diagnosis.added[..] else {

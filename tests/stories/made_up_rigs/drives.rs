@@ -218,11 +218,18 @@ fn what_pushes_itself_away_has_no_wrong_sign() {
     );
 }
 
-/// Where it may push itself away and is restarted before it falls, as Snug advises.
-fn near_a_magnet(recordings: Vec<Vec<[f64; 2]>>) -> Rig {
+/// An armature near a magnet that is led by a controller with these gains, a goal for so many samples: its study lets it push itself away, and
+/// restarts the model before it falls, as Snug advises.
+fn near_a_magnet(samples: usize, gains: [f64; 2], noise_m: f64) -> Rig {
+    let mut noise = Noise(2611);
+    let mut recording = || {
+        let goals = noise.levels([-1e-3, 1e-3], samples, 6000);
+        let clean = held(goals, 0.4, gains, |x, v| 300.0 * x - 0.75 * v);
+        with_noise(&mut noise, clean, noise_m)
+    };
     Rig {
         identified: "constraints: [], simulation: Restarted(every_s: 5.8e-2)",
-        ..Rig::that_slides(recordings)
+        ..Rig::that_slides((0..3).map(|_| recording()).collect())
     }
 }
 
@@ -235,13 +242,7 @@ const STARTS: &str = r#"parameters: {
 /// acceleration that is left says next to nothing.
 #[test]
 fn what_pushes_itself_away_is_followed_as_advised() {
-    let mut noise = Noise(2611);
-    let mut recording = || {
-        let goals = noise.levels([-1e-3, 1e-3], 100, 6000);
-        let clean = held(goals, 0.4, [400.0, 12.0], |x, v| 300.0 * x - 0.75 * v);
-        with_noise(&mut noise, clean, 2e-6)
-    };
-    let rig = near_a_magnet((0..3).map(|_| recording()).collect());
+    let rig = near_a_magnet(100, [400.0, 12.0], 2e-6);
     let diagnosis = rig.told_with(STARTS, &Verb::Diagnose);
     let headline = &diagnosis.headline;
     assert_ne!(diagnosis.verdict, Verdict::NotFitted, "{headline}");
@@ -251,13 +252,7 @@ fn what_pushes_itself_away_is_followed_as_advised() {
 /// Dry friction would stop what is taken up with a velocity that it does not have: it rests at every goal, and nothing rubs.
 #[test]
 fn what_rests_at_its_goals_has_no_dry_friction() {
-    let mut noise = Noise(2611);
-    let mut recording = || {
-        let goals = noise.levels([-1e-3, 1e-3], 300, 6000);
-        let clean = held(goals, 0.4, [1600.0, 30.0], |x, v| 300.0 * x - 0.75 * v);
-        with_noise(&mut noise, clean, 1e-5)
-    };
-    let rig = near_a_magnet((0..3).map(|_| recording()).collect());
+    let rig = near_a_magnet(300, [1600.0, 30.0], 1e-5);
     let diagnosis = rig.told_with(
         &format!("intersample: ZeroOrder, {STARTS}"),
         &Verb::Diagnose,

@@ -1,6 +1,6 @@
 //! Drives whose encoder begins anew after every turn, or reads something where they begin.
 
-use super::rig::{Noise, POSITIVE, Rig, TORQUE, moved};
+use super::rig::{Noise, Rig, TORQUE, moved};
 use super::says;
 use snug_campaign::words::headline::Headline;
 use snug_campaign::{Diagnosis, Verdict};
@@ -50,11 +50,10 @@ fn driven(
 #[test]
 fn an_angle_that_begins_anew_after_every_turn_is_put_together() {
     let seen = |x: f64| x.to_degrees().rem_euclid(360.0);
-    let rig = Rig {
-        recordings: driven(&mut Noise(41), [0.0, 1.7, -2.5], 5e-4, seen),
-        declared: [TORQUE, "Displacement", "Degree"],
-        identified: POSITIVE,
-    };
+    let rig = Rig::declared(
+        [TORQUE, "Displacement", "Degree"],
+        driven(&mut Noise(41), [0.0, 1.7, -2.5], 5e-4, seen),
+    );
     lacks_dry_friction(&rig.told(&Verb::Improve));
 }
 

@@ -1,6 +1,6 @@
 //! Rigs whose input a controller holds from sample to sample, of which the study says nothing.
 
-use super::rig::{FORCE, Noise, POSITIVE, Rig, moved};
+use super::rig::{FORCE, Noise, Rig, moved};
 use super::{names, says};
 use snug_study::Verb;
 
@@ -49,11 +49,10 @@ pub(super) fn slide() -> Rig {
         let accelerations = states.iter().zip(&inputs).map(|(&at, &u)| rate(at, u)[1]);
         noise.with(&inputs, accelerations, OF_THE_ACCELEROMETER)
     };
-    Rig {
-        recordings: (0..6).map(|_| recording()).collect(),
-        declared: [FORCE, "Acceleration", "MetrePerSecondSquared"],
-        identified: POSITIVE,
-    }
+    Rig::declared(
+        [FORCE, "Acceleration", "MetrePerSecondSquared"],
+        (0..6).map(|_| recording()).collect(),
+    )
 }
 
 /// Half a sampling interval is no delay there, and what does what a hold does is found instead of one, a spring beside a damper. Nothing is

@@ -18,44 +18,34 @@ pub struct Rig {
     pub identified: &'static str,
 }
 
-/// What a study as README teaches it says.
-pub const POSITIVE: &str = "constraints: [Positive]";
-
 impl Rig {
-    /// A drive whose angle is measured.
-    pub fn that_turns(recordings: Vec<Vec<[f64; 2]>>) -> Self {
+    /// A rig whose input and output are declared so, in a study as README teaches it.
+    pub fn declared(declared: [&'static str; 3], recordings: Vec<Vec<[f64; 2]>>) -> Self {
         Self {
             recordings,
-            declared: [TORQUE, "Displacement", "Radian"],
-            identified: POSITIVE,
+            declared,
+            identified: "constraints: [Positive]",
         }
+    }
+
+    /// A drive whose angle is measured.
+    pub fn that_turns(recordings: Vec<Vec<[f64; 2]>>) -> Self {
+        Self::declared([TORQUE, "Displacement", "Radian"], recordings)
     }
 
     /// A slide whose place is measured.
     pub fn that_slides(recordings: Vec<Vec<[f64; 2]>>) -> Self {
-        Self {
-            recordings,
-            declared: [FORCE, "Displacement", "Metre"],
-            identified: POSITIVE,
-        }
+        Self::declared([FORCE, "Displacement", "Metre"], recordings)
     }
 
     /// A drive whose speed is measured.
     pub fn that_turns_at_speeds(recordings: Vec<Vec<[f64; 2]>>) -> Self {
-        Self {
-            recordings,
-            declared: [TORQUE, "Velocity", "RadianPerSecond"],
-            identified: POSITIVE,
-        }
+        Self::declared([TORQUE, "Velocity", "RadianPerSecond"], recordings)
     }
 
     /// A slide whose speed is measured.
     pub fn that_slides_at_speeds(recordings: Vec<Vec<[f64; 2]>>) -> Self {
-        Self {
-            recordings,
-            declared: [FORCE, "Velocity", "MetrePerSecond"],
-            identified: POSITIVE,
-        }
+        Self::declared([FORCE, "Velocity", "MetrePerSecond"], recordings)
     }
 
     /// The diagnosis of a study as README teaches it, sampled at 1 kHz.

@@ -1,7 +1,7 @@
 //! Structures that ring: struck by a hammer, or moved by more than was recorded.
 
 use super::names;
-use super::rig::{FORCE, Noise, POSITIVE, Rig, moved};
+use super::rig::{FORCE, Noise, Rig, moved};
 use snug_campaign::Verdict;
 use snug_study::Verb;
 use std::f64::consts::TAU;
@@ -33,11 +33,10 @@ fn struck(noise: &mut Noise, most_n: f64) -> Vec<[f64; 2]> {
 fn a_plate_that_a_hammer_strikes_lacks_its_cubic_spring() {
     let mut noise = Noise(31);
     let blows = [30.0, 80.0, 160.0, 240.0];
-    let rig = Rig {
-        recordings: blows.map(|most_n| struck(&mut noise, most_n)).to_vec(),
-        declared: [FORCE, "Acceleration", "MetrePerSecondSquared"],
-        identified: POSITIVE,
-    };
+    let rig = Rig::declared(
+        [FORCE, "Acceleration", "MetrePerSecondSquared"],
+        blows.map(|most_n| struck(&mut noise, most_n)).to_vec(),
+    );
     let diagnosis = rig.told(&Verb::Improve);
     let headline = &diagnosis.headline;
     assert_eq!(names(&diagnosis), ["cubic_stiffness"], "{headline}");

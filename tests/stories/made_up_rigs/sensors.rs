@@ -1,7 +1,7 @@
 //! What a machine's sensor makes of a motion.
 
 use super::names;
-use super::rig::{FORCE, Noise, POSITIVE, Rig, moved};
+use super::rig::{FORCE, Noise, Rig, moved};
 use snug_campaign::Verdict;
 use snug_study::Verb;
 use std::f64::consts::TAU;
@@ -25,11 +25,10 @@ fn an_accelerometer_that_is_ac_coupled_is_told_with_its_corner() {
             .map(|([x, v, s], &u)| acceleration(x, v, u) - TAU * CORNER_HZ * s);
         noise.with(&inputs, read, NOISE)
     };
-    let rig = Rig {
-        recordings: (0..3).map(|_| recording()).collect(),
-        declared: [FORCE, "Acceleration", "MetrePerSecondSquared"],
-        identified: POSITIVE,
-    };
+    let rig = Rig::declared(
+        [FORCE, "Acceleration", "MetrePerSecondSquared"],
+        (0..3).map(|_| recording()).collect(),
+    );
     let diagnosis = rig.told_with("intersample: ZeroOrder", &Verb::Improve);
     let headline = &diagnosis.headline;
     assert_eq!(names(&diagnosis), ["ac_coupling"], "{headline}");

@@ -8,8 +8,7 @@ use crate::pooled::fitted::Fitted;
 use crate::verdict::earned::share;
 use crate::verdict::thresholds::PLAIN_PROMISE;
 use snug_campaign::words::suspicion::FailedFit;
-use snug_identify::{EquationFit, FitTask};
-use snug_model::Effect;
+use snug_identify::EquationFit;
 
 /// What is wrong with `fitted`, if it falls short of the `plain` regression with its own effects or, where candidates were tried as well,
 /// of one with dry friction and an offset.
@@ -54,7 +53,7 @@ pub(crate) fn shortfall(
     // A fit that explains as much of the output itself keeps the promise: high up, an acceleration is the coarseness of a logged angle; low
     // down, where force and spring all but cancel, hardly one is left.
     let of_output = match cases.are_restarted() {
-        true => share_of_bend(&cases, &fitted.effects, &at),
+        true => share_of_bend(cases, fitted),
         false => share(&cases, fitted),
     };
     let keeps = |found: &EquationFit| {
@@ -65,15 +64,12 @@ pub(crate) fn shortfall(
     own.or_else(|| further.filter(fails).map(|found| told(found, true)))
 }
 
-/// Share that restarted models with these values of all parameters explain of what bends the motion from one restart to the next \[–\]: of all of
-/// it, any model explains nearly everything. `None` where one cannot be simulated.
-fn share_of_bend(cases: &[FitTask<'_>], effects: &[Effect], at: &[Vec<f64>]) -> Option<f64> {
+/// Share that a restarted model explains of what bends the motion from one restart to the next \[–\]: of all of it, any model explains nearly
+/// everything. `None` where it cannot be simulated.
+fn share_of_bend(cases: Cases<'_>, fitted: &Fitted) -> Option<f64> {
     let (mut whole, mut left) = (0.0, 0.0);
-    for (case, values) in cases.iter().zip(at) {
-        let simulated = case.simulated(&case.model_with(effects).ok()?, values);
-        let pairs = case.measured().iter().zip(simulated.ok()?);
-        let residual: Vec<f64> = pairs.map(|(y, s)| y - s).collect();
-        whole += bent_power(case, case.measured());
+    for (case, residual) in cases.iter().zip(fitted.left(cases)?) {
+        whole += bent_power(case, &case.measured()[case.unscored()..]);
         left += bent_power(case, &residual);
     }
     Some(1.0 - left / whole).filter(|share| !share.is_nan())

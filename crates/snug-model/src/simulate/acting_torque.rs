@@ -97,13 +97,10 @@ impl<'a, N: Number> ActingTorque<'a, N> {
     pub fn within(&self, point: usize) -> Within<N> {
         if self.is_known() {
             let told = self.inputs.torque_nm()[point];
-            let rise = rise(
-                self.inputs,
-                told,
-                point,
-                #[inline(always)]
-                |next| self.inputs.torque_nm()[next],
-            );
+            let rise = match self.next(point) {
+                Some(next) => self.inputs.torque_nm()[next] - told,
+                None => told.constant(0.0),
+            };
             return [
                 N::from(told),
                 N::from(told + rise * 0.5),
@@ -121,13 +118,17 @@ impl<'a, N: Number> ActingTorque<'a, N> {
     /// By how much what is `told` at a grid point rises within the step from there.
     #[inline(always)]
     fn rise(&self, told: N, point: usize) -> N {
-        rise(
-            self.inputs,
-            told,
-            point,
-            #[inline(always)]
-            |next| self.told(next),
-        )
+        match self.next(point) {
+            Some(next) => self.told(next) - told,
+            None => told.constant(0.0),
+        }
+    }
+
+    /// The grid point to which the torque goes straight from a `point`; none where it stays as it is.
+    #[inline(always)]
+    fn next(&self, point: usize) -> Option<usize> {
+        let last = self.inputs.torque_nm().len().saturating_sub(1);
+        (!self.inputs.held && point < last).then_some(point + 1)
     }
 
     /// What is told at a grid point \[Nm\], whatever a drive makes of it.
@@ -164,21 +165,6 @@ impl<N: Number> Task for Giving<'_, N> {
             last = actuator.within(last, told, acting.rise(told, point))[2];
         }
         given
-    }
-}
-
-/// By how much what is `told` at a grid point rises within the step from there, if at a `point` it is that.
-#[inline(always)]
-fn rise<M: Number>(
-    inputs: &SimulationInputs<'_, impl Real>,
-    told: M,
-    point: usize,
-    at: impl Fn(usize) -> M,
-) -> M {
-    let last = inputs.torque_nm().len().saturating_sub(1);
-    match inputs.held || point >= last {
-        true => told.constant(0.0),
-        false => at(point + 1) - told,
     }
 }
 

@@ -22,7 +22,7 @@ impl Fitted {
     }
 
     /// Measured less simulated of each of `cases`, scored samples only, in the output's unit; `None` where it cannot be simulated.
-    fn left(&self, cases: Cases<'_>) -> Option<Vec<Vec<f64>>> {
+    pub fn left(&self, cases: Cases<'_>) -> Option<Vec<Vec<f64>>> {
         let of_one = |(case, values): (&FitTask<'_>, Vec<f64>)| {
             let model = case.model_with(&self.effects).ok()?;
             let simulated = case.simulated(&model, &values).ok()?;

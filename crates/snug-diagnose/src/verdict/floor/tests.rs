@@ -26,12 +26,17 @@ fn said_leaving(
     were_tried: bool,
 ) -> Option<FailedFit> {
     let cases = [machine(friction_nm)];
-    let names = ["mass_kg", "damping_kg_per_s", "stiffness_n_per_m"];
-    let fitted = Fitted::made_up(&[], &[squares], SAMPLES).unweighted();
-    let fitted = fitted.with_own(&names, vec![values.to_vec()], 0);
+    let fitted = ended_at(values, squares);
     let tally = Tally::default();
     let plain = PlainEquation::of(&cases)?;
     shortfall(&plain, Cases::new(&cases, &tally), &fitted, were_tried)
+}
+
+/// A fit of the base model that ended at these numbers and leaves so much of the output.
+fn ended_at(values: [f64; 3], squares: f64) -> Fitted {
+    let names = ["mass_kg", "damping_kg_per_s", "stiffness_n_per_m"];
+    let fitted = Fitted::made_up(&[], &[squares], SAMPLES).unweighted();
+    fitted.with_own(&names, vec![values.to_vec()], 0)
 }
 
 #[test]
@@ -73,10 +78,9 @@ fn what_bends_a_restarted_motion_is_what_counts() {
     };
     let restarts = (0..SAMPLES).step_by(APART).map(motion).collect();
     case.input = Cow::Owned(case.input.into_owned().with_restarts(APART, restarts));
-    let share = |values: [f64; 3]| {
-        let at = [values.to_vec()];
-        share_of_bend(std::slice::from_ref(&case), &[], &at).unwrap()
-    };
+    let (cases, tally) = ([case], Tally::default());
+    let share =
+        |values| share_of_bend(Cases::new(&cases, &tally), &ended_at(values, 1e12)).unwrap();
     assert!(share(TRUTH) > 0.99, "{}", share(TRUTH));
     let lost = [4.0, 30.0, 900.0];
     assert!(share(lost) < 0.5, "{}", share(lost));
