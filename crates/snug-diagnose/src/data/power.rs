@@ -2,6 +2,7 @@
 
 use snug_campaign::Quantity;
 use snug_identify::FitTask;
+use snug_least_squares::matrix::inner_product as dot;
 use snug_signal::without_trend;
 
 /// Σ of squares of the fitted output about its mean, over what is scored of all recordings; about the mean between two restarts where
@@ -18,9 +19,12 @@ pub(crate) fn power(cases: &[FitTask<'_>]) -> f64 {
 /// restarts: a straight line of a displacement, a constant velocity, no acceleration. Errors of the motion at a restart are nearly one.
 pub(crate) fn bent_power(case: &FitTask<'_>, scored: &[f64]) -> f64 {
     let about_uniform = |stretch: &[f64]| match case.quantity() {
-        Quantity::Displacement => squares(&without_trend(stretch.to_vec())),
+        Quantity::Displacement => {
+            let beside = without_trend(stretch.to_vec());
+            dot(&beside, &beside)
+        }
         Quantity::Velocity => about_mean(stretch),
-        Quantity::Acceleration => squares(stretch),
+        Quantity::Acceleration => dot(stretch, stretch),
     };
     stretches(case, scored).map(about_uniform).sum()
 }
@@ -34,10 +38,6 @@ fn stretches<'a>(case: &FitTask<'_>, scored: &'a [f64]) -> impl Iterator<Item = 
 fn about_mean(values: &[f64]) -> f64 {
     let mean = values.iter().sum::<f64>() / values.len() as f64;
     values.iter().map(|y| (y - mean).powi(2)).sum()
-}
-
-fn squares(values: &[f64]) -> f64 {
-    values.iter().map(|y| y * y).sum()
 }
 
 #[cfg(test)]

@@ -172,15 +172,9 @@ impl Display for FailedFit {
             true => at_most_all(self.kept),
             false => "nothing".to_owned(),
         };
-        let then = match self.is_plain {
-            true => "Start it from the regression's (`model.parameters`)",
-            false => {
-                "It was begun at the regression's, too: hold those (`model.parameters`, `fixed: true`), and `compare` shows where a simulation with them leaves the measurement"
-            }
-        };
         write!(
             f,
-            "A plain regression of acceleration on {} explains {}, the simulated fit {kept}: the fit failed, and its numbers are no physics. {then}: {}.",
+            "A plain regression of acceleration on {} explains {}, the simulated fit {kept}: the fit failed, and its numbers are no physics. Start it from the regression's (`model.parameters`): {}. Where it fails from there, too, hold them (`fixed: true`): `compare` then shows where a simulation with them leaves the measurement.",
             joined(&on),
             at_most_all(self.promised),
             sized(&self.sizes)

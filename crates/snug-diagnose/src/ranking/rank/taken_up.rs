@@ -34,14 +34,19 @@ pub(super) fn look_beside_restarts(
     if !cases.are_restarted() {
         return;
     }
+    let all = current.heldout_beyond_torque_noise().iter().sum::<f64>();
+    let gains = candidates.iter_mut().map(|one| (one.gain() / all, one));
+    let that_matter: Vec<_> = gains
+        .filter(|(gain, _)| *gain > settings.smallest_gain)
+        .collect();
+    if that_matter.is_empty() {
+        return;
+    }
     let Some(without) = runs(&cases, current) else {
         return;
     };
-    let all = current.heldout_beyond_torque_noise().iter().sum::<f64>();
-    candidates.par_iter_mut().for_each(|one| {
-        let gain = one.gain() / all;
-        if gain > settings.smallest_gain
-            && let Some(with) = runs(&cases, &one.fitted)
+    that_matter.into_par_iter().for_each(|(gain, one)| {
+        if let Some(with) = runs(&cases, &one.fitted)
             && let Some(taken) = taken_beside_restarts(&without, &with)
         {
             one.shows_beside_restarts = taken > TAKEN_BESIDE * gain;
