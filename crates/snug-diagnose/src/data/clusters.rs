@@ -16,22 +16,32 @@ pub(crate) struct Clusters {
 
 impl Clusters {
     pub fn of(cases: &[FitTask<'_>]) -> Self {
-        let lengths = cases
-            .iter()
-            .map(|case| case.measured().len() - case.unscored());
-        let shortest = lengths.min().unwrap_or(0);
+        let scored = |case: &FitTask<'_>| case.measured().len().saturating_sub(case.unscored());
+        Self::of_residuals(
+            cases.iter().map(scored).collect(),
+            cases.iter().all(is_machine),
+        )
+    }
+
+    /// Of tightenings with so many residuals each. The usual one says how finely all are cut: one that broke off tells nothing of the others.
+    fn of_residuals(mut residuals: Vec<usize>, are_of_machine: bool) -> Self {
+        residuals.sort_unstable();
+        let count = residuals.len();
+        // Of an even number the fewer of the middle ones.
+        let usual = residuals.get(count.saturating_sub(1) / 2);
+        let usual = usual.copied().unwrap_or(0);
         // Hands differ from one tightening to the next; of a machine's recordings each is as good a part of all as a stretch is.
-        let fewest_whole = match cases.iter().all(is_machine) {
+        let fewest_whole = match are_of_machine {
             true => STRETCHES_WANTED,
             false => FEWEST_WHOLE,
         };
-        if cases.len() >= fewest_whole && shortest < LONG_RECORD {
+        if count >= fewest_whole && usual < LONG_RECORD {
             return Self { per_case: 1 };
         }
-        let room = shortest / SHORTEST_STRETCH;
+        let room = usual / SHORTEST_STRETCH;
         Self {
             per_case: STRETCHES_WANTED
-                .div_ceil(cases.len().max(1))
+                .div_ceil(count.max(1))
                 .min(room)
                 .max(2.min(room))
                 .max(1),
@@ -107,10 +117,17 @@ mod tests {
     }
 
     #[test]
-    fn the_shortest_tightening_says_how_finely_all_are_cut() {
-        let mut mixed = cases(1, 250, 0);
-        mixed.extend(cases(1, 85, 0));
-        assert_eq!(Clusters::of(&mixed).per_case, 2);
+    fn one_that_broke_off_changes_nothing_for_the_others() {
+        let per_case =
+            |residuals: &[usize]| Clusters::of_residuals(residuals.to_vec(), true).per_case;
+        assert_eq!(per_case(&[4000, 4000, 4000]), 8);
+        for short in [1, 39, 79] {
+            assert_eq!(per_case(&[4000, short, 4000]), 8, "{short}");
+        }
+        let mut many = vec![LONG_RECORD; 30];
+        assert_eq!(per_case(&many), 2);
+        many.push(200);
+        assert_eq!(per_case(&many), 2);
     }
 
     #[test]
