@@ -329,18 +329,12 @@ impl<'a> MotionEquation<'a> {
     /// Sizes by instruments, or without where the recordings are too short for them, and the squares that are left.
     fn regressed(&self, left: &[Vec<f64>], columns: &[Column]) -> Option<(Vec<f64>, f64)> {
         let apart: Vec<usize> = self.records.iter().map(|record| record.apart).collect();
-        let none = vec![0; apart.len()];
-        let with = |apart: &[usize]| {
-            let regression = Regression {
-                left,
-                columns,
-                apart,
-            };
-            let sizes = regression.sizes()?;
-            let left_over = regression.left_over(&sizes);
-            Some((sizes, left_over))
-        };
-        with(&apart).or_else(|| with(&none))
+        regressed(left, columns, &apart).or_else(|| self.nearest(left, columns))
+    }
+
+    /// The sizes that leave the fewest squares, though noise in the columns makes them too small, and these.
+    fn nearest(&self, left: &[Vec<f64>], columns: &[Column]) -> Option<(Vec<f64>, f64)> {
+        regressed(left, columns, &vec![0; self.records.len()])
     }
 
     /// m, c, k that a simulation can begin with: above 0 where they are free.
@@ -446,6 +440,18 @@ impl Known {
             },
         }
     }
+}
+
+/// Sizes by instruments so many places apart in each record, or without where that is 0, and the squares that are left.
+fn regressed(left: &[Vec<f64>], columns: &[Column], apart: &[usize]) -> Option<(Vec<f64>, f64)> {
+    let regression = Regression {
+        left,
+        columns,
+        apart,
+    };
+    let sizes = regression.sizes()?;
+    let left_over = regression.left_over(&sizes);
+    Some((sizes, left_over))
 }
 
 #[cfg(test)]

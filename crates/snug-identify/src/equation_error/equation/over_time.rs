@@ -37,8 +37,8 @@ pub struct Change {
     pub from: f64,
     /// What it is at the end of each, in the same unit.
     pub to: f64,
-    /// Share \[–\] of the squares left without the change that it takes: of what the regression leaves, the fitted model or no model at all,
-    /// the fewest.
+    /// Share \[–\] of the squares left without the change that it takes: of what the numbers leave that leave least, or the fitted model. Those of a
+    /// regression by instruments that tell little may leave far more.
     pub taken: f64,
     /// Where in these recordings it changes at once, from −1 at the beginning to 1 at the end \[–\]; `None` where it does so evenly.
     pub at: Option<f64>,
@@ -55,8 +55,8 @@ impl MotionEquation<'_> {
         }
         let left: Vec<Vec<f64>> = self.records.iter().map(|one| one.torque.clone()).collect();
         let constant = self.of_torque(terms);
-        let (sizes, without) = self.regressed(&left, &constant)?;
-        let before = without.min(squares(&left)).min(fitted);
+        let (sizes, _) = self.regressed(&left, &constant)?;
+        let before = self.nearest(&left, &constant)?.1.min(fitted);
         let rest = rest(&left, &constant, &sizes);
         let with_change = |index: usize, at: Option<f64>, recordings: &[usize]| {
             let mut columns = constant.clone();
@@ -244,11 +244,6 @@ fn rest(left: &[Vec<f64>], columns: &[Column], sizes: &[f64]) -> Vec<Vec<f64>> {
 
 fn most(changes: impl Iterator<Item = Change>) -> Option<Change> {
     changes.max_by(|a, b| a.taken.total_cmp(&b.taken))
-}
-
-/// What no regression at all leaves: one by instruments that tell nothing may leave more.
-fn squares(left: &[Vec<f64>]) -> f64 {
-    left.iter().map(|one| dot(one, one)).sum()
 }
 
 fn is_driven_alike(record: &AveragedRecord) -> bool {
