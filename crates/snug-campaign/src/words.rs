@@ -17,4 +17,6 @@ pub mod size;
 pub mod vocabulary;
 
 pub use grammar::{capitalised, counted, joined};
-pub use sentence::{changes, explained, headline, reason, remark, statement, stopped, suspicion};
+pub use sentence::{
+    changes, explained, headline, reason, remark, restarted, statement, stopped, suspicion,
+};

@@ -11,7 +11,6 @@ use crate::multistart::integral_start::integral_start;
 use crate::multistart::search::MultistartSearch;
 use crate::noise::score_covariance::{OwnedNoise, noise_of};
 use crate::residual::tightening::TighteningResidual;
-use crate::residual::whitening::Whitening;
 use crate::settings::IdentifySettings;
 use crate::task::FitTask;
 use snug_campaign::{
@@ -56,13 +55,8 @@ pub fn identify_all(tasks: &[FitTask<'_>]) -> Vec<Result<Estimate, IdentifyError
 fn identify_alike(tasks: &[FitTask<'_>]) -> Vec<Result<Estimate, IdentifyError>> {
     let settings = &*tasks[0].settings;
     let quantity = settings.fitted_output;
-    let whitenings: Vec<Option<Whitening>> = (tasks.iter())
-        .map(|task| Whitening::of(&task.tightening, quantity))
-        .collect();
-    let mut attempts: Vec<Result<Attempt<'_>, IdentifyError>> = (tasks.iter())
-        .zip(&whitenings)
-        .map(|(task, whitening)| Attempt::new(task, whitening.as_ref(), settings))
-        .collect();
+    let mut attempts: Vec<Result<Attempt<'_>, IdentifyError>> =
+        tasks.iter().map(Attempt::new).collect();
     let decimated_records: Vec<Option<DecimatedRecord>> = (attempts.iter().zip(tasks))
         .map(|(attempt, task)| attempt.as_ref().ok()?.decimated(task, quantity))
         .collect();
@@ -100,27 +94,16 @@ struct Attempt<'a> {
 }
 
 impl<'a> Attempt<'a> {
-    fn new(
-        task: &'a FitTask<'a>,
-        whitening: Option<&'a Whitening>,
-        settings: &IdentifySettings,
-    ) -> Result<Self, IdentifyError> {
+    fn new(task: &'a FitTask<'a>) -> Result<Self, IdentifyError> {
         task.check()?;
-        let residual = TighteningResidual::new(
-            &task.model,
-            &task.input,
-            task.measured(),
-            settings.fitted_output,
-            whitening,
-            settings.unscored_samples,
-        )?;
+        let residual = task.residual(&task.model)?;
         residual.check_length()?;
         let usual = starts(&task.model);
         let is_rugged = usual.len() > 1 || residual.has_unilateral_contact();
         let near = integral_start(task).filter(|_| is_rugged || residual.is_base());
         Ok(Self {
             residual,
-            set: convex_set(&task.model, &settings.constraints),
+            set: convex_set(&task.model, &task.settings.constraints),
             starts: near.map_or_else(|| usual.clone(), |near| nearer(&usual, &near, is_rugged)),
             distinct_starts: usual.len(),
             usual_start: usual.into_iter().next().unwrap_or_default(),

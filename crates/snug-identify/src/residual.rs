@@ -2,7 +2,9 @@
 
 pub mod agreement;
 pub(crate) mod restarts;
+pub(crate) mod scoring;
 pub(crate) mod smoothing;
+pub(crate) mod taken_up;
 pub(crate) mod thresholds;
 pub(crate) mod tightening;
 pub(crate) mod whitening;

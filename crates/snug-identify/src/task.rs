@@ -8,7 +8,9 @@ pub use in_motion::{begin_elsewhere, begin_in_motion};
 
 use crate::error::IdentifyError;
 use crate::residual::restarts::motions_at;
+use crate::residual::scoring::Scoring;
 use crate::residual::thresholds::RESTARTED_EVERY_S;
+use crate::residual::tightening::TighteningResidual;
 use crate::residual::whitening::Whitening;
 use crate::settings::IdentifySettings;
 use snug_campaign::{Intersample, NoiseFloor, Quantity, Rig, Tightening};
@@ -114,15 +116,42 @@ impl<'a> FitTask<'a> {
         Whitening::of(&self.tightening, self.quantity())
     }
 
-    /// Σ (measured − simulated)² of its scored samples, in the output's unit squared, where `model` has these values of all its
+    /// What counts of what a model leaves of it.
+    pub fn scoring(&self) -> Scoring {
+        let whitening = self.whitening();
+        Scoring::new(self.quantity(), &self.input, whitening, self.unscored())
+    }
+
+    /// Measured minus simulated by a `model`, as the solver sees it.
+    ///
+    /// # Errors
+    /// As [`TighteningResidual::new`].
+    pub fn residual<'b>(
+        &'b self,
+        model: &'b Model,
+    ) -> Result<TighteningResidual<'b>, IdentifyError> {
+        let (measured, quantity) = (self.measured(), self.quantity());
+        TighteningResidual::new(model, &self.input, measured, quantity, self.scoring())
+    }
+
+    /// What counts of measured − `simulated`, in the output's unit, whether the noise is known or not; see [`Scoring`].
+    pub fn left(&self, simulated: &[f64]) -> Vec<f64> {
+        let pairs = self.measured().iter().zip(simulated);
+        let left: Vec<f64> = pairs.map(|(y, s)| y - s).collect();
+        let scoring = Scoring::new(self.quantity(), &self.input, None, self.unscored());
+        let mut counts = vec![0.0; scoring.count()];
+        scoring.weigh(&left, &mut counts);
+        counts
+    }
+
+    /// Σ of squares of what is [`left`](Self::left), in the output's unit squared, where `model` has these values of all its
     /// parameters.
     ///
     /// # Errors
     /// What the model refuses.
     pub fn squares_left(&self, model: &Model, values: &[f64]) -> Result<f64, ModelError> {
         let simulated = self.simulated(model, values)?;
-        let scored = simulated.iter().zip(self.measured()).skip(self.unscored());
-        Ok(scored.map(|(s, y)| (y - s).powi(2)).sum())
+        Ok(self.left(&simulated).iter().map(|r| r * r).sum())
     }
 
     /// The fitted output of every sample, in its unit, where `model` has these values of all its parameters.

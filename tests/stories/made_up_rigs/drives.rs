@@ -219,12 +219,14 @@ fn what_pushes_itself_away_has_no_wrong_sign() {
 }
 
 /// An armature near a magnet that is led by a controller with these gains, a goal for so many samples: its study lets it push itself away, and
-/// restarts the model before it falls, as Snug advises.
-fn near_a_magnet(samples: usize, gains: [f64; 2], noise_m: f64) -> Rig {
+/// restarts the model before it falls, as Snug advises. Dry friction may rub on it.
+fn near_a_magnet(samples: usize, gains: [f64; 2], noise_m: f64, rubs_n: f64) -> Rig {
     let mut noise = Noise(2611);
     let mut recording = || {
         let goals = noise.levels([-1e-3, 1e-3], samples, 6000);
-        let clean = held(goals, 0.4, gains, |x, v| 300.0 * x - 0.75 * v);
+        let clean = held(goals, 0.4, gains, |x, v| {
+            300.0 * x - 0.75 * v - rubs_n / 0.4 * (v / 2e-4).tanh()
+        });
         with_noise(&mut noise, clean, noise_m)
     };
     Rig {
@@ -242,7 +244,7 @@ const STARTS: &str = r#"parameters: {
 /// acceleration that is left says next to nothing.
 #[test]
 fn what_pushes_itself_away_is_followed_as_advised() {
-    let rig = near_a_magnet(100, [400.0, 12.0], 2e-6);
+    let rig = near_a_magnet(100, [400.0, 12.0], 2e-6, 0.0);
     let diagnosis = rig.told_with(STARTS, &Verb::Diagnose);
     let headline = &diagnosis.headline;
     assert_ne!(diagnosis.verdict, Verdict::NotFitted, "{headline}");
@@ -252,13 +254,33 @@ fn what_pushes_itself_away_is_followed_as_advised() {
 /// Dry friction would stop what is taken up with a velocity that it does not have: it rests at every goal, and nothing rubs.
 #[test]
 fn what_rests_at_its_goals_has_no_dry_friction() {
-    let rig = near_a_magnet(300, [1600.0, 30.0], 1e-5);
+    let rig = near_a_magnet(300, [1600.0, 30.0], 1e-5, 0.0);
     let diagnosis = rig.told_with(
         &format!("intersample: ZeroOrder, {STARTS}"),
         &Verb::Diagnose,
     );
     let headline = &diagnosis.headline;
-    assert_eq!(diagnosis.verdict, Verdict::Undecided, "{headline}");
+    assert_eq!(diagnosis.verdict, Verdict::Adequate, "{headline}");
+    let left = diagnosis.ladder.last().unwrap().rms_fitted_output;
+    assert!((left / 1e-5 - 1.0).abs() < 0.03, "{left}");
+}
+
+/// Forty samples tell no mass, damping and stiffness: a recording that broke off beside two that did not makes three machines of none.
+#[test]
+fn a_recording_that_broke_off_is_of_the_same_machine() {
+    let mut rig = near_a_magnet(300, [1600.0, 30.0], 1e-5, 0.15);
+    rig.recordings[1].truncate(4000);
+    rig.recordings[2].truncate(40);
+    let diagnosis = rig.told_with(
+        &format!("intersample: ZeroOrder, {STARTS}"),
+        &Verb::Diagnose,
+    );
+    let headline = &diagnosis.headline;
+    assert_eq!(diagnosis.verdict, Verdict::MissingEffect, "{headline}");
+    let first = &diagnosis.ranking[0];
+    assert_eq!(first.effect, "coulomb_friction", "{headline}");
+    let friction_n = first.parameters[0].value;
+    assert!((friction_n / 0.15 - 1.0).abs() < 0.05, "{friction_n}");
 }
 
 /// One that is restarted again and again is predicted well enough by anything: no friction, mode or law is to stand for a stiffness below 0.

@@ -7,6 +7,7 @@ pub mod explained;
 pub mod headline;
 pub mod reason;
 pub mod remark;
+pub mod restarted;
 pub mod statement;
 pub mod stopped;
 pub mod suspicion;

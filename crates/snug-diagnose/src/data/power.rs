@@ -9,15 +9,15 @@ use snug_signal::without_trend;
 /// the model is restarted, since what it takes up it need not explain.
 pub(crate) fn power(cases: &[FitTask<'_>]) -> f64 {
     let of_case = |case: &FitTask<'_>| -> f64 {
-        let scored = &case.measured()[case.unscored()..];
-        stretches(case, scored).map(about_mean).sum()
+        let stretches = case.input.stretches(case.unscored());
+        stretches.map(|one| about_mean(&case.measured()[one])).sum()
     };
     cases.iter().map(of_case).sum()
 }
 
-/// Σ of squares of a signal in the fitted output's place, `scored` samples of a recording, about the uniform motion nearest to it between two
-/// restarts: a straight line of a displacement, a constant velocity, no acceleration. Errors of the motion at a restart are nearly one.
-pub(crate) fn bent_power(case: &FitTask<'_>, scored: &[f64]) -> f64 {
+/// Σ of squares of a `signal` of every sample, in the fitted output's place, about the uniform motion nearest to it between two restarts: a
+/// straight line of a displacement, a constant velocity, no acceleration. Errors of the motion at a restart are nearly one.
+pub(crate) fn bent_power(case: &FitTask<'_>, signal: &[f64]) -> f64 {
     let about_uniform = |stretch: &[f64]| match case.quantity() {
         Quantity::Displacement => {
             let beside = without_trend(stretch.to_vec());
@@ -26,13 +26,8 @@ pub(crate) fn bent_power(case: &FitTask<'_>, scored: &[f64]) -> f64 {
         Quantity::Velocity => about_mean(stretch),
         Quantity::Acceleration => dot(stretch, stretch),
     };
-    stretches(case, scored).map(about_uniform).sum()
-}
-
-/// From restart to restart; the whole where it runs freely.
-fn stretches<'a>(case: &FitTask<'_>, scored: &'a [f64]) -> impl Iterator<Item = &'a [f64]> {
-    let apart = case.input.samples_between_restarts();
-    scored.chunks(apart.unwrap_or(scored.len()).max(1))
+    let stretches = case.input.stretches(case.unscored());
+    stretches.map(|one| about_uniform(&signal[one])).sum()
 }
 
 fn about_mean(values: &[f64]) -> f64 {

@@ -7,7 +7,7 @@ use crate::pooled::thresholds::{
     A_FEW_STEPS, BEGINNING, GROWN, SAME_END, SHORTEST_BEGINNING, SHORTEST_GROWN, SIEVE, SIEVED,
     SOON, TRIAL_OF_A_START,
 };
-use snug_identify::{FitTask, TighteningResidual, convex_set};
+use snug_identify::{FitTask, convex_set};
 use snug_least_squares::{DenseResidual, PooledFit, PooledSettings, Settings, solve};
 
 /// Fits from each of `starts`; the lowest cost goes on to the end. Where the records [take long](take_long) to simulate, that is done on
@@ -182,16 +182,7 @@ fn further(pooled: &PooledModel<'_>, from: &Start) -> Option<Start> {
     };
     let values = pooled.values(0, &from.own[0], &from.shared);
     let free = model.free();
-    let whitening = case.whitening();
-    let residual = TighteningResidual::new(
-        model,
-        &case.input,
-        case.measured(),
-        case.quantity(),
-        whitening.as_ref(),
-        case.unscored(),
-    );
-    let mut problem = DenseResidual::new(residual.ok()?);
+    let mut problem = DenseResidual::new(case.residual(model).ok()?);
     let start: Vec<f64> = free.iter().map(|&index| values[index]).collect();
     let set = convex_set(model, &case.settings.constraints);
     let settings = Settings {

@@ -11,7 +11,7 @@ use crate::pooled::between::{mix, once, places_in};
 use crate::pooled::error_beyond::error_beyond;
 use crate::pooled::parameter_place::first_parameter;
 use crate::pooled::sharing::{SharedSize, SharedSizes, Sharing, shared_sizes};
-use snug_identify::{FitTask, Whitening, convex_set, identify_all};
+use snug_identify::{FitTask, Scoring, convex_set, identify_all};
 use snug_least_squares::{
     Constraints, PooledFit, PooledSettings, PooledStep, solve_pooled_followed,
 };
@@ -24,7 +24,7 @@ pub(crate) struct PooledModel<'a> {
     pub effects: Vec<Effect>,
     pub sharing: Sharing,
     pub models: Vec<Model>,
-    whitenings: Vec<Option<Whitening>>,
+    scorings: Vec<Scoring>,
     /// Indices (into the model's parameters) of what every tightening has of its own.
     pub own: Vec<usize>,
     /// Indices of what is shared, whether by all or by the tightenings of a group; of a size between two groups' it stands twice.
@@ -130,7 +130,7 @@ impl<'a> PooledModel<'a> {
             })
             .collect();
         Ok(Self {
-            whitenings: cases.iter().map(FitTask::whitening).collect(),
+            scorings: cases.iter().map(FitTask::scoring).collect(),
             cases,
             effects: effects.to_vec(),
             sharing: sharing.among(effects),
@@ -165,7 +165,8 @@ impl<'a> PooledModel<'a> {
 
     /// Whether all residuals are in units of a measured noise.
     pub fn is_weighted(&self) -> bool {
-        self.whitenings.iter().all(Option::is_some)
+        let mut scorings = self.scorings.iter();
+        scorings.all(|scoring| scoring.whitening().is_some())
     }
 
     /// Names of parameters by index.
@@ -340,8 +341,8 @@ impl<'a> PooledModel<'a> {
         room: &'r mut Room,
     ) -> (&'r mut [f64], &'r mut [f64]) {
         let case = &self.cases[member];
-        let whitening = self.whitenings[member].as_ref();
-        let scored = scored(case, whitening);
+        let scoring = &self.scorings[member];
+        let scored = self.residual_count(member);
         let Room {
             simulated,
             residual,
@@ -353,12 +354,12 @@ impl<'a> PooledModel<'a> {
         }
         residual.resize(scored, 0.0);
         jacobian.resize(scored * order.len(), 0.0);
-        weigh(whitening, &simulated.output[case.unscored()..], residual);
+        scoring.weigh(&simulated.output, residual);
         let samples = simulated.output.len();
         let places = places_in(order);
         for (place, weighted) in places.zip(jacobian.chunks_exact_mut(scored)) {
             let column = &simulated.sensitivity[place * samples..][..samples];
-            weigh(whitening, &column[case.unscored()..], weighted);
+            scoring.weigh(column, weighted);
             for value in weighted {
                 *value = -*value;
             }
@@ -376,15 +377,13 @@ impl<'a> PooledModel<'a> {
 
     /// Number of weighted residuals of one member.
     pub fn residual_count(&self, member: usize) -> usize {
-        scored(&self.cases[member], self.whitenings[member].as_ref())
+        self.scorings[member].count()
     }
 
     /// Whitens a signal of one member's length.
     pub fn weigh_signal(&self, member: usize, signal: &[f64]) -> Vec<f64> {
-        let case = &self.cases[member];
-        let whitening = self.whitenings[member].as_ref();
-        let mut weighted = vec![0.0; scored(case, whitening)];
-        weigh(whitening, &signal[case.unscored()..], &mut weighted);
+        let mut weighted = vec![0.0; self.residual_count(member)];
+        self.scorings[member].weigh(signal, &mut weighted);
         weighted
     }
 }
@@ -411,17 +410,4 @@ fn bounds(model: &Model, shared: &[SharedSize]) -> Constraints {
         );
     }
     set
-}
-
-/// Number of weighted residuals of a case.
-fn scored(case: &FitTask<'_>, whitening: Option<&Whitening>) -> usize {
-    let lost = whitening.map_or(0, Whitening::order);
-    (case.measured().len() - case.unscored()).saturating_sub(lost)
-}
-
-fn weigh(whitening: Option<&Whitening>, signal: &[f64], weighted: &mut [f64]) {
-    match whitening {
-        Some(whitening) => whitening.apply(signal, weighted),
-        None => weighted.copy_from_slice(signal),
-    }
 }

@@ -96,7 +96,7 @@ impl ModelSelection<'_> {
     ) -> Result<Option<Both>, DiagnoseError> {
         let heldout = current.heldout_beyond_torque_noise();
         let [a, b] = pair.effects;
-        let mut lowest: Option<Both> = None;
+        let (mut lowest, mut both_show): (Option<Both>, bool) = (None, true);
         for (first, second) in [(a, b), (b, a)] {
             let mut all = ranking.candidates.iter();
             let Some(seed) = all.position(|candidate| candidate.effect == first) else {
@@ -119,6 +119,7 @@ impl ModelSelection<'_> {
             let Some(mut both) = next.candidates.first().cloned() else {
                 continue;
             };
+            both_show &= both.shows_beside_restarts;
             let known = lowest.as_ref().map(|one| one.both.fitted.squares());
             if known.is_some_and(|known| known <= both.fitted.squares()) {
                 continue;
@@ -131,6 +132,9 @@ impl ModelSelection<'_> {
                 both,
                 seed,
             });
+        }
+        if let Some(lowest) = &mut lowest {
+            lowest.both.shows_beside_restarts = both_show;
         }
         Ok(lowest)
     }

@@ -34,12 +34,13 @@ pub(crate) fn explained(
     fitted: &Fitted,
     seen: &[Seen<'_>],
 ) -> Option<Explained> {
-    let quantity = cases.first()?.quantity();
+    let first = cases.first()?;
     Some(Explained {
-        output: quantity.name(),
+        output: first.quantity().name(),
         share: share(cases, fitted)?,
-        neighbours: neighbours(quantity, seen),
+        neighbours: correlation(&left(cases, seen)),
         is_exact: fitted.is_exact,
+        beside_lines: first.scoring().is_beside_lines(),
     })
 }
 
@@ -51,8 +52,7 @@ pub(crate) fn left_over(
 ) -> Option<Suspicion> {
     let explained = explained?;
     let is_white = is_white(explained.neighbours) && explained.share > 0.0;
-    let left = left_of_all(cases.first()?.quantity(), seen).concat();
-    outliers(&left).or(is_white.then_some(Suspicion::Noise))
+    outliers(&left(cases, seen).concat()).or(is_white.then_some(Suspicion::Noise))
 }
 
 /// The few samples that hold most of the squared error, if they do.
@@ -66,31 +66,19 @@ fn outliers(left: &[f64]) -> Option<Suspicion> {
     (share > MOST_IN_FEW).then_some(Suspicion::Outliers { samples, of, share })
 }
 
-/// Measured less simulated.
-fn left(quantity: Quantity, one: &Seen<'_>) -> Option<Vec<f64>> {
-    let measured = one.tightening.motion.get(quantity)?;
-    let simulated = one.simulated.get(quantity)?;
-    let pairs = measured[one.unscored..]
-        .iter()
-        .zip(&simulated[one.unscored..]);
-    Some(pairs.map(|(y, s)| y - s).collect())
-}
-
-/// Correlation of neighbouring samples of what is left \[–\]; 0 where nothing is.
-fn neighbours(quantity: Quantity, seen: &[Seen<'_>]) -> f64 {
-    correlation(&left_of_all(quantity, seen))
+/// What is left of each that was measured, see [`FitTask::left`].
+fn left(cases: &[FitTask<'_>], seen: &[Seen<'_>]) -> Vec<Vec<f64>> {
+    let measured = (cases.iter().zip(seen)).filter(|(case, _)| !case.measured().is_empty());
+    let of_one = |(case, one): (&FitTask<'_>, &Seen<'_>)| {
+        let simulated = one.simulated.get(case.quantity())?;
+        Some(case.left(simulated))
+    };
+    measured.filter_map(of_one).collect()
 }
 
 /// Whether what is left is white noise, however long it is looked at.
 pub(crate) fn leaves_noise(cases: &[FitTask<'_>], seen: &[Seen<'_>]) -> bool {
-    let quantity = cases.first().map(FitTask::quantity);
-    quantity.is_some_and(|quantity| is_white_noise(&left_of_all(quantity, seen)))
-}
-
-fn left_of_all(quantity: Quantity, seen: &[Seen<'_>]) -> Vec<Vec<f64>> {
-    (seen.iter())
-        .filter_map(|one| left(quantity, one))
-        .collect()
+    is_white_noise(&left(cases, seen))
 }
 
 /// Whether what is left is a motion of which no promising candidate explains much, where nobody knows the noise.

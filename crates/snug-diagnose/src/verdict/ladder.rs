@@ -54,7 +54,7 @@ pub(crate) fn rung(cases: &[FitTask<'_>], fitted: &Fitted, ranking: Vec<RankedEf
     }
 }
 
-/// Root mean square of measured − simulated of the compared output, in its unit.
+/// Root mean square of what counts of measured − simulated of the compared output, in its unit; see [`FitTask::left`].
 fn rms_residual(cases: &[FitTask<'_>], fitted: &Fitted) -> f64 {
     let (mut squares, mut count) = (0.0, 0_usize);
     for (member, case) in cases.iter().enumerate() {
@@ -62,10 +62,12 @@ fn rms_residual(cases: &[FitTask<'_>], fitted: &Fitted) -> f64 {
             continue;
         };
         let values: Vec<f64> = model.parameters().iter().map(|p| p.value).collect();
-        squares += case
-            .squares_left(&model, &values)
+        let simulated = case
+            .simulated(&model, &values)
             .expect("the input of a case is as long as what was measured");
-        count += case.measured().len() - case.unscored();
+        let left = case.left(&simulated);
+        squares += left.iter().map(|r| r * r).sum::<f64>();
+        count += left.len();
     }
     (squares / count.max(1) as f64).sqrt()
 }

@@ -34,6 +34,8 @@ pub(crate) struct Situation<'a> {
     pub units: &'a SignalUnits,
     /// What is held out in turn: whole tightenings, or stretches of few long records.
     pub clusters: Clusters,
+    /// Whether straight lines from restart to restart hardly count in what is left.
+    pub beside_lines: bool,
     pub before: &'a Fitted,
     pub after: &'a Fitted,
     pub additions: &'a [Addition],
@@ -263,7 +265,10 @@ fn what_is_left(situation: &Situation<'_>) -> Option<Reason> {
         return None;
     }
     Some(match situation.after.is_weighted {
-        false => Reason::NoiseUnknown(situation.left(situation.after)),
+        false => Reason::NoiseUnknown {
+            left: situation.left(situation.after),
+            beside_lines: situation.beside_lines,
+        },
         true => Reason::Error {
             tightenings: situation.tightenings,
             error: situation.after.error(),

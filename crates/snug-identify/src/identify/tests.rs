@@ -235,8 +235,7 @@ fn on_the_general_road(
     settings: &IdentifySettings,
     from_the_same_start: bool,
 ) -> Estimate {
-    let whitening = Whitening::of(&task.tightening, settings.fitted_output);
-    let mut attempt = Attempt::new(task, whitening.as_ref(), settings).unwrap();
+    let mut attempt = Attempt::new(task).unwrap();
     if !from_the_same_start {
         attempt.starts = vec![attempt.usual_start.clone()];
     }

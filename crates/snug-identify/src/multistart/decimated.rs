@@ -10,6 +10,7 @@ use crate::multistart::thresholds::{
     SAME_MINIMUM, SMOOTHED_TOLERANCE,
 };
 use crate::residual::restarts::motions_at;
+use crate::residual::scoring::Scoring;
 use crate::residual::tightening::TighteningResidual;
 use crate::settings::IdentifySettings;
 use crate::task::FitTask;
@@ -84,7 +85,8 @@ impl DecimatedRecord {
     ) -> TighteningResidual<'r> {
         let unscored = settings.unscored_samples.div_ceil(self.factor);
         let quantity = settings.fitted_output;
-        TighteningResidual::new(model, input, &self.measured, quantity, None, unscored)
+        let scoring = Scoring::new(quantity, input, None, unscored);
+        TighteningResidual::new(model, input, &self.measured, quantity, scoring)
             .expect("torque and output have the same means")
     }
 

@@ -85,6 +85,7 @@ impl ScoreCovariance {
     /// About the residual of `fit`.
     pub fn new(residual: &TighteningResidual<'_>, task: &FitTask<'_>, fit: &Fit) -> Self {
         let gain: f64 = residual
+            .scoring()
             .whitening()
             .map_or(0.0, |w| w.weights().iter().sum());
         let count = residual.residual_count() as f64;

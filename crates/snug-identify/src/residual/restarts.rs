@@ -1,6 +1,7 @@
 //! How the model is run beside a measurement: freely, or again and again from the measured motion.
 
-use crate::residual::thresholds::{AS_WELL, FEWEST_APART, LEAST_HALF_WIDTH, PLACES};
+use crate::residual::taken_up::variances;
+use crate::residual::thresholds::{AS_WELL, FEWEST_APART, GROWN, LEAST_HALF_WIDTH, PLACES};
 use serde::{Deserialize, Serialize};
 use snug_campaign::{Quantity, Tightening};
 use snug_model::Input;
@@ -10,7 +11,7 @@ use snug_model::Input;
 /// A free run over a long record accumulates every error: without a spring the position drifts away, past the top of a
 /// pendulum the simulation falls to the other side, and the cost has minima that have nothing to do with the parameters.
 /// Restarted from the measured motion every so often (multiple shooting with known states), a model is judged by what it
-/// predicts over that time.
+/// predicts over that time, and of a displacement not by what errors of that motion make of it ([`Scoring`](crate::Scoring)).
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 #[non_exhaustive]
@@ -37,15 +38,11 @@ impl Simulation {
             return input;
         };
         let apart = ((every_s / interval_s).round() as usize).max(FEWEST_APART);
-        input.with_restarts(
-            apart,
-            motions(
-                measured,
-                interval_s,
-                apart,
-                calmest_half_width(measured, apart),
-            ),
-        )
+        let half_width = calmest_half_width(measured, apart);
+        let motions = motions(measured, interval_s, apart, half_width);
+        let variances = variances(measured, apart, half_width).into_iter();
+        let grown = variances.map(|both| both.map(|variance| GROWN * variance));
+        (input.with_restarts(apart, motions)).with_variances_at_restarts(grown.collect())
     }
 }
 
@@ -121,17 +118,24 @@ pub fn motions_at(angle_rad: &[f64], velocity_rad_per_s: &[f64], apart: usize) -
 }
 
 /// The cubic through the samples around one, by least squares.
-struct Local {
+pub(crate) struct Local {
     value: f64,
     /// Per sample.
     slope: f64,
+    /// Variance of value and slope, over that of white noise \[–\].
+    pub of_noise: [f64; 2],
     /// Of the residual.
     variance: f64,
 }
 
 impl Local {
+    /// Value and slope per sample.
+    pub fn motion(&self) -> [f64; 2] {
+        [self.value, self.slope]
+    }
+
     /// Over `half_width` samples on either side of `place`, as far as there are.
-    fn fit(measured: &[f64], place: usize, half_width: usize) -> Self {
+    pub fn fit(measured: &[f64], place: usize, half_width: usize) -> Self {
         let first = place.saturating_sub(half_width);
         let some = &measured[first..(place + half_width + 1).min(measured.len())];
         let unit = half_width as f64;
@@ -156,7 +160,10 @@ impl Local {
         }
         let mut rest = some.to_vec();
         let (mut value, mut slope) = (0.0, 0.0);
+        let mut of_noise = [0.0; 2];
         for (known, known_value, known_slope) in &basis {
+            of_noise[0] += known_value * known_value;
+            of_noise[1] += (known_slope / unit).powi(2);
             let along: f64 = known.iter().zip(&rest).map(|(a, b)| a * b).sum();
             rest.iter_mut()
                 .zip(known)
@@ -168,6 +175,7 @@ impl Local {
         Self {
             value,
             slope: slope / unit,
+            of_noise,
             variance: rest.iter().map(|r| r * r).sum::<f64>() / freedom,
         }
     }

@@ -2,8 +2,8 @@
 
 use crate::batch::SimulationRequest;
 use crate::error::IdentifyError;
+use crate::residual::scoring::Scoring;
 use crate::residual::smoothing::smooth;
-use crate::residual::whitening::Whitening;
 use snug_campaign::Quantity;
 use snug_least_squares::{EvaluationError, Residual};
 use snug_model::{Effect, Input, Model, ScoredRecord};
@@ -15,8 +15,7 @@ pub struct TighteningResidual<'a> {
     input: &'a Input,
     measured: &'a [f64],
     quantity: Quantity,
-    whitening: Option<&'a Whitening>,
-    unscored: usize,
+    scoring: Scoring,
     /// Samples to either side over which the residual is averaged.
     half_width: usize,
     free: Vec<usize>,
@@ -40,7 +39,7 @@ struct Foreseen {
 }
 
 impl<'a> TighteningResidual<'a> {
-    /// `unscored` samples at the start count for nothing (an unknown initial state dies away in them).
+    /// Of a measured `quantity`, of which that counts which `scoring` says.
     ///
     /// # Errors
     /// [`IdentifyError::InputLength`] unless there is one measured sample per sample of the input, and
@@ -50,8 +49,7 @@ impl<'a> TighteningResidual<'a> {
         input: &'a Input,
         measured: &'a [f64],
         quantity: Quantity,
-        whitening: Option<&'a Whitening>,
-        unscored: usize,
+        scoring: Scoring,
     ) -> Result<Self, IdentifyError> {
         input.check()?;
         if input.samples() != measured.len() {
@@ -66,8 +64,7 @@ impl<'a> TighteningResidual<'a> {
             input,
             measured,
             quantity,
-            whitening,
-            unscored: unscored.min(measured.len()),
+            scoring,
             half_width: 0,
             values: model.parameters().iter().map(|p| p.value).collect(),
             output: Vec::new(),
@@ -105,14 +102,14 @@ impl<'a> TighteningResidual<'a> {
         output
     }
 
-    /// The filter that the residual is whitened with, where the noise is known.
-    pub(crate) fn whitening(&self) -> Option<&Whitening> {
-        self.whitening
+    /// What counts of it.
+    pub(crate) fn scoring(&self) -> &Scoring {
+        &self.scoring
     }
 
     /// Whether the residual is whitened with a known noise.
     pub fn is_whitened(&self) -> bool {
-        self.whitening.is_some()
+        self.scoring.whitening().is_some()
     }
 
     /// Whether one of the model's effects lets go of the hand's spring, at instants between which the residual jumps.
@@ -149,11 +146,12 @@ impl<'a> TighteningResidual<'a> {
     /// What is scored, both sides weighed, for the sweeps that fit the base model.
     pub(crate) fn scored(&self) -> ScoredRecord<'a> {
         let (substeps, grid) = (self.input.substeps(), self.input.grid_nm());
-        let measured = &self.measured[self.unscored..];
-        let torque = &grid[(self.unscored * substeps).min(grid.len())..];
+        let unscored = self.scoring.unscored();
+        let measured = &self.measured[unscored..];
+        let torque = &grid[(unscored * substeps).min(grid.len())..];
         let scored = self.residual_count();
         let order = measured.len() - scored;
-        let (filter, torque_nm, measured) = match self.whitening {
+        let (filter, torque_nm, measured) = match self.scoring.whitening() {
             Some(whitening) => {
                 let mut white_torque = vec![0.0; torque.len().saturating_sub(order * substeps)];
                 let mut white = vec![0.0; scored];
@@ -167,7 +165,7 @@ impl<'a> TighteningResidual<'a> {
             rig: *self.model.rig(),
             input: self.input,
             filter,
-            first: self.unscored + order,
+            first: unscored + order,
             torque_nm,
             measured,
         }
@@ -201,13 +199,9 @@ impl<'a> TighteningResidual<'a> {
         &self.free
     }
 
-    /// Whitens (or copies) the scored part of `signal` into `scored`.
+    /// What counts of a `signal` of every sample, see [`Scoring::weigh`].
     pub fn weigh(&self, signal: &[f64], scored: &mut [f64]) {
-        let signal = &signal[self.unscored..];
-        match self.whitening {
-            Some(whitening) => whitening.apply(signal, scored),
-            None => scored.copy_from_slice(signal),
-        }
+        self.scoring.weigh(signal, scored);
     }
 }
 
@@ -330,8 +324,7 @@ impl TighteningResidual<'_> {
 
 impl Residual for TighteningResidual<'_> {
     fn residual_count(&self) -> usize {
-        let lost = self.whitening.map_or(0, Whitening::order);
-        (self.measured.len() - self.unscored).saturating_sub(lost)
+        self.scoring.count()
     }
 
     fn parameter_count(&self) -> usize {
@@ -345,7 +338,7 @@ impl Residual for TighteningResidual<'_> {
         jacobian: Option<&mut [f64]>,
     ) -> Result<(), EvaluationError> {
         self.all_values(parameters);
-        if self.whitening.is_none() && self.unscored == 0 && self.half_width == 0 {
+        if self.scoring.is_plain() && self.half_width == 0 {
             // Every sample counts, and counts the same: straight into the solver's buffers.
             self.subtract(residual, jacobian);
             return Ok(());

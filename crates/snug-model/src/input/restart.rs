@@ -7,11 +7,27 @@ pub(crate) struct Restarts {
     apart: usize,
     /// Angle \[rad\] and velocity \[rad/s\].
     motions: Vec<[f64; 2]>,
+    /// Of each motion, variance of the angle and of the velocity times the time of a sample, over that of one sample's noise \[–\]; none
+    /// where nobody knows.
+    variances: Vec<[f64; 2]>,
 }
 
 impl Restarts {
     pub(crate) fn new(apart: usize, motions: Vec<[f64; 2]>) -> Self {
-        Self { apart, motions }
+        Self {
+            apart,
+            motions,
+            variances: Vec::new(),
+        }
+    }
+
+    pub(crate) fn set_variances(&mut self, variances: Vec<[f64; 2]>) {
+        self.variances = variances;
+    }
+
+    /// That of one motion, from the first on.
+    pub(crate) fn variance(&self, motion: usize) -> Option<[f64; 2]> {
+        self.variances.get(motion).copied()
     }
 
     pub(crate) fn apart(&self) -> usize {
@@ -22,7 +38,7 @@ impl Restarts {
     pub(crate) fn moved_apart(&self, apart: usize) -> Self {
         Self {
             apart,
-            motions: self.motions.clone(),
+            ..self.clone()
         }
     }
 
@@ -30,8 +46,8 @@ impl Restarts {
     pub(crate) fn beside(&self, by: [f64; 2]) -> Self {
         let motions = self.motions.iter();
         Self {
-            apart: self.apart,
             motions: motions.map(|[x, v]| [x + by[0], v + by[1]]).collect(),
+            ..self.clone()
         }
     }
 

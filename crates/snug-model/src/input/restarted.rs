@@ -2,6 +2,7 @@
 
 use crate::input::restart::Restarts;
 use crate::input::torque::Input;
+use std::ops::Range;
 
 impl Input {
     /// States that the simulation does not run freely: every `apart` samples, from the first on, it takes up the next of
@@ -9,6 +10,19 @@ impl Input {
     pub fn with_restarts(mut self, apart: usize, motions: Vec<[f64; 2]>) -> Self {
         self.restarts = Restarts::new(apart * self.substeps(), motions);
         self
+    }
+
+    /// The same whose motions were measured with these variances of the angle and of the velocity times the time of a sample, over that of one
+    /// sample's noise \[–\].
+    pub fn with_variances_at_restarts(mut self, variances: Vec<[f64; 2]>) -> Self {
+        self.restarts.set_variances(variances);
+        self
+    }
+
+    /// Those of the motion that was taken up last before a sample; `None` where nobody knows.
+    pub fn variance_at_restart(&self, sample: usize) -> Option<[f64; 2]> {
+        let apart = self.samples_between_restarts()?;
+        self.restarts.variance(sample / apart)
     }
 
     /// Whether the simulation takes up the measured motion anywhere.
@@ -20,6 +34,15 @@ impl Input {
     pub fn samples_between_restarts(&self) -> Option<usize> {
         self.is_restarted()
             .then(|| self.restarts.apart() / self.substeps())
+    }
+
+    /// The samples from `first` on, from each restart to the next; all in one where the simulation runs freely.
+    pub fn stretches(&self, first: usize) -> impl Iterator<Item = Range<usize>> + use<> {
+        let end = self.samples();
+        let apart = self.samples_between_restarts().unwrap_or(end).max(1);
+        let restart_after = move |sample: usize| (sample / apart + 1) * apart;
+        let starts = std::iter::successors(Some(first), move |&at| Some(restart_after(at)));
+        (starts.take_while(move |&at| at < end)).map(move |at| at..restart_after(at).min(end))
     }
 
     /// Angle \[rad\] and velocity \[rad/s\] from which the simulation goes on at a grid point.

@@ -62,11 +62,10 @@ fn diagnosis() -> Diagnosis {
         verb: "improve".into(),
         verdict: Verdict::MissingEffect,
         headline: Headline::Unexplained(Left::over_noise(6.4)),
-        reasons: vec![Reason::NoiseUnknown(Left::of_output(
-            0.5,
-            Quantity::Velocity,
-            &SignalUnits::default(),
-        ))],
+        reasons: vec![Reason::NoiseUnknown {
+            left: Left::of_output(0.5, Quantity::Velocity, &SignalUnits::default()),
+            beside_lines: false,
+        }],
         level: 0.05,
         stopped: None,
         interrupted: false,

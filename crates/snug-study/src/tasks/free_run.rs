@@ -5,7 +5,7 @@ use crate::study::Study;
 use crate::tasks::held_input;
 use crate::tasks::initial_state::{longest_s, swings};
 use snug_campaign::words::explained::is_white;
-use snug_campaign::words::reason::WhyRestarted;
+use snug_campaign::words::restarted::WhyRestarted;
 use snug_campaign::{Estimate, Quantity};
 use snug_diagnose::{ROUNDING, is_followed_with_an_effect};
 use snug_identify::{FitTask, IdentifySettings, Simulation, SpectralStart, identify};

@@ -2,7 +2,6 @@
 
 use crate::effect::corrected::CorrectedEffect;
 use crate::effect::size::EffectParameter;
-use crate::measurement::quantity::Quantity;
 use crate::words::chance::by_chance;
 use crate::words::effect_name::Named;
 use crate::words::effect_name::effect_name;
@@ -10,6 +9,7 @@ use crate::words::grammar::{capitalised, counted, joined};
 use crate::words::number::{short, significant, whole_percent};
 use crate::words::sentence::changes::Changes;
 use crate::words::sentence::headline::Left;
+use crate::words::sentence::restarted::{BESIDE_LINES, WhyRestarted};
 use crate::words::sentence::said::written_as_said;
 use crate::words::sentence::suspicion::Suspicion;
 use crate::words::size::{amount, sizes};
@@ -48,20 +48,16 @@ const MOST_TIGHTENINGS: f64 = 500.0;
 /// Times as long as a record is \[–\] beyond which nobody would take a longer one. Chosen.
 const MOST_TIMES: f64 = 50.0;
 
-/// Why a model is restarted from the measured motion.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum WhyRestarted {
-    /// A free run misses this share of the measured motion.
-    Misses(f64),
-    /// Nothing brings the fitted output back.
-    Unheld(Quantity),
-}
-
 /// One reason for a verdict.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Reason {
     /// The noise is not known.
-    NoiseUnknown(Left),
+    NoiseUnknown {
+        /// What the model leaves.
+        left: Left,
+        /// Whether straight lines from restart to restart hardly count in it.
+        beside_lines: bool,
+    },
     /// What the model leaves, over the noise.
     Error {
         /// Tightenings compared.
@@ -207,10 +203,10 @@ written_as_said!(Reason);
 impl Display for Reason {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self {
-            Self::NoiseUnknown(left) => write!(
-                f,
-                "The noise of this signal is not known, so the error ({left}) is judged by whether candidates predict stretches that took no part in fitting them."
-            ),
+            Self::NoiseUnknown { left, beside_lines } => {
+                write!(f, "The noise of this signal is not known, so the error ({left}) is judged by whether candidates predict stretches that took no part in fitting them.")?;
+                f.write_str(if *beside_lines { BESIDE_LINES } else { "" })
+            }
             Self::Error {
                 tightenings,
                 error,
@@ -255,7 +251,7 @@ impl Display for Reason {
                 p_family,
                 more,
             } => would_decide(f, effect, *p_family, *more),
-            Self::Restarted { why, every_s } => restarted(f, *why, *every_s),
+            Self::Restarted { why, every_s } => why.restarted_every(f, *every_s),
             Self::BeginsMoving => f.write_str("Recordings begin in motion, or where their sensor does not read 0: how each begins is fitted with mass, damping and stiffness (`initial_motion` in `model.effects`)."),
             Self::Held {
                 spared,
@@ -404,29 +400,6 @@ fn copies(f: &mut Formatter<'_>, left_out: usize, first: &str, of: &str) -> fmt:
     write!(
         f,
         "{them} took no part in the diagnosis: {hold} the same samples as another to the last bit ({first} those of {of}), and a copy is no new evidence."
-    )
-}
-
-fn restarted(f: &mut Formatter<'_>, why: WhyRestarted, every_s: f64) -> fmt::Result {
-    match why {
-        WhyRestarted::Unheld(quantity) => {
-            f.write_str(match quantity {
-                Quantity::Displacement => "Nothing brings this angle back",
-                Quantity::Velocity | Quantity::Acceleration => {
-                    "Hardly anything brings this speed back"
-                }
-            })?;
-            f.write_str(": what a free run has missed once it misses to the end, whatever moved the rig then, such as a load that was not recorded, and single effects hardly show.")?;
-        }
-        WhyRestarted::Misses(share) => write!(
-            f,
-            "Run freely from its first sample on, the study's own model misses {} of the measured motion, so that a free run says little about single effects.",
-            whole_percent(share.min(9.99))
-        )?,
-    }
-    write!(
-        f,
-        " Every model is therefore judged by what it predicts over {every_s} s from the measured motion, again and again (`identify.simulation: Restarted(every_s: {every_s})`; `FreeRun` in the study file asks for the whole record at once)."
     )
 }
 

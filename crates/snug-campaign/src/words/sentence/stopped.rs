@@ -19,7 +19,7 @@ pub enum Stopped {
     },
     /// The best of the rest is beyond chance, but the interval of its size holds nothing.
     SizeMayBeNothing(Named),
-    /// What the best of the rest takes away, another motion at the restarts takes away, too.
+    /// What the best of the rest takes away, another motion at the restarts or a load takes away, too.
     OfRestarts(Named),
     /// The best supported candidate lowers the error by too little to matter.
     TooSmall {
@@ -67,7 +67,7 @@ impl Display for Stopped {
             ),
             Self::OfRestarts(effect) => write!(
                 f,
-                "No further effect is supported: what the best of the rest, {}, takes away, another motion at each restart takes away as well. These data do not tell it from errors with which the measured motion is taken up.",
+                "No further effect is supported: what the best of the rest, {}, takes away, another motion at each restart takes away as well, or a load that was not recorded. These data do not tell it from errors with which the measured motion is taken up, or from what else moves the rig.",
                 effect.spoken()
             ),
             Self::TooSmall { effect, share, smallest, is_at_floor } => write!(

@@ -1,4 +1,4 @@
-//! What a fit leaves of the measured output, sample by sample.
+//! What a fit leaves of the measured output.
 
 use crate::data::cases::Cases;
 use crate::data::neighbours::correlation;
@@ -12,7 +12,8 @@ impl Fitted {
     /// Whether that is a motion rather than noise, by its neighbouring samples.
     pub fn leaves_a_motion(&self, cases: Cases<'_>) -> bool {
         let left = self.left(cases);
-        left.is_some_and(|left| is_a_motion(correlation(&left)))
+        let beside_lines = cases.iter().any(|case| case.scoring().is_beside_lines());
+        left.is_some_and(|left| is_a_motion(correlation(&left), beside_lines))
     }
 
     /// Whether that is white noise, however long it is looked at.
@@ -21,13 +22,18 @@ impl Fitted {
         left.is_some_and(|left| is_white_noise(&left))
     }
 
-    /// Measured less simulated of each of `cases`, scored samples only, in the output's unit; `None` where it cannot be simulated.
-    pub fn left(&self, cases: Cases<'_>) -> Option<Vec<Vec<f64>>> {
+    /// What it leaves of each of `cases`, see [`FitTask::left`]; `None` where it cannot be simulated.
+    fn left(&self, cases: Cases<'_>) -> Option<Vec<Vec<f64>>> {
+        let simulated = self.simulated(cases)?;
+        let pairs = cases.iter().zip(&simulated);
+        Some(pairs.map(|(case, one)| case.left(one)).collect())
+    }
+
+    /// The fitted output of each of `cases`, every sample, in its unit; `None` where it cannot be simulated.
+    pub fn simulated(&self, cases: Cases<'_>) -> Option<Vec<Vec<f64>>> {
         let of_one = |(case, values): (&FitTask<'_>, Vec<f64>)| {
             let model = case.model_with(&self.effects).ok()?;
-            let simulated = case.simulated(&model, &values).ok()?;
-            let pairs = case.measured().iter().zip(&simulated);
-            Some(pairs.skip(case.unscored()).map(|(y, s)| y - s).collect())
+            case.simulated(&model, &values).ok()
         };
         let values = values(cases, self)?;
         cases.iter().zip(values).map(of_one).collect()

@@ -1,7 +1,7 @@
 //! Whether a model leaves much of some recordings and hardly anything of the others: what happened there it does not know, and those
 //! that it explains do not make it adequate.
 
-use super::{left, outliers};
+use super::outliers;
 use crate::data::clusters::Clusters;
 use crate::data::neighbours::correlation;
 use crate::data::power::power;
@@ -57,16 +57,19 @@ fn apart(all: &mut [Left]) -> Option<usize> {
 }
 
 impl Left {
-    /// `None` where nothing was measured.
+    /// `None` where nothing was simulated.
     fn of(place: usize, case: &FitTask<'_>, seen: &Seen<'_>) -> Option<Self> {
-        let left = left(case.quantity(), seen)?;
+        let simulated = seen.simulated.get(case.quantity())?;
+        // All of it, straight lines from restart to restart, too: a sensor that slips makes some.
+        let pairs = case.measured().iter().zip(simulated);
+        let left: Vec<f64> = (pairs.skip(case.unscored())).map(|(y, s)| y - s).collect();
         let squares: f64 = left.iter().map(|left| left * left).sum();
         Some(Self {
             place,
             squares,
             mean_square: squares / left.len() as f64,
             share: squares / power(slice::from_ref(case)),
-            has_a_cause: outliers(&left).is_some() || is_a_motion(correlation(&[left])),
+            has_a_cause: outliers(&left).is_some() || is_a_motion(correlation(&[left]), false),
         })
     }
 }

@@ -56,6 +56,7 @@ fn suspected(task: FitTask<'_>) -> Vec<Suspicion> {
         share: 0.0,
         neighbours: 0.0,
         is_exact: false,
+        beside_lines: false,
     };
     suspicions(&[task], explained, None)
 }
@@ -174,6 +175,7 @@ fn one_spike_is_told_before_that_nothing_moves() {
         share: 0.0,
         neighbours: 0.0,
         is_exact: false,
+        beside_lines: false,
     };
     let found = suspicions(&[task], explained, spike);
     assert!(
@@ -182,10 +184,10 @@ fn one_spike_is_told_before_that_nothing_moves() {
     );
 }
 
-/// What is told of a model that leaves `left` of a motion.
-fn told_of(left: &[f64], share: f64) -> Option<Suspicion> {
+/// What is told of a model that leaves what was measured `beside` its motion.
+fn told_of(beside: &[f64], share: f64) -> Option<Suspicion> {
     let (torque_nm, angle_rad) = oscillator();
-    let measured = angle_rad.iter().zip(left).map(|(y, left)| y + left);
+    let measured = angle_rad.iter().zip(beside).map(|(y, beside)| y + beside);
     let task = declared(torque_nm, measured.collect(), Quantity::Displacement);
     let mut simulated = snug_campaign::Motion::default();
     simulated.set(Quantity::Displacement, angle_rad);
@@ -201,8 +203,9 @@ fn told_of(left: &[f64], share: f64) -> Option<Suspicion> {
     let explained = Explained {
         output: "displacement",
         share,
-        neighbours: neighbours(Quantity::Displacement, &seen),
+        neighbours: correlation(&left(&[task.lent()], &seen)),
         is_exact: false,
+        beside_lines: false,
     };
     left_over(&[task.lent()], Some(&explained), &seen)
 }
@@ -234,6 +237,7 @@ fn only_a_motion_that_is_no_small_part_is_more_than_noise_of_an_unknown_size() {
             share: 0.99,
             neighbours,
             is_exact: false,
+            beside_lines: false,
         };
         leaves_more_than_noise(&left(1000.0), &left(squares), Some(&explained))
     };

@@ -24,8 +24,7 @@ fn rough_starts_lead_to_the_best_optimum_of_all() {
         one.model = truth.clone();
         let settings = to_the_end();
         let task = one.task(&settings);
-        let whitening = Whitening::of(&task.tightening, settings.fitted_output);
-        let mut attempt = Attempt::new(&task, whitening.as_ref(), &settings).unwrap();
+        let mut attempt = Attempt::new(&task).unwrap();
         assert!(attempt.starts.len() > 1);
         let record = attempt.decimated(&task, settings.fitted_output);
         let simulator = BatchSimulator::default();
@@ -59,8 +58,7 @@ fn starts_led_along_the_motion_end_at_an_effect_that_is_there() {
     for (number, force_n) in [(1, 20.0), (2, -35.0), (3, 0.0)] {
         let one = pushed(number, force_n);
         let task = one.task(&settings);
-        let whitening = Whitening::of(&task.tightening, settings.fitted_output);
-        let attempt = Attempt::new(&task, whitening.as_ref(), &settings).unwrap();
+        let attempt = Attempt::new(&task).unwrap();
         let decimated = DecimatedRecord::of(&task, settings.fitted_output).unwrap();
         let simulator = BatchSimulator::default();
         let multistart_search =
@@ -116,8 +114,7 @@ fn what_is_simulated_beforehand_has_the_same_bits() {
     one.model = Model::new(RIG, &[Effect::MaxwellBranch]).unwrap();
     let settings = IdentifySettings::default();
     let task = one.task(&settings);
-    let whitening = Whitening::of(&task.tightening, settings.fitted_output);
-    let attempt = Attempt::new(&task, whitening.as_ref(), &settings).unwrap();
+    let attempt = Attempt::new(&task).unwrap();
     let free = attempt.residual.free().to_vec();
     for with_slopes in [true, false] {
         let evaluate = |mut residual: TighteningResidual<'_>, start: &[f64]| {
