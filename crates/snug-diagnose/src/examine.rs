@@ -14,7 +14,7 @@ use crate::selection::path::SelectionPath;
 use crate::settings::DiagnoseSettings;
 use crate::verdict::answer::{Answer, Examination};
 use crate::verdict::changes::{are_above_all, changes};
-use crate::verdict::earned::{is_declared_wrong, leaves_noise, turned_round};
+use crate::verdict::earned::{is_declared_wrong, leaves_noise, restarted_too_seldom, turned_round};
 use crate::verdict::tightening_fits::TighteningFits;
 use crate::verdict::units::in_other_units;
 use snug_campaign::words::changes::Changes;
@@ -57,7 +57,8 @@ pub fn examine(
     let stand_apart = units.as_ref().is_some_and(|units| units.is_prefix);
     let is_declared_wrong = is_declared_wrong(cases, compared.last());
     let turned_round = turned_round(cases);
-    let goal = match stand_apart || is_declared_wrong || turned_round.is_some() {
+    let fell_away = restarted_too_seldom(counted, compared.last()).is_some();
+    let goal = match stand_apart || is_declared_wrong || turned_round.is_some() || fell_away {
         true => &Goal::Compare,
         false => &question.goal,
     };

@@ -265,6 +265,23 @@ fn what_rests_at_its_goals_has_no_dry_friction() {
     assert!((left / 1e-5 - 1.0).abs() < 0.03, "{left}");
 }
 
+/// Errors of the motion taken up grow as it falls: a model that is restarted after three e-foldings of that is not asked what is missing, and told.
+#[test]
+fn what_is_restarted_after_it_has_fallen_away_is_to_be_restarted_sooner() {
+    let rig = Rig {
+        identified: "constraints: [], simulation: Restarted(every_s: 0.2)",
+        ..near_a_magnet(100, [400.0, 12.0], 2e-6, 0.0)
+    };
+    let diagnosis = rig.told_with(STARTS, &Verb::Improve);
+    let headline = diagnosis.headline.to_string();
+    assert_eq!(diagnosis.verdict, Verdict::NotFitted, "{headline}");
+    assert!(headline.contains("restarted too seldom"), "{headline}");
+    assert!(diagnosis.added.is_empty() && diagnosis.ranking.is_empty());
+    // 0.4 kg and -120 N/m.
+    let reasons = &diagnosis.reasons;
+    assert!(says(&diagnosis, "every_s: 5.8e-2"), "{reasons:?}");
+}
+
 /// Forty samples tell no mass, damping and stiffness: a recording that broke off beside two that did not makes three machines of none.
 #[test]
 fn a_recording_that_broke_off_is_of_the_same_machine() {

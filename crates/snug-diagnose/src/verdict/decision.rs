@@ -65,6 +65,8 @@ impl Examination<'_> {
         let wrong = [
             self.turned_round.clone().map(Suspicion::TurnedRound),
             self.units_that_differ(true).map(Suspicion::Units),
+            earned::restarted_too_seldom(self.cases, self.path.last())
+                .map(Suspicion::RestartedTooSeldom),
             plain
                 .and_then(|plain| self.failed_fit(plain))
                 .map(Suspicion::FailedFit),

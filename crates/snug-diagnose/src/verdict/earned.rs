@@ -298,9 +298,11 @@ pub(crate) fn suspicions(
     found
 }
 
+mod restarted_too_seldom;
 mod stands_apart;
 mod turned_round;
 
+pub(crate) use restarted_too_seldom::restarted_too_seldom;
 pub(crate) use stands_apart::stands_apart;
 pub(crate) use turned_round::turned_round;
 

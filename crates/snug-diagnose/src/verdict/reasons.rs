@@ -221,6 +221,7 @@ fn no_model(situation: &Situation<'_>) -> Option<NoModel> {
         },
         Some(Suspicion::TurnedRound(turned)) => NoModel::TurnedRound(turned.clone()),
         Some(Suspicion::PushesAway(_)) => NoModel::PushesAway,
+        Some(&Suspicion::RestartedTooSeldom(seldom)) => NoModel::RestartedTooSeldom(seldom),
         Some(&Suspicion::HardlyTried { tried, of }) => NoModel::HardlyTried { tried, of },
         _ => NoModel::NotFitted(situation.explained?),
     };
@@ -306,7 +307,11 @@ fn whose(situation: &Situation<'_>) -> Vec<Reason> {
     additions.flat_map(|one| of_one(one.effect)).collect()
 }
 
+/// Nothing where there is no model: what takes away some of what is no model's says nothing of the rig.
 fn what_speaks_for_the_chosen(situation: &Situation<'_>) -> Vec<Reason> {
+    if situation.verdict == Verdict::NotFitted {
+        return Vec::new();
+    }
     let (Some(chosen), Some(first)) = (situation.chosen, situation.ranking.first()) else {
         return Vec::new();
     };

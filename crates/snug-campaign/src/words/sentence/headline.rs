@@ -9,7 +9,7 @@ use crate::words::number::significant;
 use crate::words::sentence::explained::Explained;
 use crate::words::sentence::explained::at_most_all;
 use crate::words::sentence::said::written_as_said;
-use crate::words::sentence::suspicion::{OtherUnits, TurnedRound};
+use crate::words::sentence::suspicion::{OtherUnits, RestartedTooSeldom, TurnedRound};
 use crate::words::size::amount;
 use std::fmt::{self, Display, Formatter};
 
@@ -265,6 +265,8 @@ pub enum NoModel {
     TurnedRound(TurnedRound),
     /// The rig pushes itself away from where it rests.
     PushesAway,
+    /// The model is restarted after it has fallen away.
+    RestartedTooSeldom(RestartedTooSeldom),
     /// No model was found that deserves the question.
     NotFitted(Explained),
     /// Most effects could not be tried beside a model that explains so much.
@@ -298,6 +300,11 @@ impl Display for NoModel {
             ),
             Self::PushesAway => f.write_str(
                 "The rig pushes itself away from where it rests, and no stiffness of 0 or more follows it. What is missing cannot be asked before the study lets it be below.",
+            ),
+            Self::RestartedTooSeldom(seldom) => write!(
+                f,
+                "The model is restarted too seldom: {}. What is missing cannot be asked before it is restarted sooner.",
+                seldom.so_that()
             ),
             Self::NotFitted(explained) => write!(
                 f,

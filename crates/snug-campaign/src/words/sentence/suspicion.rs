@@ -35,6 +35,8 @@ pub enum Suspicion {
     NoSign(&'static str),
     /// The rig pushes itself away from where it rests.
     PushesAway(PushesAway),
+    /// The model is restarted after it has fallen away.
+    RestartedTooSeldom(RestartedTooSeldom),
     /// Most effects cannot be tried on the rig.
     HardlyTried {
         /// How many were.
@@ -205,6 +207,37 @@ impl Display for PushesAway {
     }
 }
 
+/// How often a model of a rig that pushes itself away is restarted, and how fast it falls away.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RestartedTooSeldom {
+    /// From one restart to the next \[s\].
+    pub every_s: f64,
+    /// Time in which it falls away to e times as far, undamped \[s\].
+    pub falls_in_s: f64,
+}
+
+impl RestartedTooSeldom {
+    /// What comes of it, as a clause.
+    pub fn so_that(&self) -> String {
+        format!(
+            "it falls away from where it would rest, and errors of the measured motion that is taken up grow {} times as large in the {} s until the next restart",
+            significant((self.every_s / self.falls_in_s).exp(), 2),
+            significant(self.every_s, 2)
+        )
+    }
+}
+
+impl Display for RestartedTooSeldom {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "Check how often the model is restarted: {}. Whatever grows likewise, as a limit or a lag, would make up for them. In the study: `identify: (simulation: Restarted(every_s: {:.1e}))`.",
+            self.so_that(),
+            self.falls_in_s
+        )
+    }
+}
+
 fn sized(sizes: &[(String, f64)]) -> String {
     let sizes = sizes.iter();
     let told = sizes.map(|(name, value)| format!("{name} {}", significant(*value, 3)));
@@ -257,6 +290,7 @@ impl Display for Suspicion {
                 "Check whether the output has its sign: the {output} never goes below 0, but turns about there as at a wall. A sensor makes it so that tells how large it is and not which way, as a counter of pulses does of a speed: no model follows that, so measure which way, too. If the rig does hit a wall there, the sign is right."
             ),
             Self::PushesAway(pushes) => pushes.fmt(f),
+            Self::RestartedTooSeldom(seldom) => seldom.fmt(f),
             Self::HardlyTried { tried, of } => write!(
                 f,
                 "Check the sampling rate: {tried} of {of} candidates could be tried, since with the others the rig cannot be simulated from one sample to the next. Sample faster, or state the unit of the time column or the rate if it is another; a rig without inertia has none of the effects that need it."
