@@ -1,6 +1,7 @@
 //! A tightening's residual: restarts, simulation, whitening, smoothing, agreement.
 
 pub mod agreement;
+pub(crate) mod local_cubic;
 pub(crate) mod restarts;
 pub(crate) mod scoring;
 pub(crate) mod smoothing;

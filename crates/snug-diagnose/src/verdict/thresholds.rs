@@ -53,8 +53,9 @@ pub(crate) const TURNS: usize = 5;
 /// Chosen.
 pub(crate) const IS_A_WEIGHT: f64 = 0.5;
 /// Times in which a rig falls away to e times as far that may pass from one restart to the next \[–\]. Chosen: with 1, which is advised, the
-/// limit of a magnet's amplifier was found to half a per cent, with 2.3 six per cent too high and two lags with it that there were not.
-pub(crate) const FALLEN_AWAY: f64 = 1.5;
+/// limit of a magnet's amplifier was found to half a per cent, with 1.6 the friction of an armature, with 2.3 the limit six per cent too high and
+/// two lags with it that there were not.
+pub(crate) const FALLEN_AWAY: f64 = 2.0;
 /// Least change from beginning to end of the recordings, over the larger of both, that is told as one \[–\]. Chosen: what a bearing that warms
 /// up loses in a minute.
 pub(crate) const CHANGES: f64 = 0.1;

@@ -8,7 +8,7 @@ use crate::equation_error::modulation::{CubicWeights, Modulation, integral};
 use crate::equation_error::thresholds::{
     AT_REST, LEAST_OF_MOTION, MOSTLY, MOTION_FINER, PARTS_OF_A_HALF, PLACES_PER_HALF,
 };
-use crate::residual::restarts::cubic_at;
+use crate::residual::local_cubic::cubic_at;
 use crate::task::FitTask;
 use snug_campaign::Quantity;
 use snug_least_squares::matrix::dot;

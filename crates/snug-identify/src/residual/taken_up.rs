@@ -1,6 +1,6 @@
 //! How uncertain the motion is that a simulation takes up at a restart.
 
-use crate::residual::restarts::Local;
+use crate::residual::local_cubic::LocalCubic;
 use crate::residual::thresholds::{LEAST_HALF_WIDTH, MOST_OF_NORMAL, MOST_RESTARTS};
 use snug_signal::white_noise_level;
 
@@ -10,9 +10,9 @@ use snug_signal::white_noise_level;
 /// what a sensor did there is no bend of the motion. Infinite where there is no noise.
 pub(crate) fn variances(measured: &[f64], apart: usize, half_width: usize) -> Vec<[f64; 2]> {
     let noise = noise_variance(measured);
-    let cubics = |half_width: usize| -> Vec<Local> {
+    let cubics = |half_width: usize| -> Vec<LocalCubic> {
         let places = (0..measured.len()).step_by(apart.max(1));
-        let of_one = |place| Local::fit(measured, place, half_width);
+        let of_one = |place| LocalCubic::fit(measured, place, half_width);
         places.map(of_one).collect()
     };
     let taken_up = cubics(half_width);
@@ -25,13 +25,13 @@ pub(crate) fn variances(measured: &[f64], apart: usize, half_width: usize) -> Ve
     };
     let bent = [0, 1].map(|part| {
         let pairs = || taken_up.iter().zip(&others);
-        let squares = pairs().map(|(a, b)| (a.motion()[part] - b.motion()[part]).powi(2));
+        let squares = pairs().map(|(a, b)| (a.motion[part] - b.motion[part]).powi(2));
         // The wider cubic is the surer, and tells all that the other does: their difference has the difference of their variances.
         let of_noise = pairs().map(|(a, b)| (a.of_noise[part] - b.of_noise[part]).abs());
         let of_noise = MOST_OF_NORMAL * of_noise.sum::<f64>() / taken_up.len() as f64;
         (mean_of_most(squares.collect()) / noise - of_noise).max(0.0)
     });
-    let variance = |one: &Local| [0, 1].map(|part| one.of_noise[part] + bent[part]);
+    let variance = |one: &LocalCubic| [0, 1].map(|part| one.of_noise[part] + bent[part]);
     taken_up.iter().map(variance).collect()
 }
 
@@ -99,7 +99,7 @@ mod tests {
             let at = place * APART;
             let slope =
                 (at as f64 * std::f64::consts::TAU / 60.0).cos() * std::f64::consts::TAU / 60.0;
-            (Local::fit(&measured, at, 16).motion()[1] - slope).powi(2)
+            (LocalCubic::fit(&measured, at, 16).motion[1] - slope).powi(2)
         });
         let actual = places.sum::<f64>() / 398.0 / 1e-8;
         let ratio = found[200][1] / actual;
