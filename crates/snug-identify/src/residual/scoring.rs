@@ -113,7 +113,7 @@ struct Innovation {
 }
 
 /// Precision of a line of which nothing is known, over that of a sample \[–\]: nothing beside what two samples say, and no rounding.
-const NOTHING_KNOWN: f64 = 1e-12;
+const NOTHING_KNOWN: f64 = 1e-14;
 
 impl Line {
     fn new(variances: [f64; 2], first: usize) -> Self {

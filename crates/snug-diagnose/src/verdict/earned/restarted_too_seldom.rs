@@ -60,8 +60,8 @@ mod tests {
 
     #[test]
     fn a_model_that_has_fallen_away_before_its_next_restart_is_told() {
-        let found = told(8.0).unwrap();
-        assert!((found.every_s / found.falls_in_s - 2.5).abs() < 1e-9);
+        let found = told(9.0).unwrap();
+        assert!((found.every_s / found.falls_in_s - 20.0 / 9.0).abs() < 1e-9);
         assert_eq!(told(20.0), None, "as often as is advised");
         assert_eq!(told(5.0), None, "it cannot be restarted sooner");
     }
