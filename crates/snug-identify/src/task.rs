@@ -8,7 +8,7 @@ pub use in_motion::{begin_elsewhere, begin_in_motion};
 
 use crate::error::IdentifyError;
 use crate::residual::restarts::motions_at;
-use crate::residual::scoring::Scoring;
+use crate::residual::scoring::{Scoring, has_lines};
 use crate::residual::thresholds::RESTARTED_EVERY_S;
 use crate::residual::tightening::TighteningResidual;
 use crate::residual::whitening::Whitening;
@@ -136,12 +136,21 @@ impl<'a> FitTask<'a> {
 
     /// What counts of measured − `simulated`, in the output's unit, whether the noise is known or not; see [`Scoring`].
     pub fn left(&self, simulated: &[f64]) -> Vec<f64> {
-        let pairs = self.measured().iter().zip(simulated);
-        let left: Vec<f64> = pairs.map(|(y, s)| y - s).collect();
         let scoring = Scoring::new(self.quantity(), &self.input, None, self.unscored());
         let mut counts = vec![0.0; scoring.count()];
-        scoring.weigh(&left, &mut counts);
+        scoring.weigh(&self.missed(simulated), &mut counts);
         counts
+    }
+
+    /// Measured − `simulated` of every sample, in the output's unit.
+    pub fn missed(&self, simulated: &[f64]) -> Vec<f64> {
+        let pairs = self.measured().iter().zip(simulated);
+        pairs.map(|(y, s)| y - s).collect()
+    }
+
+    /// Whether straight lines from restart to restart count only where they are no errors of the motion taken up; see [`Scoring`].
+    pub fn is_beside_lines(&self) -> bool {
+        has_lines(self.quantity(), &self.input) && self.whitening().is_none()
     }
 
     /// Σ of squares of what is [`left`](Self::left), in the output's unit squared, where `model` has these values of all its

@@ -222,7 +222,6 @@ impl Examination<'_> {
             fitted_output: self.question.cases[0].quantity(),
             units: &self.question.units,
             clusters,
-            beside_lines: self.question.cases[0].scoring().is_beside_lines(),
             before: &path.rungs[0],
             after: path.last(),
             additions: &path.additions,

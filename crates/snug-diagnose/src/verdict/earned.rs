@@ -40,7 +40,7 @@ pub(crate) fn explained(
         share: share(cases, fitted)?,
         neighbours: correlation(&left(cases, seen)),
         is_exact: fitted.is_exact,
-        beside_lines: first.scoring().is_beside_lines(),
+        beside_lines: first.is_beside_lines(),
     })
 }
 

@@ -69,10 +69,8 @@ pub(crate) fn shortfall(
 fn share_of_bend(cases: Cases<'_>, fitted: &Fitted) -> Option<f64> {
     let (mut whole, mut left) = (0.0, 0.0);
     for (case, simulated) in cases.iter().zip(fitted.simulated(cases)?) {
-        let pairs = case.measured().iter().zip(&simulated);
-        let residual: Vec<f64> = pairs.map(|(y, s)| y - s).collect();
         whole += bent_power(case, case.measured());
-        left += bent_power(case, &residual);
+        left += bent_power(case, &case.missed(&simulated));
     }
     Some(1.0 - left / whole).filter(|share| !share.is_nan())
 }

@@ -34,8 +34,6 @@ pub(crate) struct Situation<'a> {
     pub units: &'a SignalUnits,
     /// What is held out in turn: whole tightenings, or stretches of few long records.
     pub clusters: Clusters,
-    /// Whether straight lines from restart to restart hardly count in what is left.
-    pub beside_lines: bool,
     pub before: &'a Fitted,
     pub after: &'a Fitted,
     pub additions: &'a [Addition],
@@ -268,7 +266,7 @@ fn what_is_left(situation: &Situation<'_>) -> Option<Reason> {
     Some(match situation.after.is_weighted {
         false => Reason::NoiseUnknown {
             left: situation.left(situation.after),
-            beside_lines: situation.beside_lines,
+            beside_lines: (situation.explained.as_ref()).is_some_and(|one| one.beside_lines),
         },
         true => Reason::Error {
             tightenings: situation.tightenings,

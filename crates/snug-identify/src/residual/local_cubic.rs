@@ -5,6 +5,13 @@ pub(crate) fn cubic_at(samples: &[f64], interval_s: f64, place: usize) -> [f64; 
     LocalCubic::fit(samples, place, samples.len()).over(interval_s)
 }
 
+/// Those of every `apart`th sample, over `half_width` on either side.
+pub(crate) fn local_cubics(measured: &[f64], apart: usize, half_width: usize) -> Vec<LocalCubic> {
+    let places = (0..measured.len()).step_by(apart.max(1));
+    let of_one = |place| LocalCubic::fit(measured, place, half_width);
+    places.map(of_one).collect()
+}
+
 /// The cubic through the samples around one, by least squares.
 pub(crate) struct LocalCubic {
     /// Value, and slope per sample.

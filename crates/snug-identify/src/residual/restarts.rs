@@ -1,11 +1,12 @@
 //! How the model is run beside a measurement: freely, or again and again from the measured motion.
 
-use crate::residual::local_cubic::LocalCubic;
+use crate::residual::local_cubic::{LocalCubic, local_cubics};
 use crate::residual::taken_up::variances;
 use crate::residual::thresholds::{AS_WELL, FEWEST_APART, GROWN, LEAST_HALF_WIDTH, PLACES};
 use serde::{Deserialize, Serialize};
 use snug_campaign::{Quantity, Tightening};
 use snug_model::Input;
+use std::iter::successors;
 
 /// How the model is run beside a measurement.
 ///
@@ -39,11 +40,11 @@ impl Simulation {
             return input;
         };
         let apart = ((every_s / interval_s).round() as usize).max(FEWEST_APART);
-        let half_width = calmest_half_width(measured, apart);
-        let motions = motions(measured, interval_s, apart, half_width);
-        let variances = variances(measured, apart, half_width).into_iter();
+        let [taken_up, narrower] = calmest(measured, apart);
+        let motions = taken_up.iter().map(|cubic| cubic.over(interval_s));
+        let variances = variances(&taken_up, &narrower, measured).into_iter();
         let grown = variances.map(|both| both.map(|variance| GROWN * variance));
-        (input.with_restarts(apart, motions)).with_variances_at_restarts(grown.collect())
+        (input.with_restarts(apart, motions.collect())).with_variances_at_restarts(grown.collect())
     }
 }
 
@@ -55,29 +56,29 @@ pub fn motions(
     apart: usize,
     half_width: usize,
 ) -> Vec<[f64; 2]> {
-    let places = (0..displacement_rad.len()).step_by(apart.max(1));
-    let local = places
-        .map(|place| LocalCubic::fit(displacement_rad, place, half_width.max(LEAST_HALF_WIDTH)));
-    local.map(|local| local.over(interval_s)).collect()
+    let half_width = half_width.max(LEAST_HALF_WIDTH);
+    let cubics = local_cubics(displacement_rad, apart, half_width).into_iter();
+    cubics.map(|cubic| cubic.over(interval_s)).collect()
 }
 
-/// Samples on either side of a restart from which its velocity is most certain: where twice as few say most nearly the
-/// same. With fewer, noise and vibration speak; with more, the motion bends too much for a cubic.
-fn calmest_half_width(displacement_rad: &[f64], apart: usize) -> usize {
-    let slopes = |half_width: usize| motions(displacement_rad, 1.0, apart, half_width);
-    let mut narrow = slopes(LEAST_HALF_WIDTH);
-    let mut best = (f64::INFINITY, LEAST_HALF_WIDTH);
-    let mut half_width = 2 * LEAST_HALF_WIDTH;
-    while half_width <= apart / 2 {
-        let wide = slopes(half_width);
-        let pairs = narrow.iter().zip(&wide);
-        let change: f64 = pairs.map(|(a, b)| (a[1] - b[1]).powi(2)).sum();
-        if change < best.0 {
-            best = (change, half_width);
-        }
-        (narrow, half_width) = (wide, 2 * half_width);
-    }
-    best.1
+/// The cubics at restarts whose velocity is most certain, where those over half as many samples say most nearly the same, and these. With
+/// fewer, noise and vibration speak; with more, the motion bends too much for a cubic.
+fn calmest(displacement_rad: &[f64], apart: usize) -> [Vec<LocalCubic>; 2] {
+    let widest = (apart / 2).max(2 * LEAST_HALF_WIDTH);
+    let half_widths = successors(Some(LEAST_HALF_WIDTH), |half_width| Some(2 * half_width));
+    let mut all: Vec<Vec<LocalCubic>> = half_widths
+        .take_while(|&half_width| half_width <= widest)
+        .map(|half_width| local_cubics(displacement_rad, apart, half_width))
+        .collect();
+    let change = |wide: usize| -> f64 {
+        let pairs = all[wide].iter().zip(&all[wide - 1]);
+        pairs
+            .map(|(a, b)| (a.motion[1] - b.motion[1]).powi(2))
+            .sum()
+    };
+    let best = (1..all.len()).min_by(|&a, &b| change(a).total_cmp(&change(b)));
+    all.truncate(best.map_or(0, |best| best + 1));
+    [all.pop(), all.pop()].map(Option::unwrap_or_default)
 }
 
 /// Samples on either side over which cubics describe a measurement as well as over few: the wider, the less noise in the
@@ -92,7 +93,7 @@ pub fn widest_half_width(displacement_rad: &[f64]) -> usize {
         local.map(|local| local.variance).sum::<f64>().sqrt()
     };
     let few = spread(LEAST_HALF_WIDTH);
-    let wider = std::iter::successors(Some(2 * LEAST_HALF_WIDTH), |half_width| {
+    let wider = successors(Some(2 * LEAST_HALF_WIDTH), |half_width| {
         Some(2 * half_width)
     });
     wider

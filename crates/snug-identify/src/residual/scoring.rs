@@ -28,13 +28,12 @@ impl Scoring {
         unscored: usize,
     ) -> Self {
         let unscored = unscored.min(input.samples());
-        let has_lines =
-            input.is_restarted() && whitening.is_none() && quantity == Quantity::Displacement;
+        let beside = whitening.is_none() && has_lines(quantity, input);
         Self {
             whitening,
             unscored,
             samples: input.samples(),
-            beside: has_lines.then(|| BesideLines::of(input, unscored)),
+            beside: beside.then(|| BesideLines::of(input, unscored)),
         }
     }
 
@@ -51,11 +50,6 @@ impl Scoring {
     /// Whether every sample counts as it is.
     pub(crate) fn is_plain(&self) -> bool {
         self.whitening.is_none() && self.unscored == 0 && self.beside.is_none()
-    }
-
-    /// Whether straight lines from restart to restart count only where they are no errors of the motion taken up.
-    pub fn is_beside_lines(&self) -> bool {
-        self.beside.is_some()
     }
 
     /// How many numbers count.
@@ -77,6 +71,11 @@ impl Scoring {
             (None, None) => weighed.copy_from_slice(&signal[self.unscored..]),
         }
     }
+}
+
+/// Whether errors of the motion taken up under this `input` are straight lines of a fitted `quantity`.
+pub(crate) fn has_lines(quantity: Quantity, input: &Input) -> bool {
+    input.is_restarted() && quantity == Quantity::Displacement
 }
 
 /// What a signal is beside straight lines, one from each restart to the next, as numbers that are white with the signal's own variance where it is

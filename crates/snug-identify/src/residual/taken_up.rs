@@ -1,33 +1,27 @@
 //! How uncertain the motion is that a simulation takes up at a restart.
 
 use crate::residual::local_cubic::LocalCubic;
-use crate::residual::thresholds::{LEAST_HALF_WIDTH, MOST_OF_NORMAL, MOST_RESTARTS};
+use crate::residual::thresholds::{MOST_OF_NORMAL, MOST_RESTARTS};
 use snug_signal::white_noise_level;
 
-/// Variance of the angle and of the velocity times the time of a sample, over that of one sample's noise \[–\], where the cubic nearest to
-/// `half_width` samples on either side of every `apart`th is taken up: what white noise makes of it, and beside it by how much more than noise
-/// the cubic over half as many differs, since the motion bends otherwise than a cubic. The few restarts at which it differs most do not count:
-/// what a sensor did there is no bend of the motion. Infinite where there is no noise.
-pub(crate) fn variances(measured: &[f64], apart: usize, half_width: usize) -> Vec<[f64; 2]> {
+/// Variance of the angle and of the velocity times the time of a sample, over that of one sample's noise \[–\], where these cubics of what was
+/// `measured` are `taken_up`: what white noise makes of them, and beside it by how much more than noise those over half as many samples differ,
+/// since the motion bends otherwise than a cubic. The few restarts at which they differ most do not count: what a sensor did there is no bend of
+/// the motion. Infinite where there is no noise.
+pub(crate) fn variances(
+    taken_up: &[LocalCubic],
+    narrower: &[LocalCubic],
+    measured: &[f64],
+) -> Vec<[f64; 2]> {
     let noise = noise_variance(measured);
-    let cubics = |half_width: usize| -> Vec<LocalCubic> {
-        let places = (0..measured.len()).step_by(apart.max(1));
-        let of_one = |place| LocalCubic::fit(measured, place, half_width);
-        places.map(of_one).collect()
-    };
-    let taken_up = cubics(half_width);
     if noise <= 0.0 {
         return vec![[f64::INFINITY; 2]; taken_up.len()];
     }
-    let others = match half_width > LEAST_HALF_WIDTH {
-        true => cubics(half_width / 2),
-        false => cubics(2 * half_width),
-    };
     let bent = [0, 1].map(|part| {
-        let pairs = || taken_up.iter().zip(&others);
+        let pairs = || taken_up.iter().zip(narrower);
         let squares = pairs().map(|(a, b)| (a.motion[part] - b.motion[part]).powi(2));
         // The wider cubic is the surer, and tells all that the other does: their difference has the difference of their variances.
-        let of_noise = pairs().map(|(a, b)| (a.of_noise[part] - b.of_noise[part]).abs());
+        let of_noise = pairs().map(|(a, b)| b.of_noise[part] - a.of_noise[part]);
         let of_noise = MOST_OF_NORMAL * of_noise.sum::<f64>() / taken_up.len() as f64;
         (mean_of_most(squares.collect()) / noise - of_noise).max(0.0)
     });
@@ -52,8 +46,15 @@ fn mean_of_most(mut squares: Vec<f64>) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::residual::local_cubic::local_cubics;
 
     const APART: usize = 25;
+
+    /// Of cubics over so many samples on either side.
+    fn of(measured: &[f64], half_width: usize) -> Vec<[f64; 2]> {
+        let cubics = |half_width: usize| local_cubics(measured, APART, half_width);
+        variances(&cubics(half_width), &cubics(half_width / 2), measured)
+    }
 
     /// White noise of standard deviation 1.
     fn noise(samples: usize) -> Vec<f64> {
@@ -72,7 +73,7 @@ mod tests {
     /// chance (standard deviation of 400 draws of noise).
     #[test]
     fn noise_alone_makes_of_a_cubic_what_least_squares_say() {
-        let found = variances(&noise(10_000), APART, 8);
+        let found = of(&noise(10_000), 8);
         let of_middle = found[200];
         let expected = [0.133_126_934_984_520_1, 0.015_702_041_050_338_26];
         for ((found, least), chance) in of_middle.iter().zip(expected).zip([0.0081, 0.0063]) {
@@ -93,7 +94,7 @@ mod tests {
         let swing = |k: usize| (k as f64 * std::f64::consts::TAU / 60.0).sin();
         let measured = noise(10_000).into_iter().enumerate();
         let measured: Vec<f64> = measured.map(|(k, e)| swing(k) + 1e-4 * e).collect();
-        let found = variances(&measured, APART, 16);
+        let found = of(&measured, 16);
         let places = (1..399).map(|place| {
             let at = place * APART;
             let slope =
@@ -111,7 +112,7 @@ mod tests {
         let slipped = noise(10_000).into_iter().enumerate();
         let slipped = slipped.map(|(k, e)| e + if k < 5000 { 0.0 } else { 1000.0 });
         let slipped: Vec<f64> = slipped.collect();
-        let [found, plain] = [&slipped, &noise(10_000)].map(|one| variances(one, APART, 8)[150]);
+        let [found, plain] = [&slipped, &noise(10_000)].map(|one| of(one, 8)[150]);
         for (found, plain) in found.iter().zip(plain) {
             assert!((found / plain - 1.0).abs() < 0.1, "{found} {plain}");
         }
@@ -120,11 +121,6 @@ mod tests {
     #[test]
     fn without_noise_nothing_is_said_of_the_motion() {
         let line: Vec<f64> = (0..200).map(|k| f64::from(k) * 0.5).collect();
-        assert!(
-            variances(&line, APART, 8)
-                .concat()
-                .iter()
-                .all(|one| one.is_infinite())
-        );
+        assert!(of(&line, 8).concat().iter().all(|one| one.is_infinite()));
     }
 }

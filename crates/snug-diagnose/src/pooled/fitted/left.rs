@@ -12,7 +12,7 @@ impl Fitted {
     /// Whether that is a motion rather than noise, by its neighbouring samples.
     pub fn leaves_a_motion(&self, cases: Cases<'_>) -> bool {
         let left = self.left(cases);
-        let beside_lines = cases.iter().any(|case| case.scoring().is_beside_lines());
+        let beside_lines = cases.iter().any(FitTask::is_beside_lines);
         left.is_some_and(|left| is_a_motion(correlation(&left), beside_lines))
     }
 

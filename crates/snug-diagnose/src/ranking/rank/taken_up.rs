@@ -143,8 +143,7 @@ impl<'a> Run<'a> {
 
     /// Σ r² that nothing takes away which makes these `changes` with a model and with another \[the output's unit squared\].
     fn left_beside(&self, changes: [&[Vec<f64>]; 2]) -> f64 {
-        let pairs = self.case.measured().iter().zip(&self.simulated);
-        let left: Vec<f64> = pairs.map(|(y, s)| y - s).collect();
+        let left = self.case.missed(&self.simulated);
         let of_stretch = |stretch: Range<usize>| {
             let of_model = |changes: &[Vec<f64>]| {
                 changes

@@ -61,8 +61,7 @@ impl Left {
     fn of(place: usize, case: &FitTask<'_>, seen: &Seen<'_>) -> Option<Self> {
         let simulated = seen.simulated.get(case.quantity())?;
         // All of it, straight lines from restart to restart, too: a sensor that slips makes some.
-        let pairs = case.measured().iter().zip(simulated);
-        let left: Vec<f64> = (pairs.skip(case.unscored())).map(|(y, s)| y - s).collect();
+        let left = case.missed(simulated).split_off(case.unscored());
         let squares: f64 = left.iter().map(|left| left * left).sum();
         Some(Self {
             place,
