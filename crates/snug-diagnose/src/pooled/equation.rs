@@ -19,6 +19,11 @@ pub(crate) struct PlainEquation<'a> {
 impl<'a> PlainEquation<'a> {
     /// `None` where somebody holds the rig, the noise is known and says more, or a regression has no answer.
     pub fn of(cases: &'a [FitTask<'a>]) -> Option<Self> {
+        Self::beside(cases, &[])
+    }
+
+    /// The same averaged as a regression with these effects, each of size 1, too, explains most.
+    pub fn beside(cases: &'a [FitTask<'a>], effects: &[Effect]) -> Option<Self> {
         let first = cases.first()?;
         if !cases.iter().all(is_machine) || first.whitening().is_some() {
             return None;
@@ -26,7 +31,7 @@ impl<'a> PlainEquation<'a> {
         let rig = first.model.rig();
         let on_rig = |&effect: &Effect| first.model.scale().effect(effect, rig).ok();
         let plain: Vec<Effect> = Effect::PLAIN.iter().filter_map(on_rig).collect();
-        let equation = MotionEquation::of(cases, &plain)?;
+        let equation = MotionEquation::of(cases, &[&plain[..], effects].concat())?;
         Some(Self { equation, plain })
     }
 

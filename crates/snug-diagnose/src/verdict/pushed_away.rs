@@ -7,26 +7,37 @@
 use crate::pooled::equation::PlainEquation;
 use crate::pooled::fitted::Fitted;
 use crate::ranking::applicability::can_act;
-use crate::verdict::thresholds::{IS_A_WEIGHT, MOSTLY_EXPLAINED, NEEDS_IT};
+use crate::verdict::thresholds::{IS_A_WEIGHT, MOSTLY_EXPLAINED, NEEDS_IT, NEEDS_IT_BESIDE_LAWS};
 use snug_campaign::words::suspicion::PushesAway;
 use snug_identify::{ConstraintKind, FitTask, MotionEquation, Term};
 use snug_model::{BASE_PARAMETERS, Effect, Law};
 use std::borrow::Cow;
 
+/// What brings a rig back that pushes itself away near its zero only, as one does that has two places of rest.
+const BRINGS_BACK: [Effect; 2] = [Effect::QuadraticStiffness, Effect::CubicStiffness];
+
 /// What a plain regression says of a rig that pushes itself away; `None` of any other, and where it explains too little.
 pub(crate) fn pushed_away(cases: &[FitTask<'_>]) -> Option<PushesAway> {
-    let free = constrained(cases, &[]);
-    let free = PlainEquation::of(&free)?.equation.fit(&[])?;
+    told(cases, &[], NEEDS_IT).or_else(|| told(cases, &BRINGS_BACK, NEEDS_IT_BESIDE_LAWS))
+}
+
+/// The same of a regression with these effects, where one without a negative stiffness must leave so many times as much.
+fn told(cases: &[FitTask<'_>], effects: &[Effect], needs_it: f64) -> Option<PushesAway> {
+    let regressed = |to: &[ConstraintKind]| {
+        let cases = constrained(cases, to);
+        let PlainEquation { equation, .. } = PlainEquation::beside(&cases, effects)?;
+        let terms = effects.iter().map(|&effect| of_size_1(&equation, effect));
+        equation.fit(&terms.collect::<Option<Vec<Term>>>()?)
+    };
+    let free = regressed(&[])?;
     let [mass, _, stiffness] = free.base;
     if stiffness >= 0.0 || free.explained < MOSTLY_EXPLAINED {
         return None;
     }
-    let held = constrained(cases, &[ConstraintKind::Positive]);
-    let held = PlainEquation::of(&held).and_then(|plain| plain.equation.fit(&[]));
-    let kept = held.map_or(0.0, |held| held.explained);
-    let needs_it = 1.0 - kept > NEEDS_IT * (1.0 - free.explained);
+    let kept = regressed(&[ConstraintKind::Positive]).map_or(0.0, |held| held.explained);
     let names = BASE_PARAMETERS.iter().map(|name| (*name).to_owned());
-    needs_it.then(|| PushesAway {
+    (1.0 - kept > needs_it * (1.0 - free.explained)).then(|| PushesAway {
+        effects: effects.iter().map(|one| one.name().to_owned()).collect(),
         promised: free.explained,
         sizes: names.zip(free.base).collect(),
         falls_in_s: (mass / -stiffness).sqrt(),
@@ -175,6 +186,22 @@ mod tests {
         }
         let expected = (0.4_f64 / 30.0).sqrt();
         assert!((found.falls_in_s / expected - 1.0).abs() < 0.01);
+    }
+
+    /// Play of any width, told as a cube and a stiffness, leaves 3.4 times as much or less without a stiffness below 0.
+    #[test]
+    fn what_has_two_places_of_rest_pushes_itself_away_and_what_has_play_does_not() {
+        let against = |law: &dyn Fn(f64) -> f64| {
+            pushed_away(&[moved_against([0.4, 1.9, 0.0], 1.0, 1.0, law)])
+        };
+        let found = against(&|angle| -30.0 * angle + 50.0 * angle.powi(3)).expect("it does");
+        assert_eq!(found.effects, ["quadratic_stiffness", "cubic_stiffness"]);
+        assert!((found.sizes[2].1 / -30.0 - 1.0).abs() < 0.02, "{found:?}");
+        for gap in [0.3, 0.6, 0.8, 0.9, 1.0, 1.1, 1.2] {
+            let play = |angle: f64| 60.0 * (angle - angle.clamp(-gap, gap));
+            assert_eq!(against(&play), None, "{gap}");
+        }
+        assert_eq!(against(&|angle| 10.0 * angle + 50.0 * angle.powi(3)), None);
     }
 
     #[test]

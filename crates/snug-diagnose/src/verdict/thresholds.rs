@@ -38,6 +38,8 @@ pub(crate) const PLAIN_PROMISE: f64 = 0.95;
 /// Times as much of that power as a regression leaves, that one without a negative stiffness must leave, before a rig is said to push itself
 /// away \[–\]: where friction or an offset is missing from both, the stiffness may come out a little below 0. Chosen.
 pub(crate) const NEEDS_IT: f64 = 4.0;
+/// The same where the square and the cube of the angle are beside it \[–\], with which play of any width leaves up to 3.4 times as much. Chosen.
+pub(crate) const NEEDS_IT_BESIDE_LAWS: f64 = 10.0;
 /// Share of an output's root mean square below which it is near 0 \[–\]. Chosen.
 pub(crate) const NEAR_ZERO: f64 = 0.15;
 /// How many times the error of any other a recording must leave to stand apart from them \[–\], ... Chosen: recordings of one rig that

@@ -165,11 +165,6 @@ pub struct FailedFit {
 
 impl Display for FailedFit {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let mut on: Vec<String> = ["torque", "speed", "angle"].map(str::to_owned).to_vec();
-        on.extend(self.effects.iter().map(|name| effect_name(name)));
-        if self.is_plain {
-            on.extend(["the sign of the speed", "a constant"].map(str::to_owned));
-        }
         let kept = match self.kept > 0.0 {
             true => at_most_all(self.kept),
             false => "nothing".to_owned(),
@@ -177,7 +172,7 @@ impl Display for FailedFit {
         write!(
             f,
             "A plain regression of acceleration on {} explains {}, the simulated fit {kept}: the fit failed, and its numbers are no physics. Start it from the regression's (`model.parameters`): {}. Where it fails from there, too, hold them (`fixed: true`): `compare` then shows where a simulation with them leaves the measurement.",
-            joined(&on),
+            regressed_on(&self.effects, self.is_plain),
             at_most_all(self.promised),
             sized(&self.sizes)
         )
@@ -187,6 +182,8 @@ impl Display for FailedFit {
 /// What a plain regression of the equation of motion says of a rig that pushes itself away from where it rests.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PushesAway {
+    /// Effects beside mass, damping and stiffness, which bring it back from further away.
+    pub effects: Vec<String>,
     /// Share of the measured acceleration's power that it explains \[–\].
     pub promised: f64,
     /// Mass, damping and stiffness as the regression puts them.
@@ -197,14 +194,33 @@ pub struct PushesAway {
 
 impl Display for PushesAway {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.write_str(match self.effects.is_empty() {
+            true => {
+                "Check whether a controller holds the rig where it would not stay, as it does an upright pendulum or an armature near a magnet"
+            }
+            false => {
+                "Check whether the rig rests on either side of its zero and not there, as a beam does that has buckled, or is held there"
+            }
+        })?;
         write!(
             f,
-            "Check whether a controller holds the rig where it would not stay, as it does an upright pendulum or an armature near a magnet: a plain regression of acceleration on torque, speed and angle explains {} with a stiffness below 0 ({}). If so, let it be below in the study, begin there (`model.parameters`), and restart the model before it falls away: `identify: (constraints: [], simulation: Restarted(every_s: {:.1e}))`.",
+            ": a plain regression of acceleration on {} explains {} with a stiffness below 0 ({}). If so, let it be below in the study, begin there (`model.parameters`), and restart the model before it falls away: `identify: (constraints: [], simulation: Restarted(every_s: {:.1e}))`.",
+            regressed_on(&self.effects, false),
             at_most_all(self.promised),
             sized(&self.sizes),
             self.falls_in_s
         )
     }
+}
+
+/// On what the acceleration is regressed.
+fn regressed_on(effects: &[String], is_plain: bool) -> String {
+    let mut on: Vec<String> = ["torque", "speed", "angle"].map(str::to_owned).to_vec();
+    on.extend(effects.iter().map(|name| effect_name(name)));
+    if is_plain {
+        on.extend(["the sign of the speed", "a constant"].map(str::to_owned));
+    }
+    joined(&on)
 }
 
 /// How often a model of a rig that pushes itself away is restarted, and how fast it falls away.
