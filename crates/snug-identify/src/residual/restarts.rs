@@ -64,7 +64,8 @@ pub fn motions(
 /// The cubics at restarts whose velocity is most certain, where those over half as many samples say most nearly the same, and these. With
 /// fewer, noise and vibration speak; with more, the motion bends too much for a cubic.
 fn calmest(displacement_rad: &[f64], apart: usize) -> [Vec<LocalCubic>; 2] {
-    let widest = (apart / 2).max(2 * LEAST_HALF_WIDTH);
+    // Beyond the recording all cubics are the same, and no surer for that.
+    let widest = (apart.min(displacement_rad.len()) / 2).max(2 * LEAST_HALF_WIDTH);
     let half_widths = successors(Some(LEAST_HALF_WIDTH), |half_width| Some(2 * half_width));
     let mut all: Vec<Vec<LocalCubic>> = half_widths
         .take_while(|&half_width| half_width <= widest)
@@ -114,6 +115,22 @@ pub fn motions_at(angle_rad: &[f64], velocity_rad_per_s: &[f64], apart: usize) -
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// A swing of 1 rad at 8 rad/s, begun at rest at its end, of which a cubic over all samples knows nothing.
+    #[test]
+    fn restarts_further_apart_than_the_recording_begin_where_it_does() {
+        let noise = |i: u32| f64::from(i.wrapping_mul(2_654_435_761) >> 8) / f64::from(1 << 24);
+        let swing = |i: u32| (f64::from(i) * 8e-3).cos() + 1e-4 * (noise(i) - 0.5);
+        let swing: Vec<f64> = (0..4000).map(swing).collect();
+        for apart in [4000, 4001, 60_000, usize::MAX / 2] {
+            let [taken_up, _] = calmest(&swing, apart);
+            let [angle, velocity] = taken_up[0].over(1e-3);
+            assert!(
+                (angle - 1.0).abs() < 1e-3 && velocity.abs() < 0.02,
+                "{apart}: {angle} {velocity}"
+            );
+        }
+    }
 
     /// Savitzky–Golay: a cubic's slope has the noise of Σ over ±h; wider is calmer, as far as the motion allows.
     #[test]
