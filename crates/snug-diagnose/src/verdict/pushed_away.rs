@@ -40,8 +40,16 @@ fn told(cases: &[FitTask<'_>], effects: &[Effect], needs_it: f64) -> Option<Push
         effects: effects.iter().map(|one| one.name().to_owned()).collect(),
         promised: free.explained,
         sizes: names.zip(free.base).collect(),
-        falls_in_s: (mass / -stiffness).sqrt(),
+        falls_in_s: falls_in_s(&cases[0], [mass, stiffness]),
     })
+}
+
+/// Time in which a rig with this mass \[kg\] and stiffness \[N/m\] falls away to e times as far, undamped \[s\]: √((I + m l²) / −k l²). NaN
+/// where a spring brings it back.
+pub(crate) fn falls_in_s(case: &FitTask<'_>, [mass, stiffness]: [f64; 2]) -> f64 {
+    let rig = case.model.rig();
+    let square = rig.lever_arm_m * rig.lever_arm_m;
+    ((rig.known_inertia_kg_m2 + mass * square) / (-stiffness * square)).sqrt()
 }
 
 /// Whether of a rig that pushes itself away this study would hold the stiffness back to 0 or more, though a free run does not follow it: what
@@ -202,6 +210,21 @@ mod tests {
             assert_eq!(against(&play), None, "{gap}");
         }
         assert_eq!(against(&|angle| 10.0 * angle + 50.0 * angle.powi(3)), None);
+    }
+
+    /// An arm of inertia 0.3 kg m² on a lever of 0.5 m, √((0.3 + 0.4 · 0.25) / (30 · 0.25)) s.
+    #[test]
+    fn what_is_known_of_the_inertia_slows_the_fall() {
+        let mut case = moved([0.4, 1.9, -30.0], 1.0);
+        let rig = Rig {
+            lever_arm_m: 0.5,
+            known_inertia_kg_m2: 0.3,
+        };
+        let scale = case.model.scale();
+        case.model = Cow::Owned(Model::scaled(rig, &[], scale).expect("the rig is one"));
+        let found = falls_in_s(&case, [0.4, -30.0]);
+        assert!((found - (0.4_f64 / 7.5).sqrt()).abs() < 1e-12);
+        assert!(falls_in_s(&case, [0.4, 30.0]).is_nan());
     }
 
     #[test]
