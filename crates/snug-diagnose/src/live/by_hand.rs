@@ -92,8 +92,7 @@ impl LiveCases {
             values,
         }];
         let output = pooled.outputs(&asked).swap_remove(0);
-        let pairs = one[0].measured().iter().zip(&output);
-        let left: Vec<f64> = pairs.map(|(measured, output)| measured - output).collect();
+        let left = one[0].missed(&output);
         let residual = pooled.weigh_signal(0, &left);
         let squares: f64 = residual.iter().map(|r| r * r).sum();
         Ok(ByHand {

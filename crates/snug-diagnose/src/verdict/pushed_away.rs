@@ -1,4 +1,4 @@
-//! A rig that pushes itself away from where it rests, as an upright pendulum or an armature near a magnet does: it stays only because a
+//! A rig that pushes itself away from where it would rest, as an upright pendulum or an armature near a magnet does: it stays only because a
 //! controller holds it, and no stiffness of 0 or more follows it.
 //!
 //! A controller answers the motion, so that input and output go against each other, as with an input of the wrong sign. The equation of

@@ -263,7 +263,7 @@ pub enum NoModel {
     },
     /// Recordings whose input has the other sign than that of the others.
     TurnedRound(TurnedRound),
-    /// The rig pushes itself away from where it rests.
+    /// The rig pushes itself away from where it would rest.
     PushesAway,
     /// The model is restarted after it has fallen away.
     RestartedTooSeldom(RestartedTooSeldom),
@@ -299,7 +299,7 @@ impl Display for NoModel {
                 "The recordings do not agree which way is which: {turned}. What is missing cannot be asked before that is mended."
             ),
             Self::PushesAway => f.write_str(
-                "The rig pushes itself away from where it rests, and no stiffness of 0 or more follows it. What is missing cannot be asked before the study lets it be below.",
+                "The rig pushes itself away from where it would rest, and no stiffness of 0 or more follows it. What is missing cannot be asked before the study lets it be below.",
             ),
             Self::RestartedTooSeldom(seldom) => write!(
                 f,

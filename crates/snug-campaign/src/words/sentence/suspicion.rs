@@ -33,7 +33,7 @@ pub enum Suspicion {
     },
     /// The output, which is this, lost its sign.
     NoSign(&'static str),
-    /// The rig pushes itself away from where it rests.
+    /// The rig pushes itself away from where it would rest.
     PushesAway(PushesAway),
     /// The model is restarted after it has fallen away.
     RestartedTooSeldom(RestartedTooSeldom),
@@ -179,7 +179,7 @@ impl Display for FailedFit {
     }
 }
 
-/// What a plain regression of the equation of motion says of a rig that pushes itself away from where it rests.
+/// What a plain regression of the equation of motion says of a rig that pushes itself away from where it would rest.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PushesAway {
     /// Effects beside mass, damping and stiffness, which bring it back from further away.
