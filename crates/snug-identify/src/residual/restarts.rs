@@ -2,7 +2,9 @@
 
 use crate::residual::local_cubic::{LocalCubic, local_cubics};
 use crate::residual::taken_up::variances;
-use crate::residual::thresholds::{AS_WELL, FEWEST_APART, GROWN, LEAST_HALF_WIDTH, PLACES};
+use crate::residual::thresholds::{
+    AS_WELL, FEWEST_APART, GROWN, LEAST_HALF_WIDTH, MOST_OF_MOTION, PLACES,
+};
 use serde::{Deserialize, Serialize};
 use snug_campaign::{Quantity, Tightening};
 use snug_model::Input;
@@ -62,15 +64,19 @@ pub fn motions(
 }
 
 /// The cubics at restarts whose velocity is most certain, where those over half as many samples say most nearly the same, and these. With
-/// fewer, noise and vibration speak; with more, the motion bends too much for a cubic.
+/// fewer, noise and vibration speak; with more, the motion bends too much for a cubic. Those that leave much of the motion tell nothing of it:
+/// over many swings all say that it rests.
 fn calmest(displacement_rad: &[f64], apart: usize) -> [Vec<LocalCubic>; 2] {
+    let cubics = |half_width: usize| local_cubics(displacement_rad, apart, half_width);
+    let mut all = Vec::from([LEAST_HALF_WIDTH, 2 * LEAST_HALF_WIDTH].map(cubics));
+    let left = |cubics: &Vec<LocalCubic>| mean(cubics.iter().map(|cubic| cubic.variance));
+    let most_left = left(&all[0]) + MOST_OF_MOTION * variance(displacement_rad);
     // Beyond the recording all cubics are the same, and no surer for that.
-    let widest = (apart.min(displacement_rad.len()) / 2).max(2 * LEAST_HALF_WIDTH);
+    let widest = apart.min(displacement_rad.len()) / 2;
     let half_widths = successors(Some(LEAST_HALF_WIDTH), |half_width| Some(2 * half_width));
-    let mut all: Vec<Vec<LocalCubic>> = half_widths
-        .take_while(|&half_width| half_width <= widest)
-        .map(|half_width| local_cubics(displacement_rad, apart, half_width))
-        .collect();
+    let wider = half_widths.skip(all.len());
+    let wider = wider.take_while(|&half_width| half_width <= widest);
+    all.extend((wider.map(cubics)).take_while(|cubics| left(cubics) <= most_left));
     let change = |wide: usize| -> f64 {
         let pairs = all[wide].iter().zip(&all[wide - 1]);
         pairs
@@ -80,6 +86,16 @@ fn calmest(displacement_rad: &[f64], apart: usize) -> [Vec<LocalCubic>; 2] {
     let best = (1..all.len()).min_by(|&a, &b| change(a).total_cmp(&change(b)));
     all.truncate(best.map_or(0, |best| best + 1));
     [all.pop(), all.pop()].map(Option::unwrap_or_default)
+}
+
+fn mean(values: impl ExactSizeIterator<Item = f64>) -> f64 {
+    let count = values.len() as f64;
+    values.sum::<f64>() / count
+}
+
+fn variance(values: &[f64]) -> f64 {
+    let middle = mean(values.iter().copied());
+    mean(values.iter().map(|value| (value - middle).powi(2)))
 }
 
 /// Samples on either side over which cubics describe a measurement as well as over few: the wider, the less noise in the
@@ -116,19 +132,49 @@ pub fn motions_at(angle_rad: &[f64], velocity_rad_per_s: &[f64], apart: usize) -
 mod tests {
     use super::*;
 
-    /// A swing of 1 rad at 8 rad/s, begun at rest at its end, of which a cubic over all samples knows nothing.
+    /// From −0.5 to 0.5.
+    fn noise(sample: u32) -> f64 {
+        f64::from(sample.wrapping_mul(2_654_435_761) >> 8) / f64::from(1 << 24) - 0.5
+    }
+
+    /// Swings of 1 rad at 8 and at 1 rad/s, begun at rest at their end, of which a cubic over all samples knows little.
     #[test]
     fn restarts_further_apart_than_the_recording_begin_where_it_does() {
-        let noise = |i: u32| f64::from(i.wrapping_mul(2_654_435_761) >> 8) / f64::from(1 << 24);
-        let swing = |i: u32| (f64::from(i) * 8e-3).cos() + 1e-4 * (noise(i) - 0.5);
-        let swing: Vec<f64> = (0..4000).map(swing).collect();
-        for apart in [4000, 4001, 60_000, usize::MAX / 2] {
-            let [taken_up, _] = calmest(&swing, apart);
-            let [angle, velocity] = taken_up[0].over(1e-3);
-            assert!(
-                (angle - 1.0).abs() < 1e-3 && velocity.abs() < 0.02,
-                "{apart}: {angle} {velocity}"
-            );
+        for rate in [8e-3, 1e-3] {
+            let swing = |i: u32| (f64::from(i) * rate).cos() + 1e-4 * noise(i);
+            let swing: Vec<f64> = (0..4000).map(swing).collect();
+            for apart in [4000, 4001, 60_000, usize::MAX / 2] {
+                let [taken_up, _] = calmest(&swing, apart);
+                let [angle, velocity] = taken_up[0].over(1e-3);
+                assert!(
+                    (angle - 1.0).abs() < 1e-3 && velocity.abs() < 0.02,
+                    "{apart}: {angle} {velocity}"
+                );
+            }
+        }
+    }
+
+    /// Five swings of 1 rad at 3 to 75 rad/s, whose velocity is 68 rad/s rms: cubics over many of them agree that it is 0.
+    #[test]
+    fn what_many_swings_leave_of_a_cubic_is_no_velocity() {
+        let rates = [3.1, 8.2, 19.5, 49.6, 75.4];
+        let at = |i: usize| {
+            let time_s = 1e-3 * i as f64;
+            let angle = rates.iter().map(|rate| (rate * time_s + rate).sin());
+            let velocity = rates.iter().map(|rate| rate * (rate * time_s + rate).cos());
+            (angle.sum::<f64>(), velocity.sum::<f64>())
+        };
+        let measured = (0..120_000).map(|i| at(i as usize).0 + 1e-3 * noise(i));
+        let measured: Vec<f64> = measured.collect();
+        for apart in [5000, 40_000, 119_000] {
+            let [taken_up, _] = calmest(&measured, apart);
+            for (restart, cubic) in taken_up.iter().enumerate() {
+                let (expected, [_, velocity]) = (at(restart * apart).1, cubic.over(1e-3));
+                assert!(
+                    (velocity - expected).abs() < 2.0,
+                    "{apart}: {velocity} {expected}"
+                );
+            }
         }
     }
 
@@ -138,9 +184,7 @@ mod tests {
         let wave = |period: f64| -> Vec<f64> {
             (0..4000)
                 .map(|i| (f64::from(i) * std::f64::consts::TAU / period).sin())
-                .zip((0_u32..).map(|i| {
-                    f64::from(i.wrapping_mul(2_654_435_761) >> 8) / f64::from(1 << 24) - 0.5
-                }))
+                .zip((0_u32..).map(noise))
                 .map(|(x, noise)| x + 1e-3 * noise)
                 .collect()
         };

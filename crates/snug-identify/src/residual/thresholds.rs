@@ -17,6 +17,8 @@ pub(crate) const MOST_RESTARTS: f64 = 0.95;
 pub(crate) const GROWN: f64 = 4.0;
 /// Mean square of the smallest 95 % of a standard normal variable \[–\]: 1 − 2 z φ(z) / 0.95 with z = 1.96.
 pub(crate) const MOST_OF_NORMAL: f64 = 0.7588;
+/// Share of a motion's power that the cubics may leave from which it is taken up, beyond what those over the fewest samples do \[–\]. Chosen.
+pub(crate) const MOST_OF_MOTION: f64 = 0.1;
 /// Places at which a measurement is looked at. Chosen.
 pub(crate) const PLACES: usize = 400;
 /// Growth of the residual's spread up to which a wider cubic still describes the measurement as well \[–\]. Chosen.
