@@ -28,6 +28,10 @@ const MOST_MENDED: f64 = 0.02;
 /// peak a search took five effects, none of which was there.
 const MOST_AT_LIMIT: f64 = 0.01;
 
+/// Share of a recording's samples in which its reading may be stuck \[–\]. Chosen: of a rig whose displacement stood still for an eighth of one
+/// recording a spring that gives way was told, which was not there.
+const MOST_STUCK: f64 = 0.01;
+
 /// What a rig's inertia keeps from jumping there and back.
 const OF_MOTION: [Quantity; 2] = [Quantity::Displacement, Quantity::Velocity];
 
@@ -59,7 +63,7 @@ pub(crate) fn prepare(
         Some(wrapped) => tell_wrapped(wrapped, remarks),
         None => tell_jumps(context, &kicks, source, &signals, remarks),
     }
-    tell_dropouts(context, &signals, remarks);
+    tell_dropouts(context, &kicks, source, &signals, remarks);
     tell_saturation(context, source, &signals, remarks);
     complete(&mut signals.motion, context.interval_s);
     let peak = peak_torque_nm(&signals.torque_nm);
@@ -127,8 +131,15 @@ fn mend_spikes(context: &Context<'_>, kicks: &Kicks, signals: &mut Signals, rema
     }
 }
 
-/// Says where a displacement or velocity stands still and then catches up. Nothing is mended: what it did meanwhile nobody knows.
-fn tell_dropouts(context: &Context<'_>, signals: &Signals, remarks: &mut Remarks) {
+/// Says where a displacement or velocity stands still and then catches up. Nothing is mended: what it did meanwhile nobody knows. Where it is
+/// what is fitted, and that takes long, the recording is kept from being judged.
+fn tell_dropouts(
+    context: &Context<'_>,
+    kicks: &Kicks,
+    source: Quantity,
+    signals: &Signals,
+    remarks: &mut Remarks,
+) {
     let quality = &context.settings.quality;
     for quantity in OF_MOTION {
         let Some(samples) = signals.motion.get(quantity) else {
@@ -137,15 +148,30 @@ fn tell_dropouts(context: &Context<'_>, signals: &Signals, remarks: &mut Remarks
         let channel = Channel::Motion(quantity);
         let shortest = context.samples(quality.stuck_s);
         let held = catching_up::find(samples, shortest, quality.spike_sd);
-        if let Some(first) = held.first() {
+        let Some(first) = held.first() else {
+            continue;
+        };
+        let what = format!(
+            "{} repeats one value for {} samples from {:.4} s on and then jumps ({} such stretches), as where a logger drops out",
+            channel.name(),
+            first.len(),
+            first.start as f64 * context.interval_s,
+            held.len()
+        );
+        // A motor that rests has a speed, 0, and sets out at once where it is driven.
+        let may_rest = |held: &Range<usize>| {
+            quantity == Quantity::Velocity && samples[held.start] == 0.0 || kicks.explain(held.end)
+        };
+        let stuck = held.iter().filter(|held| !may_rest(held));
+        let lost = stuck.map(Range::len).sum::<usize>() as f64 / samples.len() as f64;
+        if quantity == source && lost > MOST_STUCK {
             let message = format!(
-                "{} repeats one value for {} samples from {:.4} s on and then jumps ({} such stretches), as where a logger drops out; it is \
-                 taken as it is, and no model follows it there",
-                channel.name(),
-                first.len(),
-                first.start as f64 * context.interval_s,
-                held.len()
+                "{what}: no model follows it there, and the recording is kept out of what is compared and counted; leave that out of its file, \
+                 or cut the file in two there"
             );
+            remarks.reject("dropout", Some(channel), message);
+        } else {
+            let message = format!("{what}; it is taken as it is, and no model follows it there");
             remarks.note("dropout", Some(channel), message);
         }
     }

@@ -20,6 +20,14 @@ fn codes(result: &Preprocessed) -> Vec<String> {
 
 /// What is said of a swing that is spoilt, and the angle that is fitted.
 fn told(spoil: &dyn Fn(&mut [f64], &mut [f64])) -> (Vec<String>, Vec<f64>) {
+    let mut result = prepared(spoil);
+    let codes = codes(&result);
+    let tightening = result.tightenings.remove(0).tightening;
+    (codes, tightening.motion.displacement_rad.unwrap())
+}
+
+/// What becomes of a swing that is spoilt.
+fn prepared(spoil: &dyn Fn(&mut [f64], &mut [f64])) -> Preprocessed {
     let swing = |per_sample: f64| (0..SEGMENT).map(move |k| (per_sample * k as f64).sin());
     let mut recording = recording(&[51], 0.0);
     let mut torque_nm: Vec<f64> = swing(0.01).collect();
@@ -30,10 +38,7 @@ fn told(spoil: &dyn Fn(&mut [f64], &mut [f64])) -> (Vec<String>, Vec<f64>) {
         displacement_rad: Some(angle_rad),
         ..Default::default()
     };
-    let mut result = preprocess(&recording, &whole(), Quantity::Displacement).unwrap();
-    let codes = codes(&result);
-    let tightening = result.tightenings.remove(0).tightening;
-    (codes, tightening.motion.displacement_rad.unwrap())
+    preprocess(&recording, &whole(), Quantity::Displacement).unwrap()
 }
 
 /// The codes of a swing that is not spoilt, and one more.
@@ -75,6 +80,26 @@ fn what_cannot_be_mended_is_told_and_stays() {
     });
     assert_eq!(codes, with("dropout"));
     assert_eq!(kept[1030], kept[1000]);
+}
+
+/// Of 20 000 samples 60 are stuck, or 400, more than a whole swing.
+#[test]
+fn a_reading_that_is_stuck_for_long_keeps_the_recording_out() {
+    let stuck = |samples: usize, kicked: bool| {
+        let mut result = prepared(&|torque_nm, angle_rad| {
+            let value = angle_rad[1000];
+            angle_rad[1000..1000 + samples].fill(value);
+            let after = &mut torque_nm[1000 + samples..];
+            after
+                .iter_mut()
+                .for_each(|torque| *torque += if kicked { 20.0 } else { 0.0 });
+        });
+        assert!(codes(&result).contains(&"dropout".to_owned()));
+        result.tightenings.remove(0).data_quality_rejects
+    };
+    assert!(!stuck(60, false));
+    assert!(stuck(400, false));
+    assert!(!stuck(400, true), "it may have been held until then");
 }
 
 /// A zero that is set anew half way, at one sample; with the only jump of the torque it may be the rig.
