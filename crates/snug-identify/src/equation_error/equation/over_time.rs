@@ -9,6 +9,8 @@
 use super::{MotionEquation, Term};
 use crate::equation_error::record::AveragedRecord;
 use crate::equation_error::regression::{Column, Regression};
+use crate::task::FitTask;
+use snug_campaign::Quantity;
 use snug_least_squares::matrix::dot;
 use snug_model::BASE_PARAMETERS;
 
@@ -27,6 +29,8 @@ const MOST_OF_SOME: usize = 6;
 /// Squares that a change at once, or in some recordings only, must leave over those of an even one in all to be the likelier story, and over
 /// those of recordings that only differ \[–\]. Chosen.
 const PLAINLY_LESS: f64 = 0.5;
+/// Share of a value by which means of it differ all the same \[–\]. Chosen: of some thousands of samples.
+const ROUNDING: f64 = 1e-9;
 
 /// What changes along the recordings.
 #[derive(Debug, Clone, PartialEq)]
@@ -86,7 +90,8 @@ impl MotionEquation<'_> {
                 at,
                 recordings: recordings.to_vec(),
             };
-            (change.is_finite() && self.may_change(&change, &sizes)).then_some(change)
+            let may_change = self.may_change(&change, &constant[index], &sizes);
+            (change.is_finite() && may_change).then_some(change)
         };
         let all: Vec<usize> = (0..self.records.len()).collect();
         let evenly = most((0..constant.len()).filter_map(|index| with_change(index, None, &all)))?;
@@ -122,18 +127,30 @@ impl MotionEquation<'_> {
 
     /// Whether a rig's number may change so: mass, damping and stiffness keep their sign, and a spring brings back, beside the inertia and
     /// damping of these `sizes`, what moves while it is recorded. One that takes longer is what little a regression finds of an angle that
-    /// runs on, which is a load as well.
-    fn may_change(&self, change: &Change, sizes: &[f64]) -> bool {
-        let (inertia, damping) = (sizes[0].abs(), sizes[1].abs());
+    /// runs on, which is a load as well. Against a spring that does bring back, an angle that is the sum of a measured velocity drifts with
+    /// what that reads too much, and so does the load that is found.
+    fn may_change(&self, change: &Change, column: &Column, sizes: &[f64]) -> bool {
+        if change.index >= BASE_PARAMETERS.len() {
+            let is_summed = |task: &FitTask<'_>| task.quantity() == Quantity::Velocity;
+            let may_drift = self.tasks.iter().any(is_summed) && is_load(column);
+            return !(may_drift && self.brings_back(sizes[STIFFNESS], change, sizes));
+        }
         let stiffest = f64::max(change.from.abs(), change.to.abs());
-        let brings_back_s = f64::max((inertia / stiffest).sqrt(), damping / stiffest);
+        let keeps_sign = change.from * change.to >= 0.0;
+        keeps_sign && (change.index != STIFFNESS || self.brings_back(stiffest, change, sizes))
+    }
+
+    /// Whether a spring so stiff \[Nm/rad\] brings the rig back, beside the inertia and damping of these `sizes`, while the recordings of a
+    /// `change` last.
+    fn brings_back(&self, stiffness: f64, change: &Change, sizes: &[f64]) -> bool {
+        let (inertia, damping) = (sizes[0].abs(), sizes[1].abs());
+        let stiffness = stiffness.abs();
+        let brings_back_s = f64::max((inertia / stiffness).sqrt(), damping / stiffness);
         let lasts_s = (change.recordings.iter())
             .map(|&one| &self.tasks[one])
             .map(|task| task.measured().len() as f64 * task.tightening.time_base.interval_s)
             .fold(0.0, f64::max);
-        let is_of_base = change.index < BASE_PARAMETERS.len();
-        let keeps_sign = change.from * change.to >= 0.0;
-        !is_of_base || keeps_sign && (change.index != STIFFNESS || brings_back_s < lasts_s)
+        brings_back_s < lasts_s
     }
 
     /// The recordings by whose own even change of a `column` most of the `rest` is taken, then those and the next, and so on.
@@ -216,6 +233,16 @@ impl Change {
             .iter()
             .all(|value| value.is_finite())
     }
+}
+
+/// Whether a column is that of a load: the same all along each recording, but for rounding.
+fn is_load(column: &Column) -> bool {
+    let is_even = |values: &Vec<f64>| {
+        let first = values.first().copied().unwrap_or_default();
+        let apart = |value: &f64| (value - first).abs() > ROUNDING * first.abs();
+        !values.iter().any(apart)
+    };
+    column.of_records.iter().all(is_even)
 }
 
 /// Places at which something may change at once.

@@ -108,6 +108,32 @@ fn a_spring_that_brings_nothing_back_does_not_change() {
     assert_ne!(change(&made(0.01).tasks()).index, 2);
 }
 
+/// A velocity that reads 0.01 rad/s too much: its sum runs on against the spring as if a load grew. On a rig without one a load that grows is
+/// one.
+#[test]
+fn what_is_read_too_much_is_no_load_that_grows() {
+    const LOAD: usize = 4;
+    let mut tasks = Made::default().tasks();
+    for task in &mut tasks {
+        let motion = &mut task.tightening.to_mut().motion;
+        let speed = motion.velocity_rad_per_s.as_mut().unwrap();
+        speed.iter_mut().for_each(|speed| *speed += 0.01);
+    }
+    assert_ne!(change(&tasks).index, LOAD);
+    let free = Made {
+        base: [BASE[0], BASE[1], 0.0],
+        ..Made::default()
+    };
+    let mut tasks = free.tasks();
+    for task in &mut tasks {
+        let torque_nm = &mut task.tightening.to_mut().torque_nm;
+        let grown = |sample: usize| 0.5 * sample as f64 / SAMPLES as f64;
+        let samples = torque_nm.iter_mut().enumerate();
+        samples.for_each(|(sample, torque_nm)| *torque_nm -= grown(sample));
+    }
+    assert_eq!(change(&tasks).index, LOAD);
+}
+
 /// Torque and motion that have nothing to do with each other: what instruments make of it may leave more than there is, and a change takes
 /// little of what there is.
 #[test]
