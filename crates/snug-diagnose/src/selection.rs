@@ -6,6 +6,7 @@ mod escape;
 pub(crate) mod forward_selection;
 pub(crate) mod full_rate;
 mod in_place;
+mod may_be_nothing;
 pub(crate) mod model_selection;
 mod one_law;
 pub(crate) mod path;

@@ -3,11 +3,8 @@
 use crate::error::DiagnoseError;
 use crate::pooled::fit::fit_effects;
 use crate::pooled::fitted::Fitted;
-use crate::pooled::sizes::{BesideNothing, beside_nothing};
 use crate::ranking::kin::is_simpler;
 use crate::ranking::paired_gain::{clearness, gains};
-use crate::ranking::rank::is_all_size;
-use crate::ranking::thresholds::PLAINLY_MISSED;
 use crate::selection::model_selection::ModelSelection;
 use crate::selection::path::{Addition, SelectionPath, justified, least_share, leaves_more};
 use crate::selection::simpler::does_for;
@@ -59,46 +56,8 @@ pub(crate) fn try_removals(
     Ok(())
 }
 
-/// Takes out what may be nothing beside the others, the interval of its size says: it stood in for what has come in since. Where of
-/// several each may be nothing, they stand in for each other, and the one without which least is lost goes first. What has no shape and is
-/// missed plainly is not nothing, whatever its interval says. Of fewer additions than `least` none is looked at.
-pub(crate) fn take_out_what_may_be_nothing(
-    selection: &ModelSelection<'_>,
-    path: &mut SelectionPath,
-    least: usize,
-) -> Result<(), DiagnoseError> {
-    while path.additions.len() >= least {
-        let full = path.last().clone();
-        let may_be_nothing = |effect: &Effect| {
-            beside_nothing(&selection.cases, &full, *effect) == BesideNothing::Held
-        };
-        let added = path.additions.iter().map(|one| one.effect);
-        let mut least: Option<(Effect, Fitted)> = None;
-        for effect in added.filter(may_be_nothing) {
-            let Some(without) = without(selection, &full, effect)? else {
-                continue;
-            };
-            let is_missed =
-                is_all_size(effect) && without.squares() > PLAINLY_MISSED * full.squares();
-            let known = least
-                .as_ref()
-                .map_or(f64::INFINITY, |(_, one)| one.squares());
-            if !is_missed && without.squares() < known {
-                least = Some((effect, without));
-            }
-        }
-        let Some((effect, without)) = least else {
-            return Ok(());
-        };
-        let losses = gains(&without.heldout_beyond_torque_noise(), &full);
-        let loss = losses.iter().sum();
-        path.take_out(effect, without, loss, Fate::MayBeNothing);
-    }
-    Ok(())
-}
-
 /// `full` without `effect`, from where it ended; `None` where that cannot be run.
-fn without(
+pub(super) fn without(
     selection: &ModelSelection<'_>,
     full: &Fitted,
     effect: Effect,
@@ -120,23 +79,40 @@ fn lost(losses: &[f64], full: &Fitted, without: &Fitted) -> f64 {
 }
 
 /// Whether an effect without which so much is lost, in all and of what is left `without` it, would not have come in: where the noise is not
-/// known, what takes next to nothing, or little of a motion that stays one. It bends to a law that is not there, unless it is the dry
-/// friction that every rig has: that of a trolley was found to 1 % while what its load swings further than a spring lets it was left.
+/// known, what takes next to nothing.
+pub(super) fn is_trifle(
+    selection: &ModelSelection<'_>,
+    path: &SelectionPath,
+    effect: Effect,
+    lost: [f64; 2],
+) -> bool {
+    let of_all = lost[0] / path.rungs[0].squares();
+    is_part(selection, path, lost) && of_all < least_share(effect)
+}
+
+/// Whether that is no more than a part of what is left where the noise is not known.
+fn is_part(
+    selection: &ModelSelection<'_>,
+    path: &SelectionPath,
+    [loss, without]: [f64; 2],
+) -> bool {
+    !path.last().is_weighted && loss < selection.settings.of_the_rest() * without
+}
+
+/// The same, or little of a motion that stays one. It bends to a law that is not there, unless it is the dry friction that every rig has: that
+/// of a trolley was found to 1 % while what its load swings further than a spring lets it was left.
 fn is_stand_in(
     selection: &ModelSelection<'_>,
     path: &SelectionPath,
     added: &Addition,
-    [loss, without]: [f64; 2],
+    lost: [f64; 2],
 ) -> bool {
-    let full = path.last();
-    let of_all = loss / path.rungs[0].squares();
-    let is_part = loss < selection.settings.of_the_rest() * without;
+    let of_all = lost[0] / path.rungs[0].squares();
     let is_small = added.share_of_first.max(of_all) < SMALL;
     let is_dry_friction = added.effect.name() == Effect::CoulombFriction.name();
-    !full.is_weighted
-        && is_part
-        && (of_all < least_share(added.effect)
-            || (is_small && !is_dry_friction && full.leaves_a_motion(selection.cases)))
+    let leaves_a_motion = || path.last().leaves_a_motion(selection.cases);
+    let bends = || is_small && !is_dry_friction && leaves_a_motion();
+    is_trifle(selection, path, added.effect, lost) || is_part(selection, path, lost) && bends()
 }
 
 /// Puts for each added effect a simpler one that does as well in its place beside the others: while another was missing, the richer
@@ -352,30 +328,6 @@ mod tests {
                     "a share of what is left"
                 );
             }
-        });
-    }
-
-    /// What took little as it came in, for others stood in for it, is no small effect where much is lost without it; what may be
-    /// nothing beside the others is taken out, whatever it took.
-    #[test]
-    fn what_stands_in_for_another_is_taken_out_and_what_is_needed_is_not_small() {
-        let added = [QuadraticDamping, CubicStiffness, TorqueOffset];
-        after_selection(&added, &[], |selection, path| {
-            take_out_what_may_be_nothing(selection, path, 2).expect("it can be fitted");
-            let left: Vec<Effect> = path.additions.iter().map(|one| one.effect).collect();
-            assert_eq!(left, [CubicStiffness, TorqueOffset]);
-            assert_eq!(path.last().effects, left);
-            let [attempt] = path.attempts.as_slice() else {
-                panic!("one was taken out: {:?}", path.attempts)
-            };
-            assert!(attempt.fate == Fate::MayBeNothing && attempt.effect == QuadraticDamping);
-
-            path.rungs[0] =
-                fit_effects(selection.cases, &[], None, WHOLE).expect("it can be fitted");
-            path.additions[0].share_of_first = 1e-3;
-            try_removals(selection, path).expect("it can be fitted");
-            let share = path.additions[0].share_of_first;
-            assert!(share > 0.1, "{share}");
         });
     }
 

@@ -3,9 +3,8 @@
 use crate::error::DiagnoseError;
 use crate::question::Begun;
 use crate::rung_model::RungModel;
-use crate::selection::backward_elimination::{
-    look_at_twins_again, prefer_simpler, take_out_what_may_be_nothing, try_removals,
-};
+use crate::selection::backward_elimination::{look_at_twins_again, prefer_simpler, try_removals};
+use crate::selection::may_be_nothing::take_out_what_may_be_nothing;
 use crate::selection::model_selection::{ModelSelection, Step};
 use crate::selection::path::{SelectionPath, Stop, justified};
 use crate::selection::thresholds::{MOST_EFFECTS, SMALL};

@@ -3,7 +3,7 @@
 use crate::error::DiagnoseError;
 use crate::pooled::fit::fit_effects;
 use crate::pooled::fitted::Fitted;
-use crate::selection::backward_elimination::take_out_what_may_be_nothing;
+use crate::selection::may_be_nothing::take_out_what_may_be_nothing;
 use crate::selection::model_selection::ModelSelection;
 use crate::selection::path::SelectionPath;
 use rayon::prelude::*;
