@@ -14,8 +14,9 @@ use snug_campaign::Rig;
 /// turns at once.
 const SHARE_OF_SPEED: f64 = 0.003;
 
-/// Least speed at which friction that turns over that gives way, likewise.
-const LEAST_SHARE_OF_SPEED: f64 = 0.1;
+/// Least speed at which friction that turns over that gives way, likewise: several times that one. Chosen: the friction of a valve's stem gives
+/// way at a twenty-fifth of its typical speed, and bound to a tenth was told as dry friction alone.
+const LEAST_SHARE_OF_SPEED: f64 = 0.02;
 
 impl Scale {
     /// The effect as it acts on a rig of this scale.
@@ -158,5 +159,26 @@ mod tests {
         assert!((force - 20.0).abs() < 0.1, "{force}");
         let hand = Scale::HandOnTool.effect(Effect::CoulombFriction, &rig);
         assert_eq!(hand.unwrap(), Effect::CoulombFriction);
+    }
+
+    /// The stem of a valve: 0.02 m/s, of typically 0.55 m/s.
+    #[test]
+    fn friction_may_give_way_at_a_small_part_of_the_usual_speed() {
+        let rig = Rig {
+            lever_arm_m: 1.0,
+            known_inertia_kg_m2: 0.0,
+        };
+        let scale = Scale::Rig {
+            torque_nm: 130.0,
+            angle_rad: 0.0143,
+            time_s: 0.026,
+        };
+        let friction = scale.effect(Effect::StribeckFriction, &rig).unwrap();
+        let speed = friction.description().parameters[2];
+        assert_eq!(speed.name, "v_s_m_per_s");
+        assert!(speed.limits.0 < 0.02, "{:?}", speed.limits);
+        // As fast as that it would be the speed over which it turns.
+        let turns_over = scale.friction_turns_over(&rig).unwrap();
+        assert!(speed.limits.0 > 3.0 * turns_over);
     }
 }
