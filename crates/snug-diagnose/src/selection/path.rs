@@ -227,13 +227,28 @@ impl SelectionPath {
                         && gain > SMALL * misfit(first)
                 }
             };
-            !candidate.is_supported(settings)
-                && candidate.shows_beside_restarts
-                && (is_seldom || explains)
+            let is_clear = (is_seldom || explains)
                 && gain > 2.0 * settings.smallest_gain * last.squares()
                 && candidate.clearness() > 1.0
-                && (last.is_weighted || gain > least_share(candidate.effect) * first.squares())
+                && (last.is_weighted || gain > least_share(candidate.effect) * first.squares());
+            !candidate.is_supported(settings)
+                && candidate.shows_beside_restarts
+                && (is_clear || self.takes_most_where_fitted(candidate))
         })
+    }
+
+    /// Whether an effect of the catalogue, its size told from nothing, takes most of what a long record is left with where it is fitted, and of
+    /// what the study's own model left no small part, whatever it takes elsewhere: how far a motor has turned between two stretches is known
+    /// less well than the wave of its ripple.
+    fn takes_most_where_fitted(&self, candidate: &Candidate) -> bool {
+        let (first, last) = (&self.rungs[0], self.last());
+        let falls = last.squares() - candidate.fitted.squares();
+        last.are_stretches()
+            && !last.is_weighted
+            && !is_unlisted(candidate.effect)
+            && candidate.is_told_from_nothing
+            && falls > MOST * last.squares()
+            && falls > SMALL * first.squares()
     }
 }
 

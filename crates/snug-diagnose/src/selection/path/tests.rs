@@ -329,6 +329,29 @@ fn an_unsupported_candidate_is_promising_where_chance_seldom_does_as_much() {
     );
 }
 
+/// Of stretches that gain nothing but scatter a fit of all of them leaves 400 of 1200, or 800.
+#[test]
+fn what_takes_most_where_it_is_fitted_leaves_the_verdict_open() {
+    let is_promising = |effect: Effect, left: f64, first: f64| {
+        let stretches = |squares: f64| model(squares).unweighted().in_stretches();
+        let mut path = SelectionPath::only(stretches(first));
+        path.rungs.push(stretches(300.0));
+        let one = Candidate {
+            fitted: stretches(left),
+            ..candidate(effect, 1.0, &[60.0, -59.0, 1.0, -1.0])
+        };
+        path.ranking = ranking(vec![one]);
+        path.is_promising(&settings()).is_some()
+    };
+    assert!(is_promising(CubicStiffness, 100.0, 3000.0));
+    assert!(!is_promising(CubicStiffness, 200.0, 3000.0));
+    assert!(
+        !is_promising(CubicStiffness, 100.0, 30_000.0),
+        "a trifle of the first error"
+    );
+    assert!(!is_promising(term("x_v_law"), 100.0, 3000.0));
+}
+
 #[test]
 fn a_new_rung_has_nothing_ranked_against_it() {
     let mut path = path(300.0, 0.01, 50.0);
