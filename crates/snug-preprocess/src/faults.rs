@@ -79,14 +79,7 @@ fn frozen_or_limited(
             limit.as_ref().map_or(&[][..], |limit| &limit.levels),
         );
         runs.retain(|run| run.end > range.start);
-        if let Some(first) = runs.first() {
-            let what = format!(
-                "{} repeats one value for {} samples from {:.4} s on ({} such stretches)",
-                channel.name(),
-                first.len(),
-                first.start as f64 * context.interval_s,
-                runs.len()
-            );
+        if let Some(what) = stuck::told(&runs, channel, context.interval_s) {
             hold_against("dropout", channel, what, remarks);
         }
     }

@@ -134,20 +134,21 @@ mod tests {
     use super::*;
     use crate::law::Instant;
 
+    const RIG: Rig = Rig {
+        lever_arm_m: 1.0,
+        known_inertia_kg_m2: 0.0,
+    };
+
     #[test]
     fn friction_is_full_at_a_hundredth_of_the_usual_speed() {
-        let rig = Rig {
-            lever_arm_m: 1.0,
-            known_inertia_kg_m2: 0.0,
-        };
         let scale = Scale::Rig {
             torque_nm: 40.0,
             angle_rad: 0.07,
             time_s: 0.7,
         };
-        let sharp = scale.effect(Effect::CoulombFriction, &rig).unwrap();
+        let sharp = scale.effect(Effect::CoulombFriction, &RIG).unwrap();
         assert_eq!(sharp.name(), "coulomb_friction");
-        assert_eq!(sharp, scale.effect(Effect::CoulombFriction, &rig).unwrap());
+        assert_eq!(sharp, scale.effect(Effect::CoulombFriction, &RIG).unwrap());
         let at = Instant {
             torque_nm: 0.0,
             x_m: 0.0,
@@ -157,28 +158,24 @@ mod tests {
         };
         let force = sharp.force(&[20.0], &at, &[]).unwrap();
         assert!((force - 20.0).abs() < 0.1, "{force}");
-        let hand = Scale::HandOnTool.effect(Effect::CoulombFriction, &rig);
+        let hand = Scale::HandOnTool.effect(Effect::CoulombFriction, &RIG);
         assert_eq!(hand.unwrap(), Effect::CoulombFriction);
     }
 
     /// The stem of a valve: 0.02 m/s, of typically 0.55 m/s.
     #[test]
     fn friction_may_give_way_at_a_small_part_of_the_usual_speed() {
-        let rig = Rig {
-            lever_arm_m: 1.0,
-            known_inertia_kg_m2: 0.0,
-        };
         let scale = Scale::Rig {
             torque_nm: 130.0,
             angle_rad: 0.0143,
             time_s: 0.026,
         };
-        let friction = scale.effect(Effect::StribeckFriction, &rig).unwrap();
+        let friction = scale.effect(Effect::StribeckFriction, &RIG).unwrap();
         let speed = friction.description().parameters[2];
         assert_eq!(speed.name, "v_s_m_per_s");
         assert!(speed.limits.0 < 0.02, "{:?}", speed.limits);
         // As fast as that it would be the speed over which it turns.
-        let turns_over = scale.friction_turns_over(&rig).unwrap();
+        let turns_over = scale.friction_turns_over(&RIG).unwrap();
         assert!(speed.limits.0 > 3.0 * turns_over);
     }
 }

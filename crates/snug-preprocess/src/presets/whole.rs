@@ -3,7 +3,7 @@
 use crate::noise::spread::extremes;
 use crate::prepared::Prepared;
 use crate::quality::wrapped::{Wrapped, unwrap};
-use crate::quality::{catching_up, saturation, spikes, zero_jump};
+use crate::quality::{catching_up, saturation, spikes, stuck, zero_jump};
 use crate::segment::channel::Channel;
 use crate::segment::context::Context;
 use crate::segment::integration::complete;
@@ -148,16 +148,10 @@ fn tell_dropouts(
         let channel = Channel::Motion(quantity);
         let shortest = context.samples(quality.stuck_s);
         let held = catching_up::find(samples, shortest, quality.spike_sd);
-        let Some(first) = held.first() else {
+        let Some(repeats) = stuck::told(&held, channel, context.interval_s) else {
             continue;
         };
-        let what = format!(
-            "{} repeats one value for {} samples from {:.4} s on and then jumps ({} such stretches), as where a logger drops out",
-            channel.name(),
-            first.len(),
-            first.start as f64 * context.interval_s,
-            held.len()
-        );
+        let what = format!("{repeats} and then jumps, as where a logger drops out");
         // A motor that rests has a speed, 0, and sets out at once where it is driven.
         let may_rest = |held: &Range<usize>| {
             quantity == Quantity::Velocity && samples[held.start] == 0.0 || kicks.explain(held.end)

@@ -1,5 +1,6 @@
 //! Dropouts: runs of one repeated value, longer than quantised noise repeats itself by chance.
 
+use crate::segment::channel::Channel;
 use std::ops::Range;
 
 /// A channel that freezes for at least this share of its samples is quantised or free of noise: nothing can be said.
@@ -32,6 +33,18 @@ pub(crate) fn find(samples: &[f64], shortest: usize, limits: &[f64]) -> Vec<Rang
         .filter(|run| run.len() as f64 > longest_by_chance)
         .filter(|run| !limits.contains(&samples[run.start]))
         .collect()
+}
+
+/// The runs of a channel in words, the first with its length and place; `None` where there are none.
+pub(crate) fn told(runs: &[Range<usize>], channel: Channel, interval_s: f64) -> Option<String> {
+    let first = runs.first()?;
+    Some(format!(
+        "{} repeats one value for {} samples from {:.4} s on ({} such stretches)",
+        channel.name(),
+        first.len(),
+        first.start as f64 * interval_s,
+        runs.len()
+    ))
 }
 
 fn runs_of_identical(samples: &[f64], shortest: usize) -> Vec<Range<usize>> {
