@@ -77,6 +77,33 @@ fn a_recording_whose_zero_jumps_spoils_no_other() {
     lacks(&diagnosis, "output_drift", 1.0);
 }
 
+/// A slide with dry friction, of which in one recording of 2 s the reading stands still for an eighth of a second.
+#[test]
+fn a_recording_whose_reading_is_stuck_spoils_no_other() {
+    let mut noise = Noise(62);
+    let mut recording = |number: usize| {
+        let forces = noise.tones([0.5, 12.0], 4.0, 2000);
+        let rate = |[x, v]: [f64; 2], u: f64| {
+            let friction = 2.5 * (v / 1e-3).tanh();
+            [v, (u - 6.0 * v - 900.0 * x - friction) / 1.5]
+        };
+        let places = moved(&forces, 40, rate).map(|[x, _]| x);
+        let mut read = noise.with(&forces, places, 2e-5);
+        if number == 2 {
+            let [_, stuck] = read[800];
+            read[800..925].iter_mut().for_each(|[_, y]| *y = stuck);
+        }
+        read
+    };
+    let rig = Rig::that_slides((0..3).map(&mut recording).collect());
+    let diagnosis = rig.told_with("intersample: ZeroOrder", &Verb::Improve);
+    let headline = &diagnosis.headline;
+    assert_eq!(names(&diagnosis), ["coulomb_friction"], "{headline}");
+    assert_eq!(diagnosis.verdict, Verdict::Adequate, "{headline}");
+    let friction = diagnosis.added[0].parameters[0].value;
+    assert!((friction / 2.5 - 1.0).abs() < 0.02, "{friction}");
+}
+
 /// A counter that reads 32 768 at rest, of a motion of some ten counts.
 #[test]
 fn a_counter_s_zero_may_be_as_far_away_as_it_counts() {
