@@ -10,7 +10,7 @@ use super::{MotionEquation, Term};
 use crate::equation_error::record::AveragedRecord;
 use crate::equation_error::regression::{Column, Regression};
 use crate::task::FitTask;
-use snug_campaign::Quantity;
+use snug_campaign::{Quantity, Rig};
 use snug_least_squares::matrix::dot;
 use snug_model::BASE_PARAMETERS;
 
@@ -90,8 +90,7 @@ impl MotionEquation<'_> {
                 at,
                 recordings: recordings.to_vec(),
             };
-            let may_change = self.may_change(&change, &constant[index], &sizes);
-            (change.is_finite() && may_change).then_some(change)
+            (self.may_change(&change, &constant[index], &sizes)).then_some(change)
         };
         let all: Vec<usize> = (0..self.records.len()).collect();
         let evenly = most((0..constant.len()).filter_map(|index| with_change(index, None, &all)))?;
@@ -110,19 +109,8 @@ impl MotionEquation<'_> {
         let is_plainly_more =
             |other: &Change| 1.0 - other.taken < PLAINLY_LESS * (1.0 - evenly.taken);
         let change = most(others).filter(is_plainly_more).unwrap_or(evenly);
-        let rig = self.tasks.first()?.model.rig();
-        let square = rig.lever_arm_m * rig.lever_arm_m;
-        let told = |value: f64| match change.index {
-            0 => (value - rig.known_inertia_kg_m2) / square,
-            1 | 2 => value / square,
-            _ => value,
-        };
-        Some(Change {
-            from: told(change.from),
-            to: told(change.to),
-            ..change
-        })
-        .filter(Change::is_finite)
+        let told = change.on_arm(self.tasks.first()?.model.rig());
+        Some(told).filter(Change::is_finite)
     }
 
     /// Whether a rig's number may change so: mass, damping and stiffness keep their sign, and a spring brings back, beside the inertia and
@@ -130,6 +118,9 @@ impl MotionEquation<'_> {
     /// runs on, which is a load as well. Against a spring that does bring back, an angle that is the sum of a measured velocity drifts with
     /// what that reads too much, and so does the load that is found.
     fn may_change(&self, change: &Change, column: &Column, sizes: &[f64]) -> bool {
+        if !change.is_finite() {
+            return false;
+        }
         if change.index >= BASE_PARAMETERS.len() {
             let is_summed = |task: &FitTask<'_>| task.quantity() == Quantity::Velocity;
             let may_drift = self.tasks.iter().any(is_summed) && is_load(column);
@@ -228,6 +219,21 @@ fn course(time: f64, at: Option<f64>) -> f64 {
 }
 
 impl Change {
+    /// The same of what moves on the arm of this `rig`, where it was of what turns.
+    fn on_arm(self, rig: &Rig) -> Self {
+        let square = rig.lever_arm_m * rig.lever_arm_m;
+        let told = |value: f64| match self.index {
+            0 => (value - rig.known_inertia_kg_m2) / square,
+            1 | 2 => value / square,
+            _ => value,
+        };
+        Self {
+            from: told(self.from),
+            to: told(self.to),
+            ..self
+        }
+    }
+
     fn is_finite(&self) -> bool {
         [self.from, self.to, self.taken]
             .iter()
