@@ -221,11 +221,7 @@ impl SelectionPath {
             let gain = candidate.gain_beside(last);
             let explains = match last.is_weighted {
                 true => last.is_beyond_noise() && gain > GOOD_PART * misfit(last),
-                false => {
-                    !is_unlisted(candidate.effect)
-                        && gain > MOST * misfit(last)
-                        && gain > SMALL * misfit(first)
-                }
+                false => self.is_most(candidate, gain),
             };
             let is_clear = (is_seldom || explains)
                 && gain > 2.0 * settings.smallest_gain * last.squares()
@@ -241,14 +237,19 @@ impl SelectionPath {
     /// what the study's own model left no small part, whatever it takes elsewhere: how far a motor has turned between two stretches is known
     /// less well than the wave of its ripple.
     fn takes_most_where_fitted(&self, candidate: &Candidate) -> bool {
-        let (first, last) = (&self.rungs[0], self.last());
-        let falls = last.squares() - candidate.fitted.squares();
+        let last = self.last();
         last.are_stretches()
             && !last.is_weighted
-            && !is_unlisted(candidate.effect)
             && candidate.is_told_from_nothing
-            && falls > MOST * last.squares()
-            && falls > SMALL * first.squares()
+            && self.is_most(candidate, last.squares() - candidate.fitted.squares())
+    }
+
+    /// Whether so much, taken by an effect of the catalogue, is most of what the last model misses and no small part of what the study's own
+    /// does.
+    fn is_most(&self, candidate: &Candidate, taken: f64) -> bool {
+        !is_unlisted(candidate.effect)
+            && taken > MOST * misfit(self.last())
+            && taken > SMALL * misfit(&self.rungs[0])
     }
 }
 

@@ -159,11 +159,8 @@ fn tell_dropouts(
         let stuck = held.iter().filter(|held| !may_rest(held));
         let lost = stuck.map(Range::len).sum::<usize>() as f64 / samples.len() as f64;
         if quantity == source && lost > MOST_STUCK {
-            let message = format!(
-                "{what}: no model follows it there, and the recording is kept out of what is compared and counted; leave that out of its file, \
-                 or cut the file in two there"
-            );
-            remarks.reject("dropout", Some(channel), message);
+            let advice = "leave that out of its file, or cut the file in two there";
+            keep_out("dropout", channel, &what, advice, remarks);
         } else {
             let message = format!("{what}; it is taken as it is, and no model follows it there");
             remarks.note("dropout", Some(channel), message);
@@ -195,10 +192,8 @@ fn tell_saturation(
     );
     let share = limit.samples as f64 / samples.len() as f64;
     if source == Quantity::Acceleration && share > MOST_AT_LIMIT {
-        let message = format!(
-            "{what}: no model follows it there, and the recording is kept out of what is compared and counted; measure in a wider range, or drive the rig less"
-        );
-        remarks.reject("saturation", Some(channel), message);
+        let advice = "measure in a wider range, or drive the rig less";
+        keep_out("saturation", channel, &what, advice, remarks);
     } else {
         let message = format!("{what}; it is taken as it is");
         remarks.note("saturation", Some(channel), message);
@@ -241,14 +236,25 @@ fn tell_jumps(
         told.join(" and ")
     );
     if source == Quantity::Displacement {
-        let message = format!(
-            "{what}; no model follows it there, and the recording is kept out of what is compared and counted: cut its file in two there"
+        keep_out(
+            "zero_jump",
+            channel,
+            &what,
+            "cut its file in two there",
+            remarks,
         );
-        remarks.reject("zero_jump", Some(channel), message);
     } else {
         let message = format!("{what}; it is taken as it is");
         remarks.note("zero_jump", Some(channel), message);
     }
+}
+
+/// Keeps a recording from being judged for `what` no model follows.
+fn keep_out(code: &str, channel: Channel, what: &str, advice: &str, remarks: &mut Remarks) {
+    let message = format!(
+        "{what}: no model follows it there, and the recording is kept out of what is compared and counted; {advice}"
+    );
+    remarks.reject(code, Some(channel), message);
 }
 
 /// Says that an angle begins anew again and again.
