@@ -37,13 +37,16 @@ pub(crate) fn find(samples: &[f64], shortest: usize, limits: &[f64]) -> Vec<Rang
 
 /// The runs of a channel in words, the first with its length and place; `None` where there are none.
 pub(crate) fn told(runs: &[Range<usize>], channel: Channel, interval_s: f64) -> Option<String> {
-    let first = runs.first()?;
+    let (first, others) = runs.split_first()?;
+    let more = match others.len() {
+        0 => String::new(),
+        more => format!(", the first of {} such stretches,", more + 1),
+    };
     Some(format!(
-        "{} repeats one value for {} samples from {:.4} s on ({} such stretches)",
+        "{} repeats one value for {} samples from {:.4} s on{more}",
         channel.name(),
         first.len(),
         first.start as f64 * interval_s,
-        runs.len()
     ))
 }
 
@@ -77,6 +80,21 @@ mod tests {
             vec![15_000..15_040, 16_000..16_030]
         );
         assert_eq!(find(&samples, 20, &[0.0]), vec![15_000..15_040]);
+    }
+
+    #[test]
+    fn several_are_counted_and_one_is_not() {
+        let channel = Channel::GripForce;
+        let both = [4..7, 9..20];
+        let said = |runs: &[Range<usize>]| told(runs, channel, 0.5);
+        let one = format!(
+            "{} repeats one value for 3 samples from 2.0000 s on",
+            channel.name()
+        );
+        assert_eq!(said(&both[..1]), Some(one.clone()));
+        let two = format!("{one}, the first of 2 such stretches,");
+        assert_eq!(said(&both), Some(two));
+        assert_eq!(said(&[]), None);
     }
 
     #[test]
